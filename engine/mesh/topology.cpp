@@ -1,0 +1,92 @@
+#include "engine/mesh/topology.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+
+namespace spia {
+
+HalfedgeMesh halfedges(const TriMesh& mesh)
+{
+    HalfedgeMesh result;
+    result.reserve(size_t(mesh.vertices()), size_t(mesh.vertices() + mesh.triangles()), size_t(mesh.triangles()));
+    for (int v = 0; v < mesh.vertices(); ++v)
+        result.add_vertex({mesh.position(0, v), mesh.position(1, v), mesh.position(2, v)});
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const auto t = mesh.triangle.col(f);
+        const auto face = result.add_face(OpenMesh::VertexHandle(t[0]), OpenMesh::VertexHandle(t[1]),
+                                          OpenMesh::VertexHandle(t[2]));
+        if (!face.is_valid())
+            throw InputError(fmt::format(
+                "face {} (vertices {}, {}, {}) shares an edge with two others or is turned against its neighbours; "
+                "run the mesh doctor (`spia info`) and mend the mesh there",
+                f, t[0], t[1], t[2]));
+    }
+    return result;
+}
+
+std::vector<std::vector<int>> boundary_loops(const TriMesh& mesh)
+{
+    // A boundary edge is a directed edge of a face without its opposite; next[v] is the head of the one that leaves v.
+    const HalfedgeMesh he = halfedges(mesh);
+    std::vector<char> seen(he.n_halfedges(), 0);
+    std::vector<std::vector<int>> loops;
+    for (const auto start : he.halfedges()) {
+        if (!start.is_boundary() || seen[size_t(start.idx())])
+            continue;
+        std::vector<int> loop;
+        for (auto h = start;; h = h.next()) {
+            if (seen[size_t(h.idx())])
+                break;
+            seen[size_t(h.idx())] = 1;
+            loop.push_back(h.to().idx());
+        }
+        std::reverse(loop.begin(), loop.end()); // the boundary halfedges run with the mesh on their right
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+        loops.push_back(std::move(loop));
+    }
+    const auto length = [&](const std::vector<int>& loop) {
+        double sum = 0;
+        for (size_t i = 0; i < loop.size(); ++i)
+            sum += (mesh.position.col(loop[(i + 1) % loop.size()]) - mesh.position.col(loop[i])).norm();
+        return sum;
+    };
+    std::stable_sort(loops.begin(), loops.end(),
+                     [&](const auto& a, const auto& b) { return length(a) > length(b); });
+    return loops;
+}
+
+Eigen::Matrix3Xd area_vectors(const TriMesh& mesh)
+{
+    Eigen::Matrix3Xd result(3, mesh.triangles());
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const Eigen::Vector3d a = mesh.position.col(mesh.triangle(0, f));
+        const Eigen::Vector3d b = mesh.position.col(mesh.triangle(1, f));
+        const Eigen::Vector3d c = mesh.position.col(mesh.triangle(2, f));
+        result.col(f) = 0.5 * (b - a).cross(c - a);
+    }
+    return result;
+}
+
+Eigen::Matrix3Xd vertex_normals(const TriMesh& mesh)
+{
+    const Eigen::Matrix3Xd face = area_vectors(mesh);
+    Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, mesh.vertices());
+    for (int f = 0; f < mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k)
+            result.col(mesh.triangle(k, f)) += face.col(f);
+    for (int v = 0; v < mesh.vertices(); ++v)
+        result.col(v).normalize();
+    return result;
+}
+
+double area(const TriMesh& mesh) { return area_vectors(mesh).colwise().norm().sum(); }
+
+double bounding_diagonal(const TriMesh& mesh)
+{
+    return (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
+}
+
+} // namespace spia
