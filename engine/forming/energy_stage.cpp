@@ -1,0 +1,145 @@
+#include "engine/forming/energy_stage.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+
+namespace spia {
+namespace {
+
+/// Columns of the linear map from the six corner coordinates to G (column by column).
+Eigen::Matrix<double, 4, 6> gradient_operator(const Element& e)
+{
+    Eigen::Matrix<double, 4, 6> B = Eigen::Matrix<double, 4, 6>::Zero();
+    for (int a = 0; a < 3; ++a)
+        for (int k = 0; k < 2; ++k) {
+            B(k, 2 * a + k) = e.gradient(0, a);
+            B(2 + k, 2 * a + k) = e.gradient(1, a);
+        }
+    return B;
+}
+
+double energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const MembraneLaw& law,
+              const Eigen::VectorXd& h, const Eigen::Matrix2Xd& X)
+{
+    Eigen::VectorXd part(triangle.cols());
+    parallel_for(int(triangle.cols()), [&](int f) {
+        const Element& e = element[size_t(f)];
+        part[f] = e.area * h[f] * energy_density_value(law, inverse_gradient(e, corners(X, triangle.col(f))));
+    });
+    return part.sum();
+}
+
+} // namespace
+
+double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction)
+{
+    double largest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
+        const auto x = corners(X, triangle.col(f)), d = corners(direction, triangle.col(f));
+        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
+        const Eigen::Vector2d dp = d.col(1) - d.col(0), dq = d.col(2) - d.col(0);
+        const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+            return a[0] * b[1] - a[1] * b[0];
+        };
+        // Smallest positive root of a t^2 + b t + c, c > 0 twice the present area.
+        const double a = cross(dp, dq), b = cross(dp, q) + cross(p, dq), c = cross(p, q);
+        const double discriminant = b * b - 4 * a * c;
+        if (discriminant < 0)
+            continue;
+        const double root = std::sqrt(discriminant);
+        const double t = b <= 0 ? 2 * c / (-b + root) : (a < 0 ? -(b + root) / (2 * a) : -1);
+        if (t > 0 && t < largest)
+            largest = t;
+    }
+    return largest;
+}
+
+int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X)
+{
+    int count = 0;
+    for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
+        const auto x = corners(X, triangle.col(f));
+        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
+        count += !(p[0] * q[1] - p[1] * q[0] > 0);
+    }
+    return count;
+}
+
+EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element,
+                             const MembraneLaw& law, const Eigen::VectorXd& h, const Eigen::Matrix2Xd& start,
+                             BlockMatrix& matrix, Cholesky& cholesky, const EnergyOptions& options,
+                             const Progress& progress)
+{
+    const int faces = int(triangle.cols());
+    EnergyResult result;
+    result.position = start;
+    Eigen::Matrix2Xd& X = result.position;
+    double E = energy(triangle, element, law, h, X);
+    // What the sheet would store at the yield point all over: the scale below which an energy is nothing.
+    double yield_energy = 0;
+    for (int f = 0; f < faces; ++f)
+        yield_energy += 0.5 * element[size_t(f)].area * h[f] * law.curve().yield_stress() * law.curve().yield_strain();
+
+    std::vector<Matrix6d> stiffness(static_cast<size_t>(faces));
+    std::vector<Eigen::Matrix<double, 6, 1>> force(static_cast<size_t>(faces));
+    for (int step = 0; step < options.most_steps; ++step) {
+        progress.checkpoint(double(step) / options.most_steps, "energy step");
+        parallel_for(faces, [&](int f) {
+            const Element& e = element[size_t(f)];
+            const EnergyDensity w = energy_density(law, inverse_gradient(e, corners(X, triangle.col(f))));
+            const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
+            const double weight = e.area * h[f];
+            force[size_t(f)] = weight * (B.transpose() * w.gradient.reshaped());
+            stiffness[size_t(f)] = weight * (B.transpose() * w.hessian * B);
+        });
+        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(matrix.size());
+        for (int f = 0; f < faces; ++f)
+            for (int a = 0; a < 3; ++a)
+                gradient.segment<2>(2 * triangle(a, f)) += force[size_t(f)].segment<2>(2 * a);
+        matrix.assemble(stiffness);
+        // The blank may be moved freely; a shift far below the stiffness fixes it without being felt.
+        const double shift = 1e-9 * matrix.diagonal().mean();
+        for (int i = 0; i < matrix.size(); ++i)
+            matrix.add_to_diagonal(i, shift);
+        if (!cholesky.factor(matrix))
+            throw SolveError("the stiffness of the energy stage is not positive definite; the start is too distorted");
+        const Eigen::VectorXd newton = -cholesky.solve(gradient);
+        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
+        const double decrement = -gradient.dot(newton);
+
+        result.steps.push_back({E * 1e-3, decrement / (E + yield_energy), 0});
+        if (decrement <= options.decrement * (E + 1e-6 * yield_energy)) {
+            result.ended = Ended::converged;
+            if (decrement > 0 && largest_step(triangle, X, direction) > 2) { // the last step costs nothing more
+                const Eigen::Matrix2Xd trial = X + direction;
+                if (energy(triangle, element, law, h, trial) <= E)
+                    X = trial;
+            }
+            return result;
+        }
+        double length = std::min(1.0, 0.9 * largest_step(triangle, X, direction));
+        bool decreased = false;
+        for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
+            const Eigen::Matrix2Xd trial = X + length * direction;
+            const double E_trial = energy(triangle, element, law, h, trial);
+            if (E_trial <= E - 1e-4 * length * decrement) { // Armijo
+                X = trial;
+                E = E_trial;
+                decreased = true;
+                break;
+            }
+        }
+        result.steps.back().step_length = decreased ? length : 0;
+        if (!decreased) {
+            result.ended = Ended::stalled;
+            return result;
+        }
+    }
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,48 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/forming/membrane.h"
+#include "engine/sparse/block_matrix.h"
+#include "engine/sparse/cholesky.h"
+
+namespace spia {
+
+/// One step of a Newton iteration, as it is reported.
+struct NewtonStep {
+    double energy = 0;      ///< J, where the stage has one
+    double residual = 0;    ///< |R| relative to the yield force (energy stage: relative Newton decrement)
+    double step_length = 0; ///< share of the full Newton step taken
+};
+
+enum class Ended { converged, stalled, too_many_steps };
+
+struct EnergyResult {
+    Eigen::Matrix2Xd position;
+    Ended ended = Ended::too_many_steps;
+    std::vector<NewtonStep> steps;
+};
+
+struct EnergyOptions {
+    int most_steps = 200;
+    double decrement = 1e-5; ///< stop when a step promises less than this share of the energy
+};
+
+/// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held, by projected
+/// Newton. W grows without bound as a triangle collapses and no step may turn one over: from a flip-free start every
+/// iterate is flip-free.
+/// @param h      #F, mm, the thickness that is held
+/// @param matrix work space with the mesh's pattern; @param cholesky its analysis
+EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element,
+                             const MembraneLaw& law, const Eigen::VectorXd& h, const Eigen::Matrix2Xd& start,
+                             BlockMatrix& matrix, Cholesky& cholesky, const EnergyOptions& options,
+                             const Progress& progress);
+
+/// The largest step along `direction` that turns no triangle over (its area passing through zero); infinity if none.
+double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction);
+
+/// Triangles of the blank with no or negative area.
+int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X);
+
+} // namespace spia

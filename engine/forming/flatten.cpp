@@ -1,0 +1,269 @@
+#include "engine/forming/flatten.h"
+
+#include <Eigen/Dense>
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/forming/equilibrium.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+void require_valid(const TriMesh& part, const FlattenOptions& options)
+{
+    if (part.triangles() == 0)
+        throw InputError("the part has no faces");
+    if (!(options.thickness > 0) || !std::isfinite(options.thickness))
+        throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", options.thickness));
+    if (options.friction.size() != 0 && options.friction.size() != part.triangles())
+        throw InputError("friction must be given for every face or not at all");
+    if (options.direction && !(options.direction->norm() > 0))
+        throw InputError("the stamping direction is the zero vector");
+    if (boundary_loops(part).empty())
+        throw InputError("the part is closed: it has no edge from which it could be unfolded; cut it open");
+}
+
+StampingDirection stamping(const TriMesh& part, const FlattenOptions& options)
+{
+    if (!options.direction)
+        return stamping_direction(part);
+    StampingDirection given{options.direction->normalized(), 0, true, 0};
+    double hidden = 0, area = 0;
+    const Eigen::Matrix3Xd area_vector = area_vectors(part);
+    for (int f = 0; f < part.triangles(); ++f) {
+        const double size = area_vector.col(f).norm(), cosine = area_vector.col(f).dot(given.direction) / size;
+        given.steepest_angle = std::max(given.steepest_angle, std::acos(std::clamp(cosine, -1.0, 1.0)));
+        hidden += cosine <= 0 ? size : 0;
+        area += size;
+    }
+    given.height_field = hidden == 0;
+    given.hidden_area_fraction = hidden / area;
+    return given;
+}
+
+/// Largest logarithmic strain over the faces.
+double largest_strain(const TriMesh& part, const std::vector<Element>& element, const Eigen::Matrix2Xd& X)
+{
+    double largest = 0;
+    for (int f = 0; f < part.triangles(); ++f)
+        largest = std::max(largest, svd(inverse_gradient(element[size_t(f)], corners(X, part.triangle.col(f))))
+                                        .s.array()
+                                        .log()
+                                        .abs()
+                                        .maxCoeff());
+    return largest;
+}
+
+/// Turns and moves the blank so that it lies, area by area, as near as it can under the part seen along the stamping
+/// direction. [Kabsch 1976 in the plane]
+void place_under_part(const TriMesh& part, const std::vector<Element>& element, const Eigen::Matrix<double, 3, 2>& plane,
+                      Eigen::Matrix2Xd& X)
+{
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int a = 0; a < 3; ++a)
+            mass[part.triangle(a, f)] += element[size_t(f)].area / 3;
+    mass /= mass.sum();
+    const Eigen::Matrix2Xd below = plane.transpose() * part.position;
+    const Eigen::Vector2d to = below * mass, from = X * mass;
+    const Eigen::Matrix2d moment = (below.colwise() - to) * mass.asDiagonal() * (X.colwise() - from).transpose();
+    const double angle = std::atan2(moment(1, 0) - moment(0, 1), moment(0, 0) + moment(1, 1));
+    X = (Eigen::Rotation2Dd(angle).toRotationMatrix() * (X.colwise() - from)).colwise() + to;
+}
+
+/// Axes of the blank in space: x as near to the part's own x axis as the plane allows.
+Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction)
+{
+    Eigen::Vector3d x = Eigen::Vector3d::UnitX() - direction[0] * direction;
+    if (x.norm() < 0.1)
+        x = Eigen::Vector3d::UnitY() - direction[1] * direction;
+    Eigen::Matrix<double, 3, 2> plane;
+    plane.col(0) = x.normalized();
+    plane.col(1) = direction.cross(plane.col(0));
+    return plane;
+}
+
+/// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
+/// is no number to begin with.
+EnergyResult energy_stage(const TriMesh& part, const std::vector<Element>& element, const FlattenOptions& options,
+                          Eigen::Matrix2Xd X, BlockMatrix& matrix, Cholesky& cholesky, const Progress& progress)
+{
+    const Eigen::VectorXd h = Eigen::VectorXd::Constant(part.triangles(), options.thickness);
+    std::vector<double> rates{options.curve.continuation_rate};
+    if (largest_strain(part, element, X) > 2)
+        rates = {0.25 * rates[0], 0.5 * rates[0], rates[0]};
+    EnergyResult result;
+    std::vector<NewtonStep> steps;
+    for (size_t level = 0; level < rates.size(); ++level) {
+        const bool last = level + 1 == rates.size();
+        StressCurve::Options curve = options.curve;
+        curve.continuation_rate = rates[level];
+        EnergyOptions energy;
+        energy.most_steps = options.most_energy_steps;
+        energy.decrement = last ? 1e-6 : 1e-2;
+        result = minimise_energy(part.triangle, element, MembraneLaw(options.material, curve), h, X, matrix, cholesky,
+                                 energy, progress.part(double(level) / rates.size(), double(level + 1) / rates.size()));
+        X = result.position;
+        steps.insert(steps.end(), result.steps.begin(), result.steps.end());
+    }
+    result.steps = std::move(steps);
+    return result;
+}
+
+std::string reason(const EnergyResult& energy, const EquilibriumResult& equilibrium)
+{
+    switch (equilibrium.ended) {
+    case Ended::converged:
+        return "converged";
+    case Ended::stalled:
+        return fmt::format("the virtual-work system stalled at a residual of {:.1e} after {} steps; the blank is the one "
+                           "of least energy with the thickness held",
+                           equilibrium.residual, equilibrium.steps.size());
+    default:
+        return fmt::format("the virtual-work system was not solved within {} steps (residual {:.1e}); the blank is the "
+                           "one of least energy with the thickness held{}",
+                           equilibrium.steps.size() - 1, equilibrium.residual,
+                           energy.ended == Ended::converged ? "" : ", itself not fully converged");
+    }
+}
+
+/// Area-weighted mean of the faces around each vertex; directions as the mean of d d^T.
+SheetFields to_nodes(const TriMesh& part, const std::vector<Element>& element, const SheetFields& face)
+{
+    const int n = part.vertices();
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(n);
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int a = 0; a < 3; ++a)
+            weight[part.triangle(a, f)] += element[size_t(f)].area;
+    const auto mean = [&](const Eigen::VectorXd& of_face) {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+        for (int f = 0; f < part.triangles(); ++f)
+            for (int a = 0; a < 3; ++a)
+                sum[part.triangle(a, f)] += element[size_t(f)].area * of_face[f];
+        return Eigen::VectorXd(sum.cwiseQuotient(weight));
+    };
+    SheetFields node;
+    node.thickness = mean(face.thickness);
+    node.thinning = mean(face.thinning);
+    node.strain_major = mean(face.strain_major);
+    node.strain_minor = mean(face.strain_minor);
+    node.strain_equivalent = mean(face.strain_equivalent);
+    node.stress_major = mean(face.stress_major);
+    node.stress_minor = mean(face.stress_minor);
+    node.stress_equivalent = mean(face.stress_equivalent);
+    node.necking = Eigen::VectorXi::Zero(n);
+    std::vector<Eigen::Matrix3d> tensor(size_t(n), Eigen::Matrix3d::Zero());
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int a = 0; a < 3; ++a) {
+            const int v = part.triangle(a, f);
+            node.necking[v] |= face.necking[f];
+            tensor[size_t(v)] +=
+                element[size_t(f)].area * face.direction_major.col(f) * face.direction_major.col(f).transpose();
+        }
+    node.direction_major.resize(3, n);
+    for (int v = 0; v < n; ++v)
+        node.direction_major.col(v) =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor[size_t(v)]).eigenvectors().col(2);
+    return node;
+}
+
+SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
+                        const FlattenOptions& options)
+{
+    const MembraneLaw law(options.material, options.curve);
+    const int faces = part.triangles();
+    SheetFields out;
+    for (Eigen::VectorXd* field : {&out.thickness, &out.thinning, &out.strain_major, &out.strain_minor,
+                                   &out.strain_equivalent, &out.stress_major, &out.stress_minor,
+                                   &out.stress_equivalent})
+        field->resize(faces);
+    out.direction_major.resize(3, faces);
+    out.necking.resize(faces);
+    parallel_for(faces, [&](int f) {
+        const Element& e = element[size_t(f)];
+        const Svd2 d = svd(inverse_gradient(e, corners(blank.position, part.triangle.col(f))));
+        const PlaneStress p = law(-d.s.array().log().matrix()); // the second singular value is the major strain's
+        out.strain_major[f] = -std::log(d.s[1]);
+        out.strain_minor[f] = -std::log(d.s[0]);
+        out.thickness[f] = options.thickness * d.s[0] * d.s[1];
+        out.thinning[f] = 1 - d.s[0] * d.s[1];
+        out.strain_equivalent[f] = p.equivalent_strain;
+        out.stress_major[f] = p.stress[1];
+        out.stress_minor[f] = p.stress[0];
+        out.stress_equivalent[f] = p.equivalent_stress;
+        out.direction_major.col(f) = e.frame * d.V.col(1);
+        out.necking[f] = p.equivalent_strain > law.curve().trusted_strain();
+    });
+    return out;
+}
+
+/// Incompressibility, from thickness and areas measured anew in space and in the plane.
+double volume_error(const TriMesh& part, const FlattenResult& result, double h0)
+{
+    const Eigen::VectorXd formed = area_vectors(part).colwise().norm();
+    double largest = 0;
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto x = corners(result.blank.position, part.triangle.col(f));
+        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
+        const double flat = 0.5 * (p[0] * q[1] - p[1] * q[0]);
+        largest = std::max(largest, std::abs(result.face.thickness[f] * formed[f] - h0 * flat) / (h0 * flat));
+    }
+    return largest;
+}
+
+} // namespace
+
+SheetFields sheet_fields(const TriMesh& part, const Blank& blank, const FlattenOptions& options)
+{
+    return face_fields(part, elements(part), blank, options);
+}
+
+FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
+{
+    const auto clock = std::chrono::steady_clock::now();
+    require_valid(part, options);
+    const std::vector<Element> element = elements(part);
+    FlattenResult result;
+    result.stamping = stamping(part, options);
+    const Eigen::Matrix<double, 3, 2> plane = blank_plane(result.stamping.direction);
+
+    progress.checkpoint(0, "ordering the equations");
+    BlockMatrix matrix(part.triangle, part.vertices());
+    Cholesky cholesky(matrix);
+    progress.checkpoint(0.03, "first guess");
+    InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky);
+    result.report.start = guess.method;
+
+    EnergyResult energy = energy_stage(part, element, options, std::move(guess.position), matrix, cholesky,
+                                       progress.part(0.1, 0.6));
+    result.report.energy = std::move(energy.steps);
+    place_under_part(part, element, plane, energy.position);
+
+    const Friction friction{options.friction, plane,
+                            result.stamping.direction * (part.position.transpose() * result.stamping.direction).mean()};
+    const EquilibriumOptions newton{options.most_newton_steps, options.tolerance};
+    EquilibriumResult equilibrium =
+        solve_equilibrium(part, element, MembraneLaw(options.material, options.curve), options.thickness, friction,
+                          energy.position, matrix, cholesky, newton, progress.part(0.6, 1));
+    result.report.converged = equilibrium.ended == Ended::converged;
+    result.report.reason = reason(energy, equilibrium);
+    result.report.newton = std::move(equilibrium.steps);
+    result.report.residual = equilibrium.residual;
+    result.report.resultant = equilibrium.resultant;
+    result.blank.position = result.report.converged ? std::move(equilibrium.position) : std::move(energy.position);
+    place_under_part(part, element, plane, result.blank.position);
+
+    result.face = face_fields(part, element, result.blank, options);
+    result.node = to_nodes(part, element, result.face);
+    result.necking_triangles = result.face.necking.sum();
+    result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
+    result.volume_error = volume_error(part, result, options.thickness);
+    result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,60 @@
+#pragma once
+#include <optional>
+
+#include "engine/core/progress.h"
+#include "engine/forming/blank.h"
+#include "engine/forming/energy_stage.h"
+#include "engine/forming/initial_guess.h"
+#include "engine/forming/material.h"
+#include "engine/forming/stamping_direction.h"
+#include "engine/mesh/tri_mesh.h"
+
+namespace spia {
+
+struct FlattenOptions {
+    Material material;
+    double thickness = 1;                          ///< mm, of the flat sheet
+    std::optional<Eigen::Vector3d> direction;      ///< stamping direction; chosen automatically if not given
+    Eigen::VectorXd friction;                      ///< #F, MPa: tangential traction against the slip; empty: none
+    StressCurve::Options curve;                    ///< where the hardening curve is trusted and how it goes on
+    int most_energy_steps = 200;
+    int most_newton_steps = 60;
+    double tolerance = 1e-9;                       ///< on |R| relative to the nodal forces at the yield stress
+};
+
+/// How the solution came about.
+struct SolveReport {
+    bool converged = false;          ///< the virtual-work system holds to the tolerance
+    std::string reason;              ///< why the iteration ended, in words
+    StartMethod start;
+    std::vector<NewtonStep> energy;  ///< steps of the energy stage (all continuation levels in a row)
+    std::vector<NewtonStep> newton;  ///< steps of the virtual-work stage
+    double residual = 0;             ///< |R| relative to the nodal forces at the yield stress
+    Eigen::Vector3d resultant = Eigen::Vector3d::Zero(); ///< multipliers of the rigid motion: N, N, N mm
+    double seconds = 0;
+};
+
+struct FlattenResult {
+    Blank blank;
+    SheetFields face;        ///< one entry per face
+    SheetFields node;        ///< one entry per vertex
+    StampingDirection stamping;
+    SolveReport report;
+    int necking_triangles = 0;  ///< faces beyond the trusted strain: extrapolated, where the part tears
+    int flipped_triangles = 0;  ///< always 0; counted anew from the result
+    double volume_error = 0;    ///< largest |h A - h0 A0| / (h0 A0) over the faces
+};
+
+/// Finds the flat blank that one forming step turns into the part.
+/// @param part      mm; one component, at least one boundary loop, no face without area
+/// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
+/// @throws InputError  if the part or an option is not as described; names the first offending face
+/// @throws SolveError  if there is no flip-free state at all
+/// If the virtual-work system does not converge, the blank of the energy stage (thickness held) is given and the report
+/// says so. The result does not depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
+FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {});
+
+/// Strains, thickness and stresses of forming `blank` into `part`.
+SheetFields sheet_fields(const TriMesh& part, const Blank& blank, const FlattenOptions& options);
+
+} // namespace spia

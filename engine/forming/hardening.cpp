@@ -1,0 +1,118 @@
+#include "engine/forming/hardening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spia {
+namespace {
+
+FlowStress evaluate(const Swift& law, double strain)
+{
+    const double base = law.e0 + strain, stress = law.K_MPa * std::pow(base, law.n);
+    const double work = (stress * base - law.K_MPa * std::pow(law.e0, law.n + 1)) / (law.n + 1);
+    return {stress, law.n * stress / base, work};
+}
+
+FlowStress evaluate(const Hollomon& law, double strain)
+{
+    if (strain <= 0)
+        return {0, 0, 0};
+    const double stress = law.K_MPa * std::pow(strain, law.n);
+    return {stress, law.n * stress / strain, stress * strain / (law.n + 1)};
+}
+
+FlowStress evaluate(const Voce& law, double strain)
+{
+    const double range = law.sigma_sat_MPa - law.sigma0_MPa, decay = std::exp(-law.c * strain);
+    return {law.sigma_sat_MPa - range * decay, range * law.c * decay,
+            law.sigma_sat_MPa * strain - range * (1 - decay) / law.c};
+}
+
+/// Outside its points the table keeps its first and last slope.
+FlowStress evaluate(const HardeningTable& table, double strain)
+{
+    const auto& x = table.strain;
+    const auto& y = table.stress_MPa;
+    const size_t last = x.size() - 2;
+    const size_t piece =
+        std::min(last, size_t(std::max<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), strain) - x.begin() - 1, 0)));
+    const auto slope = [&](size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
+    const double at_zero = y[0] - slope(0) * x[0];
+    double work = piece == 0 ? 0 : 0.5 * (at_zero + y[0]) * x[0];
+    for (size_t i = 0; i < piece; ++i)
+        work += 0.5 * (y[i] + y[i + 1]) * (x[i + 1] - x[i]);
+    const double stress = y[piece] + slope(piece) * (strain - x[piece]);
+    work += piece == 0 ? 0.5 * (at_zero + stress) * strain : 0.5 * (y[piece] + stress) * (strain - x[piece]);
+    if (piece > 0)
+        return {stress, slope(piece), work};
+    return {stress, slope(0), work};
+}
+
+} // namespace
+
+FlowStress flow_stress(const Hardening& law, double strain)
+{
+    return std::visit([&](const auto& l) { return evaluate(l, strain); }, law);
+}
+
+FlowStress StressCurve::Cubic::at(double x) const
+{
+    const double w = x1 - x0, t = (x - x0) / w;
+    // Coefficients of the Hermite cubic in t.
+    const double c1 = s0 * w, c2 = 3 * (f1 - f0) - w * (2 * s0 + s1), c3 = 2 * (f0 - f1) + w * (s0 + s1);
+    return {f0 + t * (c1 + t * (c2 + t * c3)), (c1 + t * (2 * c2 + 3 * t * c3)) / w,
+            w * t * (f0 + t * (c1 / 2 + t * (c2 / 3 + t * c3 / 4)))};
+}
+
+StressCurve::StressCurve(const Hardening& law, double young_MPa, const Options& options)
+    : law_(law), young_(young_MPa), trusted_(options.trusted_strain), rate_(options.continuation_rate)
+{
+    // sigma_Y(eps) - E eps falls through zero once: bisection needs no derivative at zero (Hollomon's is infinite).
+    double low = 0, high = 1;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (flow_stress(law_, middle).stress > young_ * middle ? low : high) = middle;
+    }
+    yield_ = 0.5 * (low + high);
+    trusted_ = std::max(trusted_, 2 * yield_);
+
+    const double a = (1 - options.yield_smoothing) * yield_, b = (1 + options.yield_smoothing) * yield_;
+    const FlowStress after = flow_stress(law_, b);
+    knee_ = {a, b, young_ * a, after.stress, young_, after.slope};
+    knee_work_ = 0.5 * young_ * a * a;
+    law_work_ = knee_work_ + knee_.at(b).work - after.work;
+
+    const FlowStress end = flow_stress(law_, trusted_);
+    const double width = options.continuation_width;
+    const double rate = std::max(rate_, end.slope / end.stress); // never softer than the law itself
+    rate_ = rate;
+    const double value = end.stress * std::exp(0.5 * (end.slope / end.stress + rate) * width);
+    bend_ = {trusted_, trusted_ + width, end.stress, value, end.slope, rate * value};
+    bend_work_ = law_work_ + end.work;
+    tail_work_ = bend_work_ + bend_.at(trusted_ + width).work;
+}
+
+FlowStress StressCurve::operator()(double strain) const
+{
+    if (strain <= knee_.x0)
+        return {young_ * strain, young_, 0.5 * young_ * strain * strain};
+    if (strain < knee_.x1) {
+        FlowStress f = knee_.at(strain);
+        f.work += knee_work_;
+        return f;
+    }
+    if (strain <= bend_.x0) {
+        FlowStress f = flow_stress(law_, strain);
+        f.work += law_work_;
+        return f;
+    }
+    if (strain < bend_.x1) {
+        FlowStress f = bend_.at(strain);
+        f.work += bend_work_;
+        return f;
+    }
+    const double stress = bend_.f1 * std::exp(rate_ * (strain - bend_.x1));
+    return {stress, rate_ * stress, tail_work_ + (stress - bend_.f1) / rate_};
+}
+
+} // namespace spia

@@ -1,0 +1,180 @@
+#include "engine/forming/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/error.h"
+
+namespace spia {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Reads numbers of one JSON object and says which key of which file is at fault.
+class Reader {
+public:
+    Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {}
+
+    double number(const char* key, double above, double below) const
+    {
+        const Json& value = require(key);
+        if (!value.is_number())
+            fail(key, "is not a number");
+        const double x = value.get<double>();
+        if (!(x > above && x < below))
+            fail(key, fmt::format("is {} but must lie between {} and {}", x, above, below));
+        return x;
+    }
+
+    std::string text(const char* key) const
+    {
+        const Json& value = require(key);
+        if (!value.is_string() || value.get<std::string>().empty())
+            fail(key, "is not a text");
+        return value.get<std::string>();
+    }
+
+    std::vector<double> numbers(const char* key) const
+    {
+        const Json& value = require(key);
+        if (!value.is_array())
+            fail(key, "is not a list of numbers");
+        std::vector<double> result;
+        for (const Json& x : value) {
+            if (!x.is_number())
+                fail(key, "is not a list of numbers");
+            result.push_back(x.get<double>());
+        }
+        return result;
+    }
+
+    Reader object(const char* key) const
+    {
+        const Json& value = require(key);
+        if (!value.is_object())
+            fail(key, "is not an object");
+        return Reader(value, where_ + " in \"" + key + "\"");
+    }
+
+    [[noreturn]] void fail(const char* key, const std::string& what) const
+    {
+        throw InputError(fmt::format("{}: \"{}\" {}", where_, key, what));
+    }
+
+private:
+    const Json& require(const char* key) const
+    {
+        const auto found = object_.find(key);
+        if (found == object_.end())
+            fail(key, "is missing; see assets/materials/README.md for the form");
+        return *found;
+    }
+
+    const Json& object_;
+    std::string where_;
+};
+
+HardeningTable read_table(const Reader& in)
+{
+    HardeningTable table{in.numbers("strain"), in.numbers("stress_MPa")};
+    if (table.strain.size() != table.stress_MPa.size() || table.strain.size() < 2)
+        in.fail("strain", "and \"stress_MPa\" must be lists of the same length, at least two");
+    for (size_t i = 0; i < table.strain.size(); ++i) {
+        if (table.strain[i] < 0 || (i > 0 && table.strain[i] <= table.strain[i - 1]))
+            in.fail("strain", fmt::format("must rise from 0 or more; entry {} does not", i));
+        if (!(table.stress_MPa[i] > 0) || (i > 0 && table.stress_MPa[i] < table.stress_MPa[i - 1]))
+            in.fail("stress_MPa", fmt::format("must be positive and never fall; entry {} does not", i));
+    }
+    return table;
+}
+
+Hardening read_hardening(const Reader& in)
+{
+    constexpr double huge_MPa = 1e5;
+    const std::string law = in.text("law");
+    if (law == "swift")
+        return Swift{in.number("K_MPa", 0, huge_MPa), in.number("e0", 0, 1), in.number("n", 0, 1)};
+    if (law == "hollomon")
+        return Hollomon{in.number("K_MPa", 0, huge_MPa), in.number("n", 0, 1)};
+    if (law == "voce") {
+        const Voce voce{in.number("sigma0_MPa", 0, huge_MPa), in.number("sigma_sat_MPa", 0, huge_MPa),
+                        in.number("c", 0, 1e3)};
+        if (voce.sigma_sat_MPa < voce.sigma0_MPa)
+            in.fail("sigma_sat_MPa", "is below sigma0_MPa");
+        return voce;
+    }
+    if (law == "table")
+        return read_table(in);
+    in.fail("law", fmt::format("is \"{}\"; known are swift, hollomon, voce, table", law));
+}
+
+/// A flow stress above Hooke's line at every strain would never yield.
+void require_yield(const Material& material, const Reader& in)
+{
+    for (double strain = 1e-4; strain < 1; strain *= 1.5)
+        if (flow_stress(material.hardening, strain).stress < material.young_MPa * strain)
+            return;
+    in.fail("hardening", "lies above the elastic line everywhere; check units (MPa)");
+}
+
+} // namespace
+
+Material read_material(const std::filesystem::path& file)
+{
+    std::ifstream stream(file);
+    if (!stream)
+        throw InputError(fmt::format("cannot open the material file {}; `spia materials` lists the built-in grades",
+                                     file.string()));
+    const Json json = Json::parse(stream, nullptr, false);
+    if (!json.is_object())
+        throw InputError(fmt::format("{} is no JSON object; see assets/materials/README.md for the form",
+                                     file.string()));
+    const Reader in(json, file.string());
+    Material material;
+    material.name = in.text("name");
+    material.young_MPa = in.number("young_MPa", 0, 1e7);
+    material.poisson = in.number("poisson", -1, 0.5 + 1e-12);
+    material.density_kg_m3 = in.number("density_kg_m3", 0, 1e5);
+    material.hardening = read_hardening(in.object("hardening"));
+    material.r0 = in.number("r0", 0, 100);
+    material.r45 = in.number("r45", 0, 100);
+    material.r90 = in.number("r90", 0, 100);
+    if (json.contains("source") && json["source"].is_string())
+        material.source = json["source"].get<std::string>();
+    require_yield(material, in);
+    return material;
+}
+
+MembraneLaw::MembraneLaw(const Material& material, const StressCurve::Options& options)
+    : curve_(material.hardening, material.young_MPa, options), young_(material.young_MPa)
+{
+    const double r = material.normal_anisotropy();
+    metric_ << 1, r / (1 + r), r / (1 + r), 1;
+    metric_ *= (1 + r) * (1 + r) / (1 + 2 * r);
+}
+
+PlaneStress MembraneLaw::operator()(const Eigen::Vector2d& strain) const
+{
+    PlaneStress out;
+    const Eigen::Vector2d conjugate = metric_ * strain; // eps_eq * d eps_eq / d eps
+    out.equivalent_strain = std::sqrt(std::max(0.0, strain.dot(conjugate)));
+    const FlowStress flow = curve_(out.equivalent_strain);
+    out.equivalent_stress = flow.stress;
+    out.work = flow.work;
+    // On Hooke's line the secant is Young's modulus whatever the strain; dividing zero by zero is avoided there.
+    const bool elastic = out.equivalent_strain < 0.5 * curve_.yield_strain();
+    const double secant = elastic ? young_ : flow.stress / out.equivalent_strain;
+    out.stress = secant * conjugate;
+    out.deviatoric = secant * (metric_(0, 0) - metric_(0, 1));
+    out.tangent = secant * metric_;
+    if (!elastic) {
+        const Eigen::Vector2d direction = conjugate / out.equivalent_strain;
+        out.tangent += (flow.slope - secant) * direction * direction.transpose();
+    }
+    return out;
+}
+
+} // namespace spia

@@ -1,0 +1,165 @@
+#include "engine/forming/membrane.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+
+namespace spia {
+namespace {
+
+/// ln(x/y) / (x - y) for x >= y > 0, exact also where both are equal.
+double log_difference_quotient(double x, double y)
+{
+    const double relative = (x - y) / y;
+    return relative < 1e-12 ? 1 / y : std::log1p(relative) / (relative * y);
+}
+
+/// Raises the eigenvalues of a symmetric 2 x 2 matrix to at least `floor`.
+Eigen::Matrix2d raised(const Eigen::Matrix2d& A, double floor)
+{
+    const double mean = 0.5 * (A(0, 0) + A(1, 1)), half = 0.5 * (A(0, 0) - A(1, 1));
+    const double radius = std::hypot(half, A(0, 1));
+    if (mean - radius >= floor)
+        return A;
+    if (radius == 0)
+        return floor * Eigen::Matrix2d::Identity();
+    const double high = std::max(mean + radius, floor);
+    Eigen::Matrix2d projector = Eigen::Matrix2d::Identity() * (0.5 - 0.5 * mean / radius) + A * (0.5 / radius);
+    return floor * Eigen::Matrix2d::Identity() + (high - floor) * projector;
+}
+
+using Vector4d = Eigen::Vector4d;
+
+/// The four directions of dG in the basis of the singular vectors: (1,1), (2,2), and the mixed pair.
+Eigen::Matrix4d singular_basis(const Svd2& d)
+{
+    Eigen::Matrix4d basis;
+    const auto outer = [&](int i, int j) {
+        const Eigen::Matrix2d m = d.U.col(i) * d.V.col(j).transpose();
+        return Vector4d(m.reshaped());
+    };
+    basis << outer(0, 0), outer(1, 1), outer(0, 1), outer(1, 0);
+    return basis;
+}
+
+} // namespace
+
+std::vector<Element> elements(const TriMesh& part)
+{
+    std::vector<Element> result(size_t(part.triangles()));
+    for (int f = 0; f < part.triangles(); ++f) {
+        const Eigen::Vector3d a = part.position.col(part.triangle(0, f));
+        const Eigen::Vector3d b = part.position.col(part.triangle(1, f));
+        const Eigen::Vector3d c = part.position.col(part.triangle(2, f));
+        const Eigen::Vector3d normal = (b - a).cross(c - a);
+        const double length = (b - a).norm(), twice_area = normal.norm();
+        if (!(twice_area > 0))
+            throw InputError(fmt::format("face {} has no area; weld or remove it before flattening", f));
+        Element& e = result[size_t(f)];
+        e.area = 0.5 * twice_area;
+        e.frame.col(0) = (b - a) / length;
+        e.frame.col(1) = normal.cross(b - a) / (twice_area * length);
+        const double x = (c - a).dot(e.frame.col(0)), y = twice_area / length;
+        // Corners in the frame: (0, 0), (length, 0), (x, y).
+        e.gradient.col(1) << 1 / length, -x / (length * y);
+        e.gradient.col(2) << 0, 1 / y;
+        e.gradient.col(0) = -e.gradient.col(1) - e.gradient.col(2);
+    }
+    return result;
+}
+
+Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<double, 2, 3>& blank_corner)
+{
+    return blank_corner * element.gradient.transpose();
+}
+
+Svd2 svd(const Eigen::Matrix2d& G)
+{
+    // G = [e+f, g-h; g+h, e-f] is a rotation part (e, h) plus a reflection part (f, g).
+    const double e = 0.5 * (G(0, 0) + G(1, 1)), f = 0.5 * (G(0, 0) - G(1, 1));
+    const double g = 0.5 * (G(1, 0) + G(0, 1)), h = 0.5 * (G(1, 0) - G(0, 1));
+    const double sum = std::atan2(h, e), difference = std::atan2(g, f);
+    const double u = 0.5 * (sum + difference), v = 0.5 * (difference - sum);
+    Svd2 out;
+    out.s[0] = std::hypot(e, h) + std::hypot(f, g);
+    out.s[1] = out.s[0] > 0 ? G.determinant() / out.s[0] : 0; // the difference of the two would cancel
+    out.U << std::cos(u), -std::sin(u), std::sin(u), std::cos(u);
+    out.V << std::cos(v), -std::sin(v), std::sin(v), std::cos(v);
+    return out;
+}
+
+double energy_density_value(const MembraneLaw& law, const Eigen::Matrix2d& G)
+{
+    // Singular values alone: no singular vectors, no trigonometry.
+    const double e = G(0, 0) + G(1, 1), f = G(0, 0) - G(1, 1), g = G(1, 0) + G(0, 1), h = G(1, 0) - G(0, 1);
+    const double s1 = 0.5 * (std::sqrt(e * e + h * h) + std::sqrt(f * f + g * g));
+    return law({-std::log(s1), -std::log(G.determinant() / s1)}).work;
+}
+
+EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
+{
+    const Svd2 d = svd(G);
+    const Eigen::Vector2d& s = d.s;
+    const PlaneStress p = law(-s.array().log().matrix());
+
+    // W(-ln s): first and second derivatives with respect to the singular values.
+    const Eigen::Vector2d first = -p.stress.cwiseQuotient(s);
+    Eigen::Matrix2d second;
+    second << (p.tangent(0, 0) + p.stress[0]) / (s[0] * s[0]), p.tangent(0, 1) / (s[0] * s[1]),
+        p.tangent(1, 0) / (s[0] * s[1]), (p.tangent(1, 1) + p.stress[1]) / (s[1] * s[1]);
+    // Mixed directions: twist (antisymmetric in the singular basis) and flip (symmetric). [Smith et al. 2019]
+    const double twist = (first[0] + first[1]) / (s[0] + s[1]);
+    const double stress_per_stretch = -p.deviatoric * log_difference_quotient(s[0], s[1]);
+    const double flip = (0.5 * (p.stress[0] + p.stress[1]) - stress_per_stretch * 0.5 * (s[0] + s[1])) / (s[0] * s[1]);
+
+    const double floor = 1e-4 * p.deviatoric / (s[0] * s[0]);
+    second = raised(second, floor);
+    const double t = std::max(twist, floor), l = std::max(flip, floor);
+    Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
+    H.topLeftCorner<2, 2>() = second;
+    H.bottomRightCorner<2, 2>() << 0.5 * (t + l), 0.5 * (l - t), 0.5 * (l - t), 0.5 * (t + l);
+    const Eigen::Matrix4d basis = singular_basis(d);
+
+    EnergyDensity out;
+    out.value = p.work;
+    out.gradient = d.U * first.asDiagonal() * d.V.transpose();
+    out.hessian = basis * H * basis.transpose();
+    return out;
+}
+
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G)
+{
+    const Svd2 d = svd(G);
+    const Eigen::Vector2d& s = d.s;
+    const PlaneStress p = law(-s.array().log().matrix());
+    const double h = h0 * s[0] * s[1];
+    const Eigen::Vector2d t = h * p.stress;
+
+    // dt_k / d eps_l = h (C_kl - sigma_k), for h = h0 exp(-(eps_1 + eps_2)).
+    const Eigen::Matrix2d dt = h * (p.tangent - p.stress * Eigen::RowVector2d::Ones());
+    // (t_1 - t_2) / (mu_1 - mu_2) with mu = s^2, from eps_1 - eps_2 = -ln(mu_1/mu_2) / 2.
+    const double shear = -0.5 * h * p.deviatoric * log_difference_quotient(s[0] * s[0], s[1] * s[1]);
+
+    // Rows: t_1, t_2, shear of h sigma in the basis V; columns: dM_11, dM_22, dM_12, dM_21 with dM = U^T dG V.
+    Eigen::Matrix<double, 3, 4> in_basis = Eigen::Matrix<double, 3, 4>::Zero();
+    for (int k = 0; k < 2; ++k)
+        for (int l = 0; l < 2; ++l)
+            in_basis(k, l) = -dt(k, l) / s[l];
+    in_basis(2, 2) = shear * s[0];
+    in_basis(2, 3) = shear * s[1];
+
+    const Eigen::Vector2d v1 = d.V.col(0), v2 = d.V.col(1);
+    Eigen::Matrix<double, 4, 3> spread;
+    spread.col(0) = (v1 * v1.transpose()).reshaped();
+    spread.col(1) = (v2 * v2.transpose()).reshaped();
+    spread.col(2) = (v1 * v2.transpose() + v2 * v1.transpose()).reshaped();
+
+    MembraneForce out;
+    out.force = d.V * t.asDiagonal() * d.V.transpose();
+    out.derivative = spread * in_basis * singular_basis(d).transpose();
+    return out;
+}
+
+} // namespace spia

@@ -1,0 +1,58 @@
+#pragma once
+#include <vector>
+
+#include "engine/forming/material.h"
+#include "engine/mesh/tri_mesh.h"
+
+namespace spia {
+
+/// One triangle of the part in a local frame of its own plane.
+struct Element {
+    Eigen::Matrix<double, 3, 2> frame;    ///< J: orthonormal axes in the triangle's plane, from 2 to 3 dimensions
+    Eigen::Matrix<double, 2, 3> gradient; ///< column a: gradient of corner a's shape function, 1/mm, in the frame
+    double area;                          ///< mm2, of the formed part
+};
+
+/// @throws InputError if a face has no area; names it
+std::vector<Element> elements(const TriMesh& part);
+
+/// Inverse deformation gradient G = F^-1 = sum over corners of X_a g_a^T. [theory of one-step forming, eqs. 10-12]
+Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<double, 2, 3>& blank_corner);
+
+/// Corners of a face in the blank.
+inline Eigen::Matrix<double, 2, 3> corners(const Eigen::Matrix2Xd& X, const Eigen::Vector3i& face)
+{
+    Eigen::Matrix<double, 2, 3> result;
+    result << X.col(face[0]), X.col(face[1]), X.col(face[2]);
+    return result;
+}
+
+/// G = U diag(s) V^T with rotations U and V, s_1 >= s_2; s_2 has the sign of det G. Logarithmic strains of forming
+/// are -ln s: s_2 belongs to the major strain.
+struct Svd2 {
+    Eigen::Matrix2d U, V;
+    Eigen::Vector2d s;
+};
+Svd2 svd(const Eigen::Matrix2d& G);
+
+/// Energy density of forming (integral of sigma_eq d eps_eq) as a function of G: value, first derivative, and the
+/// second derivative with its negative eigenvalues raised to a small positive one. G is stored column by column.
+struct EnergyDensity {
+    double value;             ///< MPa
+    Eigen::Matrix2d gradient; ///< d value / d G
+    Eigen::Matrix4d hessian;  ///< symmetric positive definite
+};
+/// @pre det G > 0
+double energy_density_value(const MembraneLaw& law, const Eigen::Matrix2d& G);
+EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G);
+
+/// The membrane force h sigma of the formed sheet (N/mm, symmetric, in the frame of the element) and its derivative
+/// with respect to G, column by column of G: force.reshaped() changes by derivative * dG.reshaped().
+struct MembraneForce {
+    Eigen::Matrix2d force;
+    Eigen::Matrix4d derivative;
+};
+/// @pre det G > 0; @param h0 mm, initial thickness
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G);
+
+} // namespace spia

@@ -1,0 +1,110 @@
+#include "engine/sparse/block_matrix.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/core/parallel.h"
+
+namespace spia {
+
+BlockMatrix::BlockMatrix(const Eigen::Matrix3Xi& triangle, int vertices) : vertices_(vertices)
+{
+    // Neighbours of each vertex, itself included, sorted.
+    std::vector<std::vector<int>> neighbour(static_cast<size_t>(vertices));
+    for (int v = 0; v < vertices; ++v)
+        neighbour[size_t(v)].push_back(v);
+    for (Eigen::Index f = 0; f < triangle.cols(); ++f)
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b)
+                if (a != b)
+                    neighbour[size_t(triangle(a, f))].push_back(triangle(b, f));
+    graph_start_.assign(1, 0);
+    for (auto& list : neighbour) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        graph_row_.insert(graph_row_.end(), list.begin(), list.end());
+        graph_start_.push_back(int(graph_row_.size()));
+    }
+    start_.assign(1, 0);
+    row_.reserve(4 * graph_row_.size());
+    for (int v = 0; v < vertices; ++v)
+        for (int k = 0; k < 2; ++k) {
+            for (int w : neighbour[size_t(v)]) {
+                row_.push_back(2 * w);
+                row_.push_back(2 * w + 1);
+            }
+            start_.push_back(int(row_.size()));
+        }
+    value_.assign(row_.size(), 0);
+
+    destination_.resize(size_t(triangle.cols()));
+    for (Eigen::Index f = 0; f < triangle.cols(); ++f)
+        for (int b = 0; b < 3; ++b)
+            for (int k = 0; k < 2; ++k)
+                for (int a = 0; a < 3; ++a)
+                    destination_[size_t(f)][size_t((2 * b + k) * 3 + a)] =
+                        entry(2 * triangle(a, f), 2 * triangle(b, f) + k);
+}
+
+int BlockMatrix::entry(int unknown_row, int unknown_column) const
+{
+    const auto begin = row_.begin() + start_[size_t(unknown_column)];
+    const auto end = row_.begin() + start_[size_t(unknown_column) + 1];
+    return int(std::lower_bound(begin, end, unknown_row) - row_.begin());
+}
+
+void BlockMatrix::assemble(const std::vector<Matrix6d>& element)
+{
+    std::fill(value_.begin(), value_.end(), 0.0);
+    for (size_t f = 0; f < element.size(); ++f)
+        for (int column = 0; column < 6; ++column)
+            for (int a = 0; a < 3; ++a) {
+                double* to = &value_[size_t(destination_[f][size_t(column * 3 + a)])];
+                to[0] += element[f](2 * a, column);
+                to[1] += element[f](2 * a + 1, column);
+            }
+}
+
+void BlockMatrix::add_to_diagonal(int unknown, double value)
+{
+    value_[size_t(entry(unknown, unknown))] += value;
+}
+
+void BlockMatrix::add_to_diagonal(int vertex, const Eigen::Matrix2d& block)
+{
+    for (int k = 0; k < 2; ++k) {
+        double* to = &value_[size_t(entry(2 * vertex, 2 * vertex + k))];
+        to[0] += block(0, k);
+        to[1] += block(1, k);
+    }
+}
+
+Eigen::VectorXd BlockMatrix::diagonal() const
+{
+    Eigen::VectorXd result(size());
+    for (int i = 0; i < size(); ++i)
+        result[i] = value_[size_t(entry(i, i))];
+    return result;
+}
+
+void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
+    y.setZero(size());
+    for (int column = 0; column < size(); ++column) {
+        const double factor = x[column];
+        for (int i = start_[size_t(column)]; i < start_[size_t(column) + 1]; ++i)
+            y[row_[size_t(i)]] += value_[size_t(i)] * factor;
+    }
+}
+
+BlockMatrix BlockMatrix::symmetric_part() const
+{
+    BlockMatrix result = *this;
+    for (int column = 0; column < size(); ++column)
+        for (int i = start_[size_t(column)]; i < start_[size_t(column) + 1]; ++i)
+            result.value_[size_t(i)] =
+                0.5 * (value_[size_t(i)] + value_[size_t(entry(column, row_[size_t(i)]))]);
+    return result;
+}
+
+} // namespace spia

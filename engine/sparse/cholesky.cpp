@@ -1,0 +1,120 @@
+#include "engine/sparse/cholesky.h"
+
+#include <cholmod.h>
+#include <omp.h>
+
+#include <new>
+#include <numeric>
+
+#include "engine/core/error.h"
+
+extern "C" void openblas_set_num_threads(int);
+
+namespace spia {
+namespace {
+
+/// Debian's CHOLMOD opens a team of four OpenMP threads for each supernode, which costs a factor of two on small
+/// fronts; and a BLAS with threads of its own would sum in another order on another machine.
+void one_thread_only()
+{
+    omp_set_max_active_levels(0);
+    openblas_set_num_threads(1);
+}
+
+/// A view of our arrays as CHOLMOD wants them; it does not write into them.
+cholmod_sparse view(int size, const std::vector<int>& start, const std::vector<int>& row, const double* value)
+{
+    cholmod_sparse a{};
+    a.nrow = a.ncol = size_t(size);
+    a.nzmax = row.size();
+    a.p = const_cast<int*>(start.data());
+    a.i = const_cast<int*>(row.data());
+    a.x = const_cast<double*>(value);
+    a.stype = -1; // symmetric, lower triangle
+    a.itype = CHOLMOD_INT;
+    a.xtype = value ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = a.packed = 1;
+    return a;
+}
+
+} // namespace
+
+struct Cholesky::State {
+    cholmod_common common;
+    cholmod_factor* factor = nullptr;
+    // Work space of cholmod_solve2, kept so that a solve allocates nothing.
+    cholmod_dense *solution = nullptr, *work_y = nullptr, *work_e = nullptr;
+
+    State()
+    {
+        cholmod_start(&common);
+        common.print = 0;
+        common.error_handler = nullptr;
+    }
+    ~State()
+    {
+        cholmod_free_dense(&solution, &common);
+        cholmod_free_dense(&work_y, &common);
+        cholmod_free_dense(&work_e, &common);
+        cholmod_free_factor(&factor, &common);
+        cholmod_finish(&common);
+    }
+};
+
+Cholesky::Cholesky(const BlockMatrix& pattern) : state_(std::make_unique<State>())
+{
+    one_thread_only();
+    cholmod_common& common = state_->common;
+
+    // Order the vertices, then give both unknowns of a vertex neighbouring places: half the graph, better supernodes.
+    cholmod_sparse graph = view(pattern.vertices(), pattern.graph_start(), pattern.graph_row(), nullptr);
+    std::vector<int> vertex_order(size_t(pattern.vertices()));
+    if (!cholmod_metis(&graph, nullptr, 0, 1, vertex_order.data(), &common))
+        throw SolveError("the sparse ordering failed; there may not be enough memory for this mesh");
+    std::vector<int> order;
+    order.reserve(size_t(pattern.size()));
+    for (int v : vertex_order) {
+        order.push_back(2 * v);
+        order.push_back(2 * v + 1);
+    }
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    common.postorder = 1;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.final_ll = 1;
+    cholmod_sparse a = view(pattern.size(), pattern.column_start(), pattern.row(), pattern.value().data());
+    state_->factor = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
+    if (!state_->factor)
+        throw SolveError("the sparse analysis failed; there may not be enough memory for this mesh");
+}
+
+Cholesky::~Cholesky() = default;
+Cholesky::Cholesky(Cholesky&&) noexcept = default;
+Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
+
+bool Cholesky::factor(const BlockMatrix& matrix)
+{
+    one_thread_only();
+    cholmod_sparse a = view(matrix.size(), matrix.column_start(), matrix.row(), matrix.value().data());
+    cholmod_factorize(&a, state_->factor, &state_->common);
+    if (state_->common.status == CHOLMOD_OUT_OF_MEMORY)
+        throw SolveError("there is not enough memory for the factor of this mesh");
+    return state_->common.status == CHOLMOD_OK && state_->factor->minor == state_->factor->n;
+}
+
+Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& right) const
+{
+    one_thread_only();
+    cholmod_dense b{};
+    b.nrow = b.d = b.nzmax = size_t(right.size());
+    b.ncol = 1;
+    b.x = const_cast<double*>(right.data());
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    State& s = *state_;
+    cholmod_solve2(CHOLMOD_A, s.factor, &b, nullptr, &s.solution, nullptr, &s.work_y, &s.work_e, &s.common);
+    return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(s.solution->x), right.size());
+}
+
+} // namespace spia

@@ -1,0 +1,125 @@
+#include "engine/forming/membrane.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "tests/support/shapes.h"
+
+namespace spia {
+namespace {
+
+Material mild_steel() { return {"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""}; }
+
+/// G with given singular values, turned at random.
+Eigen::Matrix2d turned(double s1, double s2, std::mt19937& random)
+{
+    std::uniform_real_distribution<double> angle(0, 6.28);
+    return Eigen::Rotation2Dd(angle(random)).toRotationMatrix() * Eigen::Vector2d(s1, s2).asDiagonal() *
+           Eigen::Rotation2Dd(angle(random)).toRotationMatrix();
+}
+
+/// States on every piece of the stress curve: elastic, at the knee, plastic, at and beyond the trusted strain, and
+/// with equal principal stretches.
+std::vector<Eigen::Matrix2d> states()
+{
+    std::mt19937 random(7);
+    std::vector<Eigen::Matrix2d> result;
+    for (auto [s1, s2] : {std::pair{1.0001, 0.9999}, {1.0009, 0.9995}, {1.0006, 1.0006}, {1.2, 0.9}, {0.8, 0.8},
+                          {1.1, 1.1}, {1.4, 0.62}, {1.3, 0.55}, {2.5, 0.3}, {0.5, 0.4}})
+        result.push_back(turned(s1, s2, random));
+    return result;
+}
+
+} // namespace
+
+TEST(Membrane, EnergyGradientIsTheDerivativeOfTheEnergy)
+{
+    const MembraneLaw law(mild_steel());
+    for (const Eigen::Matrix2d& G : states())
+        for (int k = 0; k < 4; ++k) {
+            const double step = 1e-6;
+            Eigen::Matrix2d up = G, down = G;
+            up(k) += step;
+            down(k) -= step;
+            const double difference =
+                (energy_density_value(law, up) - energy_density_value(law, down)) / (2 * step);
+            const EnergyDensity density = energy_density(law, G);
+            EXPECT_NEAR(density.gradient(k), difference, 1e-5 * (1 + density.gradient.norm())) << G;
+            EXPECT_NEAR(density.value, energy_density_value(law, G), 1e-12 * (1 + density.value));
+        }
+}
+
+TEST(Membrane, EnergyHessianIsTheDerivativeOfTheGradientWhereItIsConvex)
+{
+    const MembraneLaw law(mild_steel());
+    std::mt19937 random(3);
+    // Compression of the sheet: every eigenvalue of the true second derivative is positive there.
+    for (auto [s1, s2] : {std::pair{1.05, 1.02}, {1.08, 1.08}, {1.1, 1.05}, {1.00005, 1.00003}}) {
+        const Eigen::Matrix2d G = turned(s1, s2, random);
+        const EnergyDensity density = energy_density(law, G);
+        for (int k = 0; k < 4; ++k) {
+            const double step = 1e-7;
+            Eigen::Matrix2d up = G, down = G;
+            up(k) += step;
+            down(k) -= step;
+            const Eigen::Vector4d difference =
+                (energy_density(law, up).gradient - energy_density(law, down).gradient).reshaped() / (2 * step);
+            EXPECT_LT((difference - density.hessian.col(k)).norm(), 1e-5 * density.hessian.norm()) << G;
+        }
+    }
+}
+
+TEST(Membrane, HessianIsPositiveDefiniteEverywhere)
+{
+    const MembraneLaw law(mild_steel());
+    for (const Eigen::Matrix2d& G : states())
+        EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(energy_density(law, G).hessian).eigenvalues()[0], 0);
+}
+
+TEST(Membrane, ForceTangentAgreesWithCentralDifferences)
+{
+    const MembraneLaw law(mild_steel());
+    for (const Eigen::Matrix2d& G : states()) {
+        const MembraneForce force = membrane_force(law, 0.78, G);
+        for (int k = 0; k < 4; ++k) {
+            const double step = 1e-7;
+            Eigen::Matrix2d up = G, down = G;
+            up(k) += step;
+            down(k) -= step;
+            const Eigen::Vector4d difference =
+                (membrane_force(law, 0.78, up).force - membrane_force(law, 0.78, down).force).reshaped() / (2 * step);
+            EXPECT_LT((difference - force.derivative.col(k)).norm(), 2e-5 * force.derivative.norm()) << G;
+        }
+    }
+}
+
+TEST(Membrane, UniaxialTensionGivesTheFlowCurveAndTheLankfordCoefficient)
+{
+    const Material material = mild_steel();
+    const MembraneLaw law(material);
+    const double r = 1.77, strain = 0.2;
+    // In uniaxial tension eps_2 = -r/(1+r) eps_1 (width to thickness strain r), sigma_2 = 0, sigma_1 = sigma_Y(eps_1).
+    const PlaneStress p = law({strain, -r / (1 + r) * strain});
+    EXPECT_NEAR(p.equivalent_strain, strain, 1e-14);
+    EXPECT_NEAR(p.stress[0], 565.32 * std::pow(0.007117 + strain, 0.2589), 1e-10);
+    EXPECT_NEAR(p.stress[1], 0, 1e-10);
+}
+
+TEST(Membrane, ShapeFunctionGradientsReproduceALinearField)
+{
+    const TriMesh part = shapes::rectangle(3, 2, 4, 3);
+    for (const Element& e : elements(part))
+        EXPECT_NEAR((e.gradient.rowwise().sum()).norm(), 0, 1e-14);
+    const auto list = elements(part);
+    Eigen::Matrix2d A;
+    A << 1.2, 0.3, -0.1, 0.8;
+    const Eigen::Matrix2Xd X = A * part.position.topRows<2>();
+    for (int f = 0; f < part.triangles(); ++f) {
+        const Element& e = list[size_t(f)];
+        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part.triangle.col(f)));
+        EXPECT_LT((G - A * e.frame.topRows<2>()).norm(), 1e-13);
+    }
+}
+
+} // namespace spia
