@@ -10,18 +10,6 @@
 namespace spia {
 namespace {
 
-/// Columns of the linear map from the six corner coordinates to G (column by column).
-Eigen::Matrix<double, 4, 6> gradient_operator(const Element& e)
-{
-    Eigen::Matrix<double, 4, 6> B = Eigen::Matrix<double, 4, 6>::Zero();
-    for (int a = 0; a < 3; ++a)
-        for (int k = 0; k < 2; ++k) {
-            B(k, 2 * a + k) = e.gradient(0, a);
-            B(2 + k, 2 * a + k) = e.gradient(1, a);
-        }
-    return B;
-}
-
 double energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const MembraneLaw& law,
               const Eigen::VectorXd& h, const Eigen::Matrix2Xd& X)
 {
@@ -102,7 +90,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
                 gradient.segment<2>(2 * triangle(a, f)) += force[size_t(f)].segment<2>(2 * a);
         matrix.assemble(stiffness);
         // The blank may be moved freely; a shift far below the stiffness fixes it without being felt.
-        const double shift = 1e-9 * matrix.diagonal().mean();
+        const double shift = 1e-12 * matrix.diagonal().mean();
         for (int i = 0; i < matrix.size(); ++i)
             matrix.add_to_diagonal(i, shift);
         if (!cholesky.factor(matrix))

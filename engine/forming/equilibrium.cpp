@@ -82,17 +82,21 @@ public:
                 nodal_traction_[part.triangle(a, f)] += friction.traction[f] * element[size_t(f)].area / 3;
     }
 
+    /// Share of the virtual-work equations; the rest is the gradient of the energy with the thickness held.
+    void set_share(double share) { share_ = share; }
+
     /// Minus internal plus external forces: its derivative with respect to X is nearly positive definite.
     Eigen::VectorXd residual(const Eigen::Matrix2Xd& X) const
     {
         std::vector<Eigen::Matrix<double, 2, 3>> force(element_.size());
         parallel_for(part_.triangles(), [&](int f) {
             const Element& e = element_[size_t(f)];
-            const Eigen::Matrix2d tau =
-                membrane_force(law_, h0_, inverse_gradient(e, corners(X, part_.triangle.col(f)))).force;
+            const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
+            const Eigen::Matrix2d tau = membrane_force(law_, h0_, G, share_).force;
+            const Eigen::Matrix2d pull_back = (1 - share_) * G.inverse().transpose();
             for (int a = 0; a < 3; ++a)
                 force[size_t(f)].col(a) =
-                    -e.area * (frames_.to_node[size_t(f)][size_t(a)] * (tau * e.gradient.col(a)));
+                    -e.area * ((share_ * frames_.to_node[size_t(f)][size_t(a)] + pull_back) * (tau * e.gradient.col(a)));
         });
         Eigen::VectorXd R = Eigen::VectorXd::Zero(2 * X.cols());
         for (int f = 0; f < part_.triangles(); ++f)
@@ -100,31 +104,56 @@ public:
                 R.segment<2>(2 * part_.triangle(a, f)) += force[size_t(f)].col(a);
         if (nodal_traction_.size() > 0)
             for (int v = 0; v < part_.vertices(); ++v)
-                R.segment<2>(2 * v) += nodal_friction(v, X.col(v)).force;
+                R.segment<2>(2 * v) += share_ * nodal_friction(v, X.col(v)).force;
         return R;
     }
 
+    /// The exact derivative of the residual.
     void tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
     {
         std::vector<Matrix6d> stiffness(element_.size());
         parallel_for(part_.triangles(), [&](int f) {
             const Element& e = element_[size_t(f)];
-            const MembraneForce m = membrane_force(law_, h0_, inverse_gradient(e, corners(X, part_.triangle.col(f))));
-            for (int b = 0; b < 3; ++b)
-                for (int k = 0; k < 2; ++k) {
-                    // dG = unit vector k times g_b^T
-                    const Eigen::Vector4d d =
-                        m.derivative.col(k) * e.gradient(0, b) + m.derivative.col(2 + k) * e.gradient(1, b);
-                    const Eigen::Matrix2d dtau = d.reshaped(2, 2);
-                    for (int a = 0; a < 3; ++a)
-                        stiffness[size_t(f)].block<2, 1>(2 * a, 2 * b + k) =
-                            -e.area * (frames_.to_node[size_t(f)][size_t(a)] * (dtau * e.gradient.col(a)));
-                }
+            const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
+            const MembraneForce m = membrane_force(law_, h0_, G, share_);
+            const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
+            for (int a = 0; a < 3; ++a)
+                stiffness[size_t(f)].middleRows<2>(2 * a) =
+                    -e.area * (stress_change(m, G, frames_.to_node[size_t(f)][size_t(a)], e.gradient.col(a)) * B);
         });
         matrix.assemble(stiffness);
         if (nodal_traction_.size() > 0)
             for (int v = 0; v < part_.vertices(); ++v)
-                matrix.add_to_diagonal(v, nodal_friction(v, X.col(v)).derivative);
+                matrix.add_to_diagonal(v, share_ * nodal_friction(v, X.col(v)).derivative);
+    }
+
+    /// A positive definite neighbour of the tangent, to precondition with: per triangle the symmetric part of the tangent
+    /// in the space of G, the eigenvalues by their magnitude (they are negative where the sheet softens).
+    void definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
+    {
+        std::vector<Matrix6d> stiffness(element_.size());
+        parallel_for(part_.triangles(), [&](int f) {
+            const Element& e = element_[size_t(f)];
+            const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
+            const MembraneForce m = membrane_force(law_, h0_, G, share_);
+            const auto& to_node = frames_.to_node[size_t(f)];
+            const Eigen::Matrix2d mean_to_node = (to_node[0] + to_node[1] + to_node[2]) / 3;
+            Eigen::Matrix4d K;
+            K.topRows<2>() = -stress_change(m, G, mean_to_node, Eigen::Vector2d::UnitX());
+            K.bottomRows<2>() = -stress_change(m, G, mean_to_node, Eigen::Vector2d::UnitY());
+            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(0.5 * (K + K.transpose()));
+            Eigen::Vector4d value = modes.eigenvalues().cwiseAbs();
+            value = value.cwiseMax(1e-8 * value.maxCoeff());
+            const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
+            stiffness[size_t(f)] = e.area * (B.transpose() * modes.eigenvectors() * value.asDiagonal() *
+                                             modes.eigenvectors().transpose() * B);
+        });
+        matrix.assemble(stiffness);
+        // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a difference of rank six.
+        const double mean = matrix.diagonal().mean();
+        matrix.add_to_diagonal(0, mean);
+        matrix.add_to_diagonal(1, mean);
+        matrix.add_to_diagonal(matrix.size() - 1, mean);
     }
 
     /// Forces of a sheet at its yield stress all over: what |R| is measured against.
@@ -139,6 +168,22 @@ public:
     }
 
 private:
+    /// Change of M tau g with G (column by column), M = share * to_node + (1 - share) F^T.
+    Eigen::Matrix<double, 2, 4> stress_change(const MembraneForce& m, const Eigen::Matrix2d& G,
+                                              const Eigen::Matrix2d& to_node, const Eigen::Vector2d& g) const
+    {
+        const Eigen::Matrix2d Ft = G.inverse().transpose();
+        const Eigen::Matrix2d M = share_ * to_node + (1 - share_) * Ft;
+        const Eigen::Vector2d pulled = Ft * (m.force * g);
+        Eigen::Matrix<double, 2, 4> change;
+        for (int k = 0; k < 4; ++k) {
+            change.col(k) = M * (m.derivative.col(k).reshaped(2, 2) * g);
+            // dF^T = -F^T dG^T F^T; dG has a single one in row k % 2, column k / 2
+            change.col(k) -= (1 - share_) * Ft.col(k / 2) * pulled[k % 2];
+        }
+        return change;
+    }
+
     NodalFriction nodal_friction(int v, const Eigen::Vector2d& X) const
     {
         NodalFriction out{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
@@ -165,6 +210,7 @@ private:
     NodeFrames frames_;
     Eigen::Matrix3Xd normal_;
     Eigen::VectorXd nodal_traction_;
+    double share_ = 1;
 };
 
 /// Mean translation and rotation of the blank as three orthonormal rows with area weights.
@@ -194,36 +240,104 @@ private:
     Eigen::MatrixX3d rows_;
 };
 
-/// Solves (K + k C C^T) d = -R: the exact tangent with the three soft springs on the rigid motion. A Cholesky factor of the
-/// symmetric part preconditions GMRES; where the symmetric part is not definite, a sparse LU takes its place.
-Eigen::VectorXd newton_direction(const BlockMatrix& K, const RigidMotion& rigid, double spring, const Eigen::VectorXd& R,
-                                 double tolerance, Cholesky& cholesky)
-{
-    const LinearMap A = [&](const Eigen::VectorXd& x) {
-        Eigen::VectorXd y;
-        K.multiply(x, y);
-        return Eigen::VectorXd(y + rigid.rows() * (spring * (rigid.rows().transpose() * x)));
-    };
-    constexpr int most_iterations = 60;
-    BlockMatrix S = K.symmetric_part();
-    const double mean = S.diagonal().mean();
-    // The preconditioner holds the rigid motion at two vertices: GMRES takes the difference to the springs, of rank six.
-    S.add_to_diagonal(0, mean);
-    S.add_to_diagonal(1, mean);
-    S.add_to_diagonal(S.size() - 1, mean);
-    if (cholesky.factor(S)) {
-        const GmresResult solved =
-            gmres(A, [&](const Eigen::VectorXd& x) { return cholesky.solve(x); }, -R, tolerance, most_iterations);
-        if (solved.relative_residual <= tolerance)
-            return solved.x;
+/// Newton's method with a line search on |R|, for a given share of the virtual-work equations.
+class Newton {
+public:
+    Newton(const TriMesh& part, const std::vector<Element>& element, System& system, const Eigen::Matrix2Xd& start,
+           BlockMatrix& tangent, Cholesky& cholesky, const EquilibriumOptions& options, const Progress& progress)
+        : triangle_(part.triangle), system_(system), rigid_(part, element, start), tangent_(tangent),
+          preconditioner_(tangent), cholesky_(cholesky), options_(options), progress_(progress),
+          reference_(system.reference())
+    {
+        system_.tangent(start, tangent_);
+        spring_ = tangent_.diagonal().mean();
     }
-    BlockMatrix pinned = K;
-    pinned.add_to_diagonal(0, mean);
-    pinned.add_to_diagonal(1, mean);
-    pinned.add_to_diagonal(K.size() - 1, mean);
-    const Lu lu(pinned);
-    return gmres(A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations).x;
-}
+
+    EquilibriumResult solve(const Eigen::Matrix2Xd& start, double share, double tolerance)
+    {
+        system_.set_share(share);
+        EquilibriumResult result;
+        result.position = start;
+        Eigen::Matrix2Xd& X = result.position;
+        Eigen::VectorXd R = residual(X);
+        for (int step = 0; step <= options_.most_steps; ++step) {
+            progress_.checkpoint(double(step) / options_.most_steps, "equilibrium step");
+            result.residual = R.norm() / reference_;
+            result.resultant = spring_ * rigid_.moved(X);
+            result.steps.push_back({0, result.residual, 0});
+            if (result.residual <= tolerance) {
+                result.ended = Ended::converged;
+                return result;
+            }
+            if (step == options_.most_steps)
+                break;
+            const Eigen::VectorXd newton = direction_at(X, R, result.residual);
+            const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
+            double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
+            bool decreased = false;
+            for (int halving = 0; halving < 10 && !decreased; ++halving, length *= 0.5) {
+                const Eigen::Matrix2Xd trial = X + length * direction;
+                const Eigen::VectorXd R_trial = residual(trial);
+                if (R_trial.norm() <= (1 - 1e-4 * length) * R.norm()) {
+                    X = trial;
+                    R = R_trial;
+                    result.steps.back().step_length = length;
+                    decreased = true;
+                }
+            }
+            if (!decreased) {
+                result.ended = Ended::stalled;
+                return result;
+            }
+        }
+        return result;
+    }
+
+private:
+    Eigen::VectorXd residual(const Eigen::Matrix2Xd& X) const
+    {
+        return system_.residual(X) + rigid_.rows() * (spring_ * rigid_.moved(X));
+    }
+
+    /// Solves (K + k C C^T) d = -R, the exact tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
+    /// factor of the tangent's definite neighbour preconditions it; where that is not enough, a sparse LU takes its place.
+    Eigen::VectorXd direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, double relative_residual)
+    {
+        constexpr int most_iterations = 60;
+        // Solved only as exactly as Newton's quadratic decrease needs.
+        const double tolerance = std::clamp(0.1 * relative_residual, 1e-10, 1e-3);
+        system_.tangent(X, tangent_);
+        const LinearMap A = [&](const Eigen::VectorXd& x) {
+            Eigen::VectorXd y;
+            tangent_.multiply(x, y);
+            return Eigen::VectorXd(y + rigid_.rows() * (spring_ * (rigid_.rows().transpose() * x)));
+        };
+        system_.definite_tangent(X, preconditioner_);
+        if (cholesky_.factor(preconditioner_)) {
+            const GmresResult solved =
+                gmres(A, [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); }, -R, tolerance, most_iterations);
+            if (solved.relative_residual <= tolerance)
+                return solved.x;
+        }
+        preconditioner_ = tangent_;
+        preconditioner_.add_to_diagonal(0, spring_);
+        preconditioner_.add_to_diagonal(1, spring_);
+        preconditioner_.add_to_diagonal(preconditioner_.size() - 1, spring_);
+        const Lu lu(preconditioner_);
+        return gmres(A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations).x;
+    }
+
+    const Eigen::Matrix3Xi& triangle_;
+    System& system_;
+    RigidMotion rigid_;
+    BlockMatrix& tangent_;
+    BlockMatrix preconditioner_;
+    Cholesky& cholesky_;
+    const EquilibriumOptions& options_;
+    const Progress& progress_;
+    double reference_;
+    double spring_ = 0;
+};
 
 } // namespace
 
@@ -242,54 +356,31 @@ EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Eleme
                                     BlockMatrix& matrix, Cholesky& cholesky, const EquilibriumOptions& options,
                                     const Progress& progress)
 {
-    const System system(part, element, law, h0, friction, node_frames(part, element, start));
-    const RigidMotion rigid(part, element, start);
-    const double reference = system.reference();
-    EquilibriumResult result;
-    result.position = start;
-    Eigen::Matrix2Xd& X = result.position;
-    double spring = 0;
-    const auto total = [&](const Eigen::Matrix2Xd& at) {
-        return Eigen::VectorXd(system.residual(at) + rigid.rows() * (spring * rigid.moved(at)));
-    };
-    Eigen::VectorXd R = total(X);
-    for (int step = 0; step <= options.most_steps; ++step) {
-        progress.checkpoint(double(step) / options.most_steps, "equilibrium step");
-        result.residual = R.norm() / reference;
-        result.resultant = spring * rigid.moved(X);
-        result.steps.push_back({0, result.residual, 0});
-        if (result.residual <= options.tolerance) {
-            result.ended = Ended::converged;
-            return result;
+    System system(part, element, law, h0, friction, node_frames(part, element, start));
+    Newton newton(part, element, system, start, matrix, cholesky, options, progress);
+    EquilibriumResult result = newton.solve(start, 1, options.tolerance);
+    // From far away: pass from the gradient of the energy, whose zero is the start, to the virtual-work equations.
+    constexpr double loose = 1e-4, smallest = 1.0 / 64;
+    Eigen::Matrix2Xd X = start;
+    for (double reached = 0, stride = 0.5; result.ended != Ended::converged && reached < 1;) {
+        const double share = std::min(1.0, reached + stride);
+        EquilibriumResult next = newton.solve(X, share, share < 1 ? loose : options.tolerance);
+        if (getenv("HOM")) fprintf(stderr, "share %.4f ended %d res %.1e steps %zu\n", share, int(next.ended), next.residual, next.steps.size());
+        const bool done = next.ended == Ended::converged;
+        next.steps.insert(next.steps.begin(), result.steps.begin(), result.steps.end());
+        if (done) {
+            X = next.position;
+            reached = share;
+            stride *= 2;
+        } else {
+            stride /= 2;
         }
-        if (step == options.most_steps)
+        if (share == 1 || stride < smallest || !done)
+            result = std::move(next);
+        else
+            result.steps = std::move(next.steps);
+        if (stride < smallest)
             break;
-        system.tangent(X, matrix);
-        if (step == 0) {
-            spring = matrix.diagonal().mean();
-            R = total(X);
-        }
-        // Solve the linear system only as exactly as the quadratic decrease of Newton needs.
-        const double tolerance = std::clamp(0.1 * result.residual, 1e-10, 1e-3);
-        const Eigen::VectorXd newton = newton_direction(matrix, rigid, spring, R, tolerance, cholesky);
-        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
-        double length = std::min(1.0, 0.9 * largest_step(part.triangle, X, direction));
-        bool decreased = false;
-        for (int halving = 0; halving < 12; ++halving, length *= 0.5) {
-            const Eigen::Matrix2Xd trial = X + length * direction;
-            const Eigen::VectorXd R_trial = total(trial);
-            if (R_trial.norm() <= (1 - 1e-4 * length) * R.norm()) {
-                X = trial;
-                R = R_trial;
-                decreased = true;
-                break;
-            }
-        }
-        result.steps.back().step_length = decreased ? length : 0;
-        if (!decreased) {
-            result.ended = Ended::stalled;
-            return result;
-        }
     }
     return result;
 }

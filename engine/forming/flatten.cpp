@@ -104,7 +104,7 @@ EnergyResult energy_stage(const TriMesh& part, const std::vector<Element>& eleme
         curve.continuation_rate = rates[level];
         EnergyOptions energy;
         energy.most_steps = options.most_energy_steps;
-        energy.decrement = last ? 1e-6 : 1e-2;
+        energy.decrement = last ? (getenv("DEC") ? atof(getenv("DEC")) : 1e-3) : 1e-2;
         result = minimise_energy(part.triangle, element, MembraneLaw(options.material, curve), h, X, matrix, cholesky,
                                  energy, progress.part(double(level) / rates.size(), double(level + 1) / rates.size()));
         X = result.position;

@@ -75,6 +75,17 @@ Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<dou
     return blank_corner * element.gradient.transpose();
 }
 
+Eigen::Matrix<double, 4, 6> gradient_operator(const Element& e)
+{
+    Eigen::Matrix<double, 4, 6> B = Eigen::Matrix<double, 4, 6>::Zero();
+    for (int a = 0; a < 3; ++a)
+        for (int k = 0; k < 2; ++k) {
+            B(k, 2 * a + k) = e.gradient(0, a);
+            B(2 + k, 2 * a + k) = e.gradient(1, a);
+        }
+    return B;
+}
+
 Svd2 svd(const Eigen::Matrix2d& G)
 {
     // G = [e+f, g-h; g+h, e-f] is a rotation part (e, h) plus a reflection part (f, g).
@@ -114,7 +125,7 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
     const double stress_per_stretch = -p.deviatoric * log_difference_quotient(s[0], s[1]);
     const double flip = (0.5 * (p.stress[0] + p.stress[1]) - stress_per_stretch * 0.5 * (s[0] + s[1])) / (s[0] * s[1]);
 
-    const double floor = 1e-4 * p.deviatoric / (s[0] * s[0]);
+    const double floor = 1e-8 * p.deviatoric / (s[0] * s[0]);
     second = raised(second, floor);
     const double t = std::max(twist, floor), l = std::max(flip, floor);
     Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
@@ -129,16 +140,16 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
     return out;
 }
 
-MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G)
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G, double coupling)
 {
     const Svd2 d = svd(G);
     const Eigen::Vector2d& s = d.s;
     const PlaneStress p = law(-s.array().log().matrix());
-    const double h = h0 * s[0] * s[1];
+    const double h = coupling == 1 ? h0 * s[0] * s[1] : h0 * std::pow(s[0] * s[1], coupling);
     const Eigen::Vector2d t = h * p.stress;
 
-    // dt_k / d eps_l = h (C_kl - sigma_k), for h = h0 exp(-(eps_1 + eps_2)).
-    const Eigen::Matrix2d dt = h * (p.tangent - p.stress * Eigen::RowVector2d::Ones());
+    // dt_k / d eps_l = h (C_kl - coupling sigma_k), for h = h0 exp(-coupling (eps_1 + eps_2)).
+    const Eigen::Matrix2d dt = h * (p.tangent - coupling * p.stress * Eigen::RowVector2d::Ones());
     // (t_1 - t_2) / (mu_1 - mu_2) with mu = s^2, from eps_1 - eps_2 = -ln(mu_1/mu_2) / 2.
     const double shear = -0.5 * h * p.deviatoric * log_difference_quotient(s[0] * s[0], s[1] * s[1]);
 

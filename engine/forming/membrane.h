@@ -19,6 +19,9 @@ std::vector<Element> elements(const TriMesh& part);
 /// Inverse deformation gradient G = F^-1 = sum over corners of X_a g_a^T. [theory of one-step forming, eqs. 10-12]
 Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<double, 2, 3>& blank_corner);
 
+/// The same as a matrix: from the corners (x_0, y_0, x_1, ...) to G, column by column.
+Eigen::Matrix<double, 4, 6> gradient_operator(const Element& element);
+
 /// Corners of a face in the blank.
 inline Eigen::Matrix<double, 2, 3> corners(const Eigen::Matrix2Xd& X, const Eigen::Vector3i& face)
 {
@@ -52,7 +55,9 @@ struct MembraneForce {
     Eigen::Matrix2d force;
     Eigen::Matrix4d derivative;
 };
-/// @pre det G > 0; @param h0 mm, initial thickness
-MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G);
+/// @pre det G > 0
+/// @param h0        mm, initial thickness
+/// @param coupling  h = h0 (s_1 s_2)^coupling: 1 for the thickness of the formed sheet, 0 holds the initial one
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G, double coupling = 1);
 
 } // namespace spia
