@@ -145,18 +145,19 @@ DevelopablePart perforated_channel(const PerforatedChannel& shape)
 {
     const Profile profile = profile_of(shape.channel);
     const auto middle = [&](int piece) { return (profile.pieces()[piece].from + profile.pieces()[piece].to) / 2; };
-    std::vector<Eigen::Vector2d> holes;
+    std::vector<Circle> holes;
     for (int i = 0; i < shape.holes_per_row; ++i)
         for (int piece : {4, 6, 3}) // top, right wall, left upper bend
-            holes.emplace_back(middle(piece), shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row);
+            holes.push_back({{middle(piece), shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row},
+                             shape.hole_radius});
     const Eigen::Vector2d size(profile.length(), shape.channel.length);
     ParametricMesh rolled = mesh_surface(
-        perforated({0, 0}, size, holes, shape.hole_radius),
+        perforated({0, 0}, size, holes),
         [&](const Eigen::Vector2d& p) {
             const Eigen::Vector2d xz = profile.at(p.x());
             return Eigen::Vector3d(xz.x(), p.y(), xz.y());
         },
-        shape.channel.triangles, edges_around(holes, shape.hole_radius));
+        shape.channel.triangles, edges_around(holes));
     return {std::move(rolled.mesh), std::move(rolled.parameter)};
 }
 

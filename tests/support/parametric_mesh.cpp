@@ -344,6 +344,29 @@ void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter, const Reg
     coarse.mesh.triangle = std::move(fine);
 }
 
+/// The edge of an equilateral triangle.
+double edge_of(double area) { return std::sqrt(4 / std::sqrt(3.0) * area); }
+
+Remesher start(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
+               double spacing)
+{
+    // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go as a whole.
+    while (spacing > region.smallest_feature / 2)
+        spacing /= 2;
+    const PlaneMesh plane = cut_lattice(region, spacing);
+    return Remesher(region, surface, edge, plane.position, plane.triangle, plane.corner);
+}
+
+/// The last touch, without changing numbers.
+void polish(Remesher& remesher)
+{
+    for (int i = 0; i < 3; ++i) {
+        remesher.enlarge_angles();
+        remesher.relax();
+    }
+    remesher.enlarge_angles();
+}
+
 } // namespace
 
 ParametricMesh mesh_surface(const Region& region, const Surface& surface, int triangles,
@@ -359,40 +382,42 @@ ParametricMesh mesh_surface(const Region& region, const Surface& surface, int tr
     const std::function<double(const Vector2d&)> edge = [&](const Vector2d& p) {
         return longest ? std::min(size, longest(p)) : size;
     };
+    const auto attempt = [&](double spacing) { return start(region, surface, edge, spacing); };
 
     const Vector2d box = region.high - region.low;
-    const double box_edge = std::sqrt(4 / std::sqrt(3.0) * box.prod() / first_triangles);
-    const PlaneMesh start = cut_lattice(region, std::min(box_edge, region.smallest_feature / 2));
-    Eigen::Matrix3Xi start_triangle(3, Eigen::Index(start.triangle.size()));
-    for (size_t f = 0; f < start.triangle.size(); ++f)
-        start_triangle.col(Eigen::Index(f)) = start.triangle[f];
-    Remesher remesher(region, surface, edge, start.position, start_triangle, start.corner);
-
+    const double box_edge = edge_of(box.prod() / first_triangles);
+    const Remesher rough = attempt(box_edge);
     double small = 1e-3 * box_edge, large = 1e3 * box_edge;
     for (int i = 0; i < 60; ++i) {
         size = std::sqrt(small * large);
-        (remesher.expected_triangles(edge) > first_triangles ? small : large) = size;
+        (rough.expected_triangles(edge) > first_triangles ? small : large) = size;
     }
-    for (int round = 0; round < 4; ++round) { // after each one, the length is corrected by the number reached
-        for (int i = 0; i < (round == 0 ? 6 : 3); ++i) {
+
+    // Lengths between those that are split and those that are collapsed stay as they are, so the number reached follows the
+    // wanted length only roughly, and an existing mesh not at all: start again with the length corrected.
+    ParametricMesh result;
+    std::vector<int> corners;
+    double least_miss = 1e30, best_size = size;
+    for (int round = 0; round < 5 && least_miss > 0.03; ++round) {
+        Remesher remesher = attempt(size);
+        for (int i = 0; i < 8; ++i) {
             remesher.split_long();
             remesher.collapse_short();
             remesher.even_valences();
             remesher.enlarge_angles();
             remesher.relax();
         }
-        size *= std::sqrt(double(remesher.triangles()) / first_triangles);
-    }
-    const auto polish = [](Remesher& r) {
-        for (int i = 0; i < 3; ++i) {
-            r.enlarge_angles();
-            r.relax();
+        const double ratio = double(remesher.triangles()) / first_triangles;
+        if (std::abs(ratio - 1) < least_miss) {
+            least_miss = std::abs(ratio - 1);
+            best_size = size;
+            polish(remesher);
+            result = remesher.result();
+            corners = remesher.corners();
         }
-        r.enlarge_angles();
-    };
-    polish(remesher);
-    ParametricMesh result = remesher.result();
-    std::vector<int> corners = remesher.corners();
+        size *= std::sqrt(ratio);
+    }
+    size = best_size;
     for (int level = 0; level < levels; ++level) {
         std::vector<Vector2d> parameter;
         quarter(result, parameter, region);

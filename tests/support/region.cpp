@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace spia::shapes {
@@ -66,7 +67,7 @@ Vector2d crossing(const Region& region, Vector2d inside, Vector2d outside)
 /// Keeps what lies inside. A triangle that the boundary crosses leaves a triangle or a quadrangle.
 PlaneMesh clip(Lattice all, const Region& region)
 {
-    PlaneMesh mesh;
+    std::vector<Eigen::Vector3i> kept;
     std::map<std::pair<int, int>, int> cut; // the new vertex on an edge
     const auto cut_vertex = [&](int a, int b) {
         const auto [entry, is_new] = cut.try_emplace(std::minmax(a, b), int(all.position.size()));
@@ -99,17 +100,18 @@ PlaneMesh clip(Lattice all, const Region& region)
         if (polygon.size() == 4 && (x(1) - x(3)).norm() < (x(0) - x(2)).norm())
             std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
         for (size_t k = 2; k < polygon.size(); ++k)
-            mesh.triangle.emplace_back(polygon[0], polygon[k - 1], polygon[k]);
+            kept.emplace_back(polygon[0], polygon[k - 1], polygon[k]);
     }
+    PlaneMesh mesh;
+    mesh.triangle = Eigen::Matrix3Xi::Map(kept.data()->data(), 3, Eigen::Index(kept.size()));
     std::vector<int> renamed(all.position.size(), -1);
-    for (Eigen::Vector3i& t : mesh.triangle)
-        for (int& v : t) {
-            if (renamed[v] < 0) {
-                renamed[v] = int(mesh.position.size());
-                mesh.position.push_back(all.position[v]);
-            }
-            v = renamed[v];
+    for (int& v : mesh.triangle.reshaped()) {
+        if (renamed[v] < 0) {
+            renamed[v] = int(mesh.position.size());
+            mesh.position.push_back(all.position[v]);
         }
+        v = renamed[v];
+    }
     return mesh;
 }
 
@@ -133,8 +135,6 @@ void take_corners(PlaneMesh& mesh, const Region& region, double spacing)
 }
 
 } // namespace
-
-double circle_distance(const Vector2d& p, const Vector2d& centre, double radius) { return (p - centre).norm() - radius; }
 
 double box_distance(const Vector2d& p, const Vector2d& centre, const Vector2d& half_size, double corner_radius)
 {
@@ -170,30 +170,32 @@ Vector2d on_boundary_of(const Region& region, Vector2d p)
     return p;
 }
 
-Region perforated(const Vector2d& low, const Vector2d& high, const std::vector<Vector2d>& holes, double radius)
+Region perforated(const Vector2d& low, const Vector2d& high, const std::vector<Circle>& holes)
 {
     Region region;
     region.distance = [=](const Vector2d& p) {
         double d = box_distance(p, (low + high) / 2, (high - low) / 2, 0);
-        for (const Vector2d& hole : holes)
-            d = std::max(d, -circle_distance(p, hole, radius));
+        for (const Circle& hole : holes)
+            d = std::max(d, -hole.distance(p));
         return d;
     };
     region.low = low;
     region.high = high;
     region.corners = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-    if (!holes.empty())
-        region.smallest_feature = radius;
+    for (const Circle& hole : holes)
+        region.smallest_feature = std::min(region.smallest_feature, hole.radius);
     return region;
 }
 
-std::function<double(const Vector2d&)> edges_around(const std::vector<Vector2d>& holes, double radius)
+std::function<double(const Vector2d&)> edges_around(const std::vector<Circle>& holes)
 {
     return [=](const Vector2d& p) {
-        double away = 1e30;
-        for (const Vector2d& hole : holes)
-            away = std::min(away, (p - hole).norm());
-        return 2 * 3.14159 / 10 * radius + 0.4 * std::max(0.0, away - radius);
+        double longest = 1e30;
+        for (const Circle& hole : holes) {
+            const double at_hole = 2 * std::numbers::pi / 8 * hole.radius;
+            longest = std::min(longest, at_hole + 0.6 * std::max(0.0, hole.distance(p)));
+        }
+        return longest;
     };
 }
 

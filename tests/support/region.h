@@ -17,7 +17,6 @@ struct Region {
 
 /// @name Signed distances, negative inside
 ///@{
-double circle_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, double radius);
 double box_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, const Eigen::Vector2d& half_size,
                     double corner_radius);
 double capsule_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius);
@@ -28,17 +27,23 @@ double rounded_intersection(double a, double b, double radius);
 /// The nearest point with distance zero, by Newton steps along the gradient.
 Eigen::Vector2d on_boundary_of(const Region& region, Eigen::Vector2d p);
 
-/// A rectangle with round holes.
-Region perforated(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const std::vector<Eigen::Vector2d>& holes,
-                  double radius);
+struct Circle {
+    Eigen::Vector2d centre;
+    double radius; ///< mm
 
-/// An upper limit of the edge length, mm: ten edges around each hole, growing with the distance to it.
-std::function<double(const Eigen::Vector2d&)> edges_around(const std::vector<Eigen::Vector2d>& holes, double radius);
+    double distance(const Eigen::Vector2d& p) const { return (p - centre).norm() - radius; } ///< negative inside
+};
+
+/// A rectangle with round holes.
+Region perforated(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const std::vector<Circle>& holes);
+
+/// An upper limit of the edge length, mm: eight edges around each hole, growing with the distance to it.
+std::function<double(const Eigen::Vector2d&)> edges_around(const std::vector<Circle>& holes);
 
 struct PlaneMesh {
     std::vector<Eigen::Vector2d> position;
-    std::vector<Eigen::Vector3i> triangle;  ///< counter-clockwise
-    std::vector<int> corner;                ///< the vertex at each of the region's corners
+    Eigen::Matrix3Xi triangle; ///< 3 by #F, counter-clockwise
+    std::vector<int> corner;   ///< the vertex at each of the region's corners
 };
 
 /// A lattice of equilateral triangles, cut along the boundary of the region. Its triangles at the boundary may be thin.

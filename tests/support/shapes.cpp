@@ -43,13 +43,20 @@ TriMesh rectangle(double width, double height, int columns, int rows)
     return mesh;
 }
 
-double Plate::area() const { return width * height - double(holes.size()) * pi * hole_radius * hole_radius; }
+double Plate::area() const
+{
+    double area = width * height;
+    for (const Circle& hole : holes)
+        area -= pi * hole.radius * hole.radius;
+    return area;
+}
 
 TriMesh plate(const Plate& shape)
 {
-    const Region region = perforated({0, 0}, {shape.width, shape.height}, shape.holes, shape.hole_radius);
     const auto plane = [](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), 0); };
-    return mesh_surface(region, plane, shape.triangles, edges_around(shape.holes, shape.hole_radius)).mesh;
+    return mesh_surface(perforated({0, 0}, {shape.width, shape.height}, shape.holes), plane, shape.triangles,
+                        edges_around(shape.holes))
+        .mesh;
 }
 
 TriMesh saddle(const Saddle& shape)

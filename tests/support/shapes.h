@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Core>
 #include <vector>
 
 #include "engine/mesh/tri_mesh.h"
+#include "tests/support/region.h"
 
 /// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h, square_cup.h,
 /// developable.h, inner_panel.h, fender.h.
@@ -14,8 +14,7 @@ TriMesh rectangle(double width, double height, int columns, int rows);
 /// A flat rectangle with round holes, its lower left corner in the origin.
 struct Plate {
     double width = 120, height = 80; ///< mm
-    std::vector<Eigen::Vector2d> holes = {{35, 40}, {85, 40}};
-    double hole_radius = 12; ///< mm
+    std::vector<Circle> holes = {{{35, 40}, 12}, {{85, 40}, 12}};
     int triangles = 4000;
 
     double area() const;

@@ -26,7 +26,7 @@ TEST(Shapes, BoundaryOfAPlateLiesOnItsRectangleAndCircles)
 {
     const Plate shape;
     const TriMesh mesh = plate(shape);
-    const Region region = perforated({0, 0}, {shape.width, shape.height}, shape.holes, shape.hole_radius);
+    const Region region = perforated({0, 0}, {shape.width, shape.height}, shape.holes);
     for (const auto& loop : boundary_loops(mesh))
         for (int v : loop)
             EXPECT_LT(std::abs(region.distance(mesh.position.col(v).head<2>())), 1e-9);
