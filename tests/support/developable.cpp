@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/support/parametric_mesh.h"
 #include "tests/support/profile.h"
 
 namespace spia::shapes {
@@ -84,6 +85,21 @@ DevelopablePart extruded(const Profile& profile, double length, int triangles)
     });
 }
 
+Profile profile_of(const HatChannel& shape)
+{
+    const double angle = shape.angle_deg * pi / 180;
+    return Profile({0, 0}, 0)
+        .straight(shape.flange)
+        .bend(shape.radius, angle)
+        .straight(shape.wall)
+        .bend(shape.radius, -angle)
+        .straight(shape.top)
+        .bend(shape.radius, -angle)
+        .straight(shape.wall)
+        .bend(shape.radius, angle)
+        .straight(shape.flange);
+}
+
 } // namespace
 
 DevelopablePart quarter_cylinder(const QuarterCylinder& shape)
@@ -114,18 +130,7 @@ DevelopablePart cone_sector(const ConeSector& shape)
 
 DevelopablePart hat_channel(const HatChannel& shape)
 {
-    const double angle = shape.angle_deg * pi / 180;
-    const Profile profile = Profile({0, 0}, 0)
-                                .straight(shape.flange)
-                                .bend(shape.radius, angle)
-                                .straight(shape.wall)
-                                .bend(shape.radius, -angle)
-                                .straight(shape.top)
-                                .bend(shape.radius, -angle)
-                                .straight(shape.wall)
-                                .bend(shape.radius, angle)
-                                .straight(shape.flange);
-    return extruded(profile, shape.length, shape.triangles);
+    return extruded(profile_of(shape), shape.length, shape.triangles);
 }
 
 DevelopablePart lipped_channel(const LippedChannel& shape)
@@ -134,6 +139,26 @@ DevelopablePart lipped_channel(const LippedChannel& shape)
     for (double flat : {shape.lip, shape.flange, shape.wall, shape.top, shape.wall, shape.flange})
         profile.straight(flat).bend(shape.radius, -pi / 2);
     return extruded(profile.straight(shape.lip), shape.length, shape.triangles);
+}
+
+DevelopablePart perforated_channel(const PerforatedChannel& shape)
+{
+    const Profile profile = profile_of(shape.channel);
+    const auto middle = [&](int piece) { return (profile.pieces()[piece].from + profile.pieces()[piece].to) / 2; };
+    std::vector<Circle> holes;
+    for (int i = 0; i < shape.holes_per_row; ++i)
+        for (int piece : {4, 6, 3}) // top, right wall, left upper bend
+            holes.push_back({{middle(piece), shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row},
+                             shape.hole_radius});
+    const Eigen::Vector2d size(profile.length(), shape.channel.length);
+    ParametricMesh rolled = mesh_surface(
+        perforated({0, 0}, size, holes),
+        [&](const Eigen::Vector2d& p) {
+            const Eigen::Vector2d xz = profile.at(p.x());
+            return Eigen::Vector3d(xz.x(), p.y(), xz.y());
+        },
+        shape.channel.triangles, edges_around(holes));
+    return {std::move(rolled.mesh), std::move(rolled.parameter)};
 }
 
 } // namespace spia::shapes

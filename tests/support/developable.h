@@ -56,4 +56,14 @@ struct LippedChannel {
 };
 DevelopablePart lipped_channel(const LippedChannel& shape = {});
 
+/// A hat channel with a row of round holes in its top, in one wall and across one of its upper bends. The triangles were
+/// laid out flat around the holes and then rolled up, so edges cross the generators: unlike the parts above it is isometric
+/// to `flat` only up to the error of a chord, of second order in the edge length.
+struct PerforatedChannel {
+    HatChannel channel;      ///< its `triangles` is the number here, too
+    double hole_radius = 7;  ///< mm, in the flat sheet
+    int holes_per_row = 3;   ///< rows: top, right wall, left upper bend
+};
+DevelopablePart perforated_channel(const PerforatedChannel& shape = {});
+
 } // namespace spia::shapes

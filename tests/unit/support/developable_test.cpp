@@ -70,5 +70,25 @@ TEST(Developable, ChannelsEndFlatAgain)
     EXPECT_NEAR(size.z(), 40 + 2 * 6, 1e-9);
 }
 
+TEST(Developable, PerforatedChannelIsIsometricUpToTheChordError)
+{
+    std::vector<double> h, error;
+    for (int n : {4000, 16000, 64000}) {
+        const DevelopablePart part = perforated_channel({.channel = {.triangles = n}});
+        expect_count(part.mesh, n);
+        expect_topology(part.mesh, 10, -8);
+        expect_well_shaped(part.mesh, 0, 20);
+        TriMesh flat = part.mesh;
+        flat.position.topRows(2) = part.flat;
+        flat.position.row(2).setZero();
+        EXPECT_GT(least_upward(flat), 0) << "a flat triangle is turned over";
+        const Eigen::ArrayXd in_plane = edge_lengths(flat);
+        EXPECT_TRUE((edge_lengths(part.mesh).array() <= in_plane + 1e-9).all()) << "a chord is longer than its arc";
+        h.push_back(mean_edge(part.mesh));
+        error.push_back((1 - edge_lengths(part.mesh).array() / in_plane).maxCoeff());
+    }
+    EXPECT_NEAR(convergence_order(h, error), 2, 0.3);
+}
+
 } // namespace
 } // namespace spia::shapes

@@ -38,7 +38,7 @@ inline void expect_well_shaped(const TriMesh& mesh, double share, double least_d
     EXPECT_GE(angle.minCoeff(), least_deg);
 }
 
-/// The largest area of |F| projected against z that any face shows: 0 for a height field without vertical faces.
+/// The least z of the faces' unit normals: positive for a height field, 0 with vertical walls, negative with undercuts.
 inline double least_upward(const TriMesh& mesh)
 {
     const Eigen::Matrix3Xd normal = area_vectors(mesh).colwise().normalized();
