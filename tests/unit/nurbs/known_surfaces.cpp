@@ -1,0 +1,82 @@
+#include "tests/unit/nurbs/known_surfaces.h"
+
+#include <cmath>
+
+namespace spia::surfaces
+{
+
+QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double s, double t)>& place)
+{
+    QuadGrid grid;
+    grid.columns = columns;
+    grid.rows = rows;
+    grid.position.resize(3, grid.nodes());
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i)
+            grid.position.col(grid.node(i, j)) = place(double(i) / columns, double(j) / rows);
+    return grid;
+}
+
+NurbsSurface quarter_cylinder(double radius, double length)
+{
+    NurbsSurface s;
+    s.degree_u = 2;
+    s.degree_v = 1;
+    s.count_u = 3;
+    s.count_v = 2;
+    s.knots_u = {0, 0, 0, 1, 1, 1};
+    s.knots_v = {0, 0, 1, 1};
+    s.control.resize(3, 6);
+    s.weight.resize(6);
+    for (int j = 0; j < 2; ++j) {
+        s.control.col(s.index(0, j)) << 0, j * length, radius;
+        s.control.col(s.index(1, j)) << radius, j * length, radius;
+        s.control.col(s.index(2, j)) << radius, j * length, 0;
+        for (int i = 0; i < 3; ++i)
+            s.weight[s.index(i, j)] = i == 1 ? std::sqrt(0.5) : 1;
+    }
+    return s;
+}
+
+NurbsSurface sphere_patch(double radius)
+{
+    // A quarter of the unit circle about the first axis, and its weights.
+    const double c = std::sqrt(0.5);
+    const double along[3] = {c, 1 / c, c}, across[3] = {-c, 0, c}, weight[3] = {1, c, 1};
+    NurbsSurface s;
+    s.degree_u = s.degree_v = 2;
+    s.count_u = s.count_v = 3;
+    s.knots_u = s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.control.resize(3, 9);
+    s.weight.resize(9);
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) { // the meridian's point j runs around the z axis
+            s.control.col(s.index(i, j)) << radius * along[j] * along[i], radius * along[j] * across[i],
+                radius * across[j];
+            s.weight[s.index(i, j)] = weight[i] * weight[j];
+        }
+    return s;
+}
+
+NurbsSurface crooked()
+{
+    NurbsSurface s;
+    s.degree_u = 3;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 0, 0, 0.2, 0.55, 0.55, 1, 1, 1, 1};
+    s.knots_v = {0, 0, 0, 0.3, 0.4, 1, 1, 1};
+    s.count_u = 7;
+    s.count_v = 5;
+    s.control.resize(3, 35);
+    s.weight.resize(35);
+    for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 7; ++i) {
+            const int c = s.index(i, j);
+            s.control.col(c) << 10 * i + 2 * std::sin(3. * c), 12 * j + 2 * std::cos(5. * c),
+                8 * std::sin(2. * i + j);
+            s.weight[c] = 1 + 0.5 * std::sin(7. * c);
+        }
+    return s;
+}
+
+} // namespace spia::surfaces
