@@ -1,4 +1,4 @@
-#include <chrono>
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -212,6 +212,16 @@ TEST(Iges, LinesHave80ColumnsAndTheEntitiesAreUntrimmed128)
     ASSERT_EQ(read.size(), 2u);
     expect_same(read[0], patches[0]);
     expect_same(read[1], patches[1]);
+}
+
+TEST(Step, NamesBeyondAsciiAreEncodedAsTheStandardSays)
+{
+    const ScratchFolder folder;
+    write_step(folder / "s.step", samples::curved_surface(500, false), "T\xc3\xbcr \xf0\x9f\x9a\x97 o'clock");
+    const std::string file = content_of(folder / "s.step");
+    EXPECT_NE(file.find(R"(PRODUCT('T\X2\00FC\X0\r \X4\0001F697\X0\ o''clock')"), std::string::npos)
+        << file.substr(0, 2000);
+    EXPECT_TRUE(std::all_of(file.begin(), file.end(), [](unsigned char c) { return c < 128; }));
 }
 
 TEST(Step, PatchesThatMeetShareTheirEdgeInOneOpenShell)
