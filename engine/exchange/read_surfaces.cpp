@@ -1,0 +1,124 @@
+#include "engine/exchange/read_surfaces.h"
+
+#include <BRep_Tool.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <fmt/core.h>
+#include <fstream>
+#include <sstream>
+
+#include "engine/core/error.h"
+#include "engine/exchange/occt_session.h"
+#include "engine/exchange/occt_surface.h"
+
+namespace spia
+{
+namespace
+{
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why)
+{
+    throw ExchangeError(fmt::format("cannot read {}: {}; export it again", path.string(), why));
+}
+
+std::string whole_file(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path))
+        refuse(path, "it cannot be opened");
+    std::ostringstream content;
+    content << file.rdbuf();
+    return std::move(content).str();
+}
+
+/// OpenCASCADE reads what there is of a file that was cut short, so its end mark is looked for here.
+void require_step_end(const std::filesystem::path& path)
+{
+    if (whole_file(path).find("END-ISO-10303-21;") == std::string::npos)
+        refuse(path, "it is no STEP file or was cut short (END-ISO-10303-21 is missing)");
+}
+
+/// The last line of an IGES file, letter T in column 73, counts the lines of the sections S, G, D and P.
+void require_iges_end(const std::filesystem::path& path)
+{
+    std::istringstream content(whole_file(path));
+    int lines_of[128] = {};
+    std::string line, terminate;
+    while (std::getline(content, line))
+        if (line.size() >= 73) {
+            ++lines_of[line[72] & 127];
+            if (line[72] == 'T')
+                terminate = line;
+        }
+    int s, g, d, p;
+    if (std::sscanf(terminate.c_str(), "S%7dG%7dD%7dP%7d", &s, &g, &d, &p) != 4)
+        refuse(path, "it is no IGES file or was cut short (the terminate section is missing)");
+    if (s != lines_of[int('S')] || g != lines_of[int('G')] || d != lines_of[int('D')] ||
+        p != lines_of[int('P')])
+        refuse(path, "lines are missing (the terminate section counts others than there are)");
+}
+
+NurbsSurface surface_under(const TopoDS_Face& face, int number)
+{
+    Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+    if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !trimmed.IsNull())
+        surface = trimmed->BasisSurface();
+    const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
+    if (spline.IsNull())
+        throw InputError(fmt::format(
+            "face {} of the file is a {}, not a B-spline surface; import the file as a part instead", number,
+            surface->DynamicType()->Name()));
+    return from_occt(*spline);
+}
+
+std::vector<NurbsSurface> surfaces_of(XSControl_Reader& reader, const std::filesystem::path& path)
+{
+    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+        refuse(path, "OpenCASCADE finds no model in it");
+    const Interface_CheckIterator checks = reader.WS()->ModelCheckList();
+    if (checks.Status() == Interface_CheckFail)
+        refuse(path, "OpenCASCADE finds it damaged");
+    reader.TransferRoots();
+    std::vector<NurbsSurface> surfaces;
+    for (TopExp_Explorer face(reader.OneShape(), TopAbs_FACE); face.More(); face.Next())
+        surfaces.push_back(surface_under(TopoDS::Face(face.Current()), int(surfaces.size())));
+    if (surfaces.empty())
+        refuse(path, "it holds no face");
+    return surfaces;
+}
+
+template <class Reader> std::vector<NurbsSurface> read(const std::filesystem::path& path)
+{
+    const OcctSession session;
+    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+    try {
+        Reader reader;
+        return surfaces_of(reader, path);
+    } catch (const Standard_Failure& failure) {
+        refuse(path, fmt::format("OpenCASCADE says \"{}\"", failure.GetMessageString()));
+    }
+}
+
+} // namespace
+
+std::vector<NurbsSurface> read_iges_surfaces(const std::filesystem::path& path)
+{
+    require_iges_end(path);
+    return read<IGESControl_Reader>(path);
+}
+
+std::vector<NurbsSurface> read_step_surfaces(const std::filesystem::path& path)
+{
+    require_step_end(path);
+    return read<STEPControl_Reader>(path);
+}
+
+} // namespace spia

@@ -1,0 +1,68 @@
+#include "engine/exchange/sheet_field_list.h"
+
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+
+namespace spia
+{
+
+std::vector<NamedField> forming_fields(const SheetFields& fields)
+{
+    return {{"thickness", &fields.thickness},
+            {"thinning", &fields.thinning},
+            {"strain_major", &fields.strain_major},
+            {"strain_minor", &fields.strain_minor},
+            {"strain_equivalent", &fields.strain_equivalent}};
+}
+
+std::vector<NamedField> stress_fields(const SheetFields& fields)
+{
+    return {{"stress_major", &fields.stress_major},
+            {"stress_minor", &fields.stress_minor},
+            {"stress_equivalent", &fields.stress_equivalent}};
+}
+
+void require_blank_of(const TriMesh& part, const Blank& blank)
+{
+    if (part.triangles() == 0)
+        throw InputError("there is no part to write; read one first");
+    if (blank.position.cols() != part.position.cols())
+        throw InputError(
+            fmt::format("the blank has {} vertices, the part {}; flatten this part again before writing it",
+                        blank.position.cols(), part.position.cols()));
+    for (int v = 0; v < part.vertices(); ++v)
+        if (!part.position.col(v).allFinite() || !blank.position.col(v).allFinite())
+            throw InputError(
+                fmt::format("vertex {} has a coordinate that is not a number; flatten the part again", v));
+    if (part.triangle.minCoeff() < 0 || part.triangle.maxCoeff() >= part.vertices())
+        throw InputError("a face of the part names a vertex that is not there; read the part again");
+}
+
+void require_finite(const NamedField& field, int count, const char* per)
+{
+    if (field.value->size() != count)
+        throw InputError(fmt::format("field {} has {} values for {} ({} each); flatten the part again",
+                                     field.name, field.value->size(), count, per));
+    for (int i = 0; i < count; ++i)
+        if (!std::isfinite((*field.value)[i]))
+            throw InputError(
+                fmt::format("{} of {} {} is not a number; flatten the part again", field.name, per, i));
+}
+
+void require_fields(const SheetFields& fields, int count, const char* per)
+{
+    for (const NamedField& field : forming_fields(fields))
+        require_finite(field, count, per);
+    for (const NamedField& field : stress_fields(fields))
+        require_finite(field, count, per);
+    if (fields.direction_major.cols() != count || fields.necking.size() != count ||
+        !fields.direction_major.allFinite())
+        throw InputError(
+            fmt::format("direction_major or necking does not have {} finite values (one per {}); "
+                        "flatten the part again",
+                        count, per));
+}
+
+} // namespace spia

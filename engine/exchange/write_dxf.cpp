@@ -1,0 +1,212 @@
+#include "engine/exchange/write_dxf.h"
+
+#include <fmt/format.h>
+#include <iterator>
+
+#include "engine/exchange/atomic_file.h"
+
+namespace spia
+{
+namespace
+{
+
+/// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those
+/// of the fixed objects are below 0x100.
+class DxfText
+{
+public:
+    DxfText& operator()(int code, const char* value) { return line(code, value); }
+    DxfText& operator()(int code, int value) { return line(code, value); }
+    DxfText& operator()(int code, double value) { return line(code, fmt::format("{:#.17g}", value)); }
+    DxfText& point(int code, const Eigen::Vector2d& p) { return (*this)(code, p.x())(code + 10, p.y()); }
+    DxfText& handle(int code, int value) { return line(code, fmt::format("{:X}", value)); }
+
+    void begin_section(const char* name) { (*this)(0, "SECTION")(2, name); }
+    void end_section() { (*this)(0, "ENDSEC"); }
+
+    void begin_table(const char* name, int table, int entries)
+    {
+        (*this)(0, "TABLE")(2, name).handle(5, table).handle(330, 0)(100, "AcDbSymbolTable")(70, entries);
+    }
+    DxfText& entry(const char* type, const char* subclass, int own, int table, const char* name,
+                   int flags = 0)
+    {
+        (*this)(0, type).handle(5, own).handle(330, table)(100, "AcDbSymbolTableRecord")(100, subclass)(2,
+                                                                                                        name);
+        return (*this)(70, flags);
+    }
+    void end_table() { (*this)(0, "ENDTAB"); }
+
+    const std::string& text() const { return text_; }
+
+private:
+    template <class Value> DxfText& line(int code, const Value& value)
+    {
+        fmt::format_to(std::back_inserter(text_), "{:3}\n{}\n", code, value);
+        return *this;
+    }
+    std::string text_;
+};
+
+enum : int {
+    vports = 0x1,
+    ltypes,
+    layers,
+    styles,
+    views,
+    ucss,
+    appids,
+    dimstyles,
+    block_records,
+    root_dictionary = 0x10,
+    group_dictionary,
+    model_space = 0x20,
+    model_block,
+    model_end,
+    paper_space,
+    paper_block,
+    paper_end,
+    by_block = 0x30,
+    by_layer,
+    continuous,
+    layer_0,
+    layer_outline,
+    layer_holes,
+    standard_style,
+    acad,
+    standard_dimstyle,
+    active,
+    first_entity = 0x100,
+};
+
+struct Extent {
+    Eigen::Vector2d low, high;
+};
+
+Extent extent_of(const std::vector<OutlineLoop>& loops)
+{
+    Extent extent{loops[0].rowwise().minCoeff(), loops[0].rowwise().maxCoeff()};
+    for (const OutlineLoop& loop : loops) {
+        extent.low = extent.low.cwiseMin(loop.rowwise().minCoeff());
+        extent.high = extent.high.cwiseMax(loop.rowwise().maxCoeff());
+    }
+    return extent;
+}
+
+void write_header(DxfText& dxf, const Extent& extent, int next_handle)
+{
+    dxf.begin_section("HEADER");
+    dxf(9, "$ACADVER")(1, "AC1015")(9, "$DWGCODEPAGE")(3, "ANSI_1252");
+    dxf(9, "$INSUNITS")(70, 4)(9, "$MEASUREMENT")(70, 1); // millimetres, metric
+    dxf(9, "$EXTMIN").point(10, extent.low)(30, 0.0)(9, "$EXTMAX").point(10, extent.high)(30, 0.0);
+    dxf(9, "$HANDSEED").handle(5, next_handle);
+    dxf.end_section();
+}
+
+void write_tables(DxfText& dxf, const Extent& extent)
+{
+    dxf.begin_section("CLASSES");
+    dxf.end_section();
+    dxf.begin_section("TABLES");
+    dxf.begin_table("VPORT", vports, 1);
+    const Eigen::Vector2d centre = (extent.low + extent.high) / 2, size = extent.high - extent.low;
+    dxf.entry("VPORT", "AcDbViewportTableRecord", active, vports, "*Active")
+        .point(10, {0, 0})
+        .point(11, {1, 1})
+        .point(12, centre)(40, 1.1 * std::max(size.y(), size.x() / 1.5))(41, 1.5);
+    dxf.end_table();
+    dxf.begin_table("LTYPE", ltypes, 3);
+    for (const auto& [own, name] :
+         {std::pair{by_block, "ByBlock"}, {by_layer, "ByLayer"}, {continuous, "Continuous"}})
+        dxf.entry("LTYPE", "AcDbLinetypeTableRecord", own, ltypes, name)(3, "")(72, 65)(73, 0)(40, 0.0);
+    dxf.end_table();
+    dxf.begin_table("LAYER", layers, 3);
+    for (const auto& [own, name, colour] :
+         {std::tuple{layer_0, "0", 7}, {layer_outline, "OUTLINE", 7}, {layer_holes, "HOLES", 1}})
+        dxf.entry("LAYER", "AcDbLayerTableRecord", own, layers, name)(62, colour)(6, "Continuous");
+    dxf.end_table();
+    dxf.begin_table("STYLE", styles, 1);
+    dxf.entry("STYLE", "AcDbTextStyleTableRecord", standard_style, styles,
+              "Standard")(40, 0.0)(41, 1.0)(50, 0.0)(71, 0)(42, 2.5)(3, "txt")(4, "");
+    dxf.end_table();
+    dxf.begin_table("VIEW", views, 0);
+    dxf.end_table();
+    dxf.begin_table("UCS", ucss, 0);
+    dxf.end_table();
+    dxf.begin_table("APPID", appids, 1);
+    dxf.entry("APPID", "AcDbRegAppTableRecord", acad, appids, "ACAD");
+    dxf.end_table();
+    dxf.begin_table("DIMSTYLE", dimstyles, 1);
+    dxf(100, "AcDbDimStyleTable");
+    dxf(0, "DIMSTYLE")
+        .handle(105, standard_dimstyle)
+        .handle(330, dimstyles); // the one entry whose handle has code 105
+    dxf(100, "AcDbSymbolTableRecord")(100, "AcDbDimStyleTableRecord")(2, "Standard")(70, 0);
+    dxf.end_table();
+    dxf.begin_table("BLOCK_RECORD", block_records, 2);
+    for (const auto& [own, name] : {std::pair{model_space, "*Model_Space"}, {paper_space, "*Paper_Space"}})
+        dxf(0, "BLOCK_RECORD")
+            .handle(5, own)
+            .handle(330, block_records)(100, "AcDbSymbolTableRecord")(100, "AcDbBlockTableRecord")(2, name);
+    dxf.end_table();
+    dxf.end_section();
+}
+
+void write_blocks(DxfText& dxf)
+{
+    dxf.begin_section("BLOCKS");
+    for (const auto& [record, begin, end, name] :
+         {std::tuple{model_space, model_block, model_end, "*Model_Space"},
+          {paper_space, paper_block, paper_end, "*Paper_Space"}}) {
+        dxf(0, "BLOCK")
+            .handle(5, begin)
+            .handle(330, record)(100, "AcDbEntity")(8, "0")(100, "AcDbBlockBegin")(2, name)(70, 0);
+        dxf.point(10, {0, 0})(30, 0.0)(3, name)(1, "");
+        dxf(0, "ENDBLK").handle(5, end).handle(330, record)(100, "AcDbEntity")(8, "0")(100, "AcDbBlockEnd");
+    }
+    dxf.end_section();
+}
+
+void write_loops(DxfText& dxf, const std::vector<OutlineLoop>& loops)
+{
+    constexpr int closed = 1;
+    dxf.begin_section("ENTITIES");
+    for (size_t i = 0; i < loops.size(); ++i) {
+        dxf(0, "LWPOLYLINE").handle(5, first_entity + int(i)).handle(330, model_space)(100, "AcDbEntity");
+        dxf(8, i == 0 ? "OUTLINE" : "HOLES")(100, "AcDbPolyline")(90, int(loops[i].cols()))(70, closed);
+        for (const auto point : loops[i].colwise())
+            dxf.point(10, point);
+    }
+    dxf.end_section();
+}
+
+void write_objects(DxfText& dxf)
+{
+    dxf.begin_section("OBJECTS");
+    dxf(0, "DICTIONARY")
+        .handle(5, root_dictionary)
+        .handle(330, 0)(100, "AcDbDictionary")(281, 1)(3, "ACAD_GROUP")
+        .handle(350, group_dictionary);
+    dxf(0, "DICTIONARY")
+        .handle(5, group_dictionary)
+        .handle(330, root_dictionary)(100, "AcDbDictionary")(281, 1);
+    dxf.end_section();
+}
+
+} // namespace
+
+void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops)
+{
+    require_outline(loops);
+    const Extent extent = extent_of(loops);
+    DxfText dxf;
+    write_header(dxf, extent, first_entity + int(loops.size()));
+    write_tables(dxf, extent);
+    write_blocks(dxf);
+    write_loops(dxf, loops);
+    write_objects(dxf);
+    dxf(0, "EOF");
+    write_atomically(path, dxf.text());
+}
+
+} // namespace spia

@@ -1,0 +1,146 @@
+#include "engine/exchange/write_vtu.h"
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <fmt/core.h>
+
+#include "engine/exchange/atomic_file.h"
+#include "engine/exchange/provenance.h"
+
+namespace spia
+{
+namespace
+{
+
+static_assert(std::endian::native == std::endian::little, "the file says LittleEndian");
+
+std::string escaped(const std::string& text)
+{
+    std::string result;
+    for (const char c : text)
+        switch (c) {
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += c;
+        }
+    return result;
+}
+
+std::string base64(const std::string& bytes)
+{
+    constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string result;
+    result.reserve((bytes.size() + 2) / 3 * 4);
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        const size_t given = std::min<size_t>(3, bytes.size() - i);
+        uint32_t triple = 0;
+        for (size_t k = 0; k < 3; ++k)
+            triple = triple << 8 | (k < given ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (size_t k = 0; k < 4; ++k)
+            result += k <= given ? letters[triple >> (18 - 6 * k) & 63] : '=';
+    }
+    return result;
+}
+
+template <class Number> constexpr const char* vtk_type();
+template <> constexpr const char* vtk_type<double>()
+{
+    return "Float64";
+}
+template <> constexpr const char* vtk_type<int32_t>()
+{
+    return "Int32";
+}
+template <> constexpr const char* vtk_type<int64_t>()
+{
+    return "Int64";
+}
+template <> constexpr const char* vtk_type<uint8_t>()
+{
+    return "UInt8";
+}
+
+/// Column after column, preceded by its length in bytes.
+template <class Matrix> std::string array(const std::string& name, const Matrix& values, int components = 1)
+{
+    using Number = typename Matrix::Scalar;
+    const uint64_t length = uint64_t(values.size()) * sizeof(Number);
+    std::string bytes(sizeof length + length, '\0');
+    std::memcpy(bytes.data(), &length, sizeof length);
+    std::memcpy(bytes.data() + sizeof length, values.data(), length);
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
+        vtk_type<Number>(), escaped(name), components, base64(bytes));
+}
+
+std::string sheet_fields(const SheetFields& fields)
+{
+    std::string result;
+    for (const NamedField& field : forming_fields(fields))
+        result += array(field.name, *field.value);
+    for (const NamedField& field : stress_fields(fields))
+        result += array(field.name, *field.value);
+    return result + array("direction_major", fields.direction_major, 3) + array("necking", fields.necking);
+}
+
+std::string blank_fields(const TriMesh& part, const Blank& blank)
+{
+    const Eigen::VectorXd x = blank.position.row(0), y = blank.position.row(1);
+    Eigen::Matrix3Xd displacement = -part.position;
+    displacement.topRows(2) += blank.position;
+    return array("blank_x", x) + array("blank_y", y) + array("displacement_to_blank", displacement, 3);
+}
+
+std::string cells(const TriMesh& part)
+{
+    using Eigen::Dynamic;
+    constexpr uint8_t vtk_triangle = 5;
+    const int count = part.triangles();
+    Eigen::Matrix<int64_t, Dynamic, 1> offset(count);
+    for (int f = 0; f < count; ++f)
+        offset[f] = 3 * int64_t(f + 1);
+    const Eigen::Matrix<uint8_t, Dynamic, 1> type =
+        Eigen::Matrix<uint8_t, Dynamic, 1>::Constant(count, vtk_triangle);
+    return array("connectivity", part.triangle) + array("offsets", offset) + array("types", type);
+}
+
+} // namespace
+
+void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
+               const SheetFields& face_fields, const SheetFields& node_fields,
+               std::span<const NamedField> extra)
+{
+    require_blank_of(part, blank);
+    require_fields(face_fields, part.triangles(), "face");
+    require_fields(node_fields, part.vertices(), "vertex");
+    std::string point_data = sheet_fields(node_fields) + blank_fields(part, blank);
+    for (const NamedField& field : extra) {
+        require_finite(field, part.vertices(), "vertex");
+        point_data += array(field.name, *field.value);
+    }
+    write_atomically(
+        path,
+        fmt::format("<?xml version=\"1.0\"?>\n<!-- {} : lengths mm, stresses MPa, strains logarithmic -->\n"
+                    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                    "header_type=\"UInt64\">\n"
+                    "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+                    "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
+                    "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
+                    "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+                    program_name(), part.vertices(), part.triangles(), point_data, sheet_fields(face_fields),
+                    array("Points", part.position, 3), cells(part)));
+}
+
+} // namespace spia

@@ -1,0 +1,110 @@
+#include "engine/exchange/atomic_file.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "engine/core/error.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia
+{
+namespace
+{
+
+/// As long as it lives, no file may grow beyond a few bytes: a full disk that needs no disk.
+class TinyDisk
+{
+public:
+    explicit TinyDisk(rlim_t bytes)
+    {
+        ::getrlimit(RLIMIT_FSIZE, &old_);
+        old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit small{bytes, old_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~TinyDisk()
+    {
+        ::setrlimit(RLIMIT_FSIZE, &old_);
+        std::signal(SIGXFSZ, old_handler_);
+    }
+
+private:
+    rlimit old_;
+    void (*old_handler_)(int);
+};
+
+} // namespace
+
+TEST(AtomicFile, WhatWasWrittenIsReadAndNothingElseIsLeft)
+{
+    const ScratchFolder folder;
+    const std::string content("a\0b\r\nc", 6);
+    write_atomically(folder / "x.bin", content);
+    EXPECT_EQ(content_of(folder / "x.bin"), content);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"x.bin"});
+}
+
+TEST(AtomicFile, ReplacesAnOlderFileAndKeepsItsPermissionsAndLinks)
+{
+    const ScratchFolder folder;
+    put(folder / "x", "old");
+    ::chmod((folder / "x").c_str(), 0640);
+    std::filesystem::create_symlink(folder / "x", folder / "link");
+    write_atomically(folder / "link", "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(content_of(folder / "x"), "new");
+    EXPECT_EQ(int(std::filesystem::status(folder / "x").permissions()), 0640);
+}
+
+TEST(AtomicFile, FullDiskLeavesTheOldFileAndNoHalfOne)
+{
+    const ScratchFolder folder;
+    put(folder / "x", "old");
+    try {
+        const TinyDisk disk(100);
+        write_atomically(folder / "x", std::string(10'000, '.'));
+        FAIL() << "10 kB fitted in 100 bytes";
+    } catch (const ExchangeError& error) {
+        EXPECT_NE(std::string(error.what()).find((folder / "x").string()), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("free some space"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(content_of(folder / "x"), "old");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"x"});
+}
+
+TEST(AtomicFile, MissingFolderIsNamedAndNotMade)
+{
+    const ScratchFolder folder;
+    try {
+        write_atomically(folder / "no/such/x", "content");
+        FAIL() << "wrote into a folder that is not there";
+    } catch (const ExchangeError& error) {
+        EXPECT_NE(std::string(error.what()).find("no/such/x"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("create the folder"), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(AtomicFile, FolderWithoutPermissionIsRefused)
+{
+    if (::geteuid() == 0)
+        GTEST_SKIP() << "the superuser may write anywhere";
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "locked");
+    ::chmod((folder / "locked").c_str(), 0555);
+    EXPECT_THROW(write_atomically(folder / "locked/x", "content"), ExchangeError);
+    ::chmod((folder / "locked").c_str(), 0755);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "locked"));
+}
+
+TEST(AtomicFile, FoldersAndDevicesAreNotReplaced)
+{
+    const ScratchFolder folder;
+    EXPECT_THROW(write_atomically(folder / "", "content"), ExchangeError);
+    EXPECT_THROW(write_atomically("/dev/null", "content"), ExchangeError);
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+} // namespace spia

@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "engine/core/error.h"
+#include "engine/exchange/read_surfaces.h"
+#include "engine/exchange/write_iges.h"
+#include "engine/exchange/write_step.h"
+#include "tests/unit/exchange/sample_surface.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia
+{
+namespace
+{
+
+/// Equal bit for bit, not just nearly.
+void expect_same(const NurbsSurface& read, const NurbsSurface& written)
+{
+    EXPECT_EQ(read.degree_u, written.degree_u);
+    EXPECT_EQ(read.degree_v, written.degree_v);
+    EXPECT_EQ(read.knots_u, written.knots_u);
+    EXPECT_EQ(read.knots_v, written.knots_v);
+    ASSERT_EQ(read.count_u, written.count_u);
+    ASSERT_EQ(read.count_v, written.count_v);
+    EXPECT_EQ((read.control - written.control).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ((read.weight - written.weight).cwiseAbs().maxCoeff(), 0);
+}
+
+/// A half cylinder closed to a full one: its first and last control rows are the same points.
+NurbsSurface closed_surface()
+{
+    NurbsSurface s = samples::curved_surface(300, false, 9, 7);
+    for (int j = 0; j < s.count_v; ++j)
+        for (int i = 0; i < s.count_u; ++i) {
+            const double angle = 2 * 3.14159265358979 * (i % (s.count_u - 1)) / (s.count_u - 1);
+            s.control.col(s.index(i, j)) << 70 * std::cos(angle), 70 * std::sin(angle), 33.3 * j;
+        }
+    return s;
+}
+
+NurbsSurface with_double_and_triple_knots()
+{
+    NurbsSurface s = samples::curved_surface(500, true, 9, 7);
+    s.knots_u = {0, 0, 0, 0, 0.3, 0.3, 0.7, 0.7, 0.7, 1, 1, 1, 1};
+    return s;
+}
+
+std::vector<NurbsSurface> every_kind()
+{
+    return {samples::curved_surface(500, false),
+            samples::curved_surface(500, true),
+            samples::curved_surface(5000, false),
+            samples::curved_surface(5000, true),
+            samples::curved_surface(0.5, false),
+            samples::curved_surface(500, false, 40, 31),
+            closed_surface(),
+            with_double_and_triple_knots()};
+}
+
+/// A fixed date in the files' headers for as long as it lives.
+struct FixedDate {
+    FixedDate() { ::setenv("SOURCE_DATE_EPOCH", "1700000000", 1); }
+    ~FixedDate() { ::unsetenv("SOURCE_DATE_EPOCH"); }
+};
+
+struct Format {
+    const char* name;
+    void (*write)(const std::filesystem::path&, const NurbsSurface&, const std::string&);
+    std::vector<NurbsSurface> (*read)(const std::filesystem::path&);
+};
+
+class CadFile : public ::testing::TestWithParam<Format>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Formats, CadFile,
+                         ::testing::Values(Format{"iges", write_iges, read_iges_surfaces},
+                                           Format{"step", write_step, read_step_surfaces}),
+                         [](const auto& format) { return format.param.name; });
+
+} // namespace
+
+TEST_P(CadFile, KnotsPolesAndWeightsComeBackBitForBit)
+{
+    const ScratchFolder folder;
+    for (const NurbsSurface& surface : every_kind()) {
+        GetParam().write(folder / "s", surface, "sheet");
+        const auto read = GetParam().read(folder / "s");
+        ASSERT_EQ(read.size(), 1u);
+        expect_same(read[0], surface);
+    }
+}
+
+TEST_P(CadFile, SameInputGivesTheSameBytesAndNothingOnStdout)
+{
+    const ScratchFolder folder;
+    const FixedDate date;
+    const NurbsSurface surface = samples::curved_surface(500, true);
+    testing::internal::CaptureStdout();
+    GetParam().write(folder / "s", surface, "sheet");
+    const std::string first = content_of(folder / "s");
+    GetParam().write(folder / "s", surface, "sheet");
+    GetParam().read(folder / "s");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(content_of(folder / "s"), first);
+}
+
+TEST_P(CadFile, HeaderNamesTheProgramAndNotTheUser)
+{
+    const ScratchFolder folder;
+    const FixedDate date;
+    ::setenv("USER", "jane-doe", 1);
+    ::setenv("LOGNAME", "jane-doe", 1);
+    GetParam().write(folder / "door.file", samples::curved_surface(500, false), "left door");
+    const std::string file = content_of(folder / "door.file");
+    EXPECT_EQ(file.find("jane-doe"), std::string::npos);
+    EXPECT_NE(file.find("SPIA 0.1.0"), std::string::npos);
+    EXPECT_NE(file.find("left door"), std::string::npos);
+    EXPECT_NE(file.find("door.file"), std::string::npos);
+    EXPECT_TRUE(file.find("20231114.221320") != std::string::npos ||
+                file.find("2023-11-14T22:13:20Z") != std::string::npos);
+}
+
+TEST_P(CadFile, CutAnywhereOrFilledWithAnythingElseItIsRefused)
+{
+    const ScratchFolder folder;
+    GetParam().write(folder / "s", samples::curved_surface(500, false), "sheet");
+    const std::string whole = content_of(folder / "s");
+    for (int tenth = 0; tenth < 10; ++tenth) {
+        put(folder / "cut", whole.substr(0, whole.size() * size_t(tenth) / 10));
+        EXPECT_THROW(GetParam().read(folder / "cut"), ExchangeError) << "cut after " << tenth << " tenths";
+    }
+    std::string spoilt = whole;
+    for (size_t i = whole.size() / 3; i < whole.size() / 2; ++i)
+        if (spoilt[i] != '\n')
+            spoilt[i] = '?';
+    for (const std::string& content : {spoilt, std::string("hello\n"), std::string(5000, '\0')}) {
+        put(folder / "other", content);
+        EXPECT_THROW(GetParam().read(folder / "other"), Error);
+    }
+    EXPECT_THROW(GetParam().read(folder / "missing"), ExchangeError);
+}
+
+TEST_P(CadFile, ImpossibleSurfacesAreRefusedBeforeAFileAppears)
+{
+    const ScratchFolder folder;
+    const NurbsSurface good = samples::curved_surface(500, false);
+    std::vector<NurbsSurface> bad(6, good);
+    bad[0].knots_u[5] = 2;
+    bad[1].knots_v.front() = -0.5;
+    bad[2].weight[3] = 0;
+    bad[3].control(1, 7) = std::nan("");
+    bad[4].control.conservativeResize(3, 5);
+    bad[5].knots_u.pop_back();
+    for (const NurbsSurface& surface : bad)
+        EXPECT_THROW(GetParam().write(folder / "s", surface, "sheet"), InputError);
+    EXPECT_THROW(GetParam().write(folder / "no/such/folder", good, "sheet"), ExchangeError);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_P(CadFile, NamesWithQuotesAndAccentsKeepTheFileReadable)
+{
+    const ScratchFolder folder;
+    const NurbsSurface surface = samples::curved_surface(500, false);
+    for (const std::string name : {"o'clock; \"part\"", "T\xc3\xbcr links", "", "a\\b,c;d", "two\nlines"}) {
+        GetParam().write(folder / "s", surface, name);
+        const auto read = GetParam().read(folder / "s");
+        ASSERT_EQ(read.size(), 1u) << name;
+        expect_same(read[0], surface);
+    }
+}
+
+TEST_P(CadFile, FourThreadsDoNotDisturbEachOther)
+{
+    const ScratchFolder folder;
+    std::vector<std::thread> threads;
+    std::vector<int> good(4, 0);
+    for (size_t t = 0; t < good.size(); ++t)
+        threads.emplace_back([&, t] {
+            for (int run = 0; run < 5; ++run) {
+                const auto path = folder / std::to_string(t);
+                const NurbsSurface surface = samples::curved_surface(100.0 * double(t + 1), t % 2);
+                GetParam().write(path, surface, "sheet");
+                good[t] += GetParam().read(path)[0].control == surface.control;
+            }
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(good, std::vector<int>(4, 5));
+}
+
+TEST(Iges, LinesHave80ColumnsAndTheEntitiesAreUntrimmed128)
+{
+    const ScratchFolder folder;
+    const NurbsSurface left = samples::curved_surface(500, false);
+    const std::vector<NurbsSurface> patches{left, samples::beside(left)};
+    write_iges(folder / "s.igs", patches);
+    std::ifstream file(folder / "s.igs");
+    int entities = 0;
+    for (std::string line; std::getline(file, line);) {
+        EXPECT_EQ(line.size(), 80u) << line;
+        if (line.size() == 80 && line[72] == 'D' && std::stoi(line.substr(73)) % 2 == 1) {
+            EXPECT_EQ(std::stoi(line.substr(0, 8)), 128);
+            ++entities;
+        }
+    }
+    EXPECT_EQ(entities, 2);
+    const auto read = read_iges_surfaces(folder / "s.igs");
+    ASSERT_EQ(read.size(), 2u);
+    expect_same(read[0], patches[0]);
+    expect_same(read[1], patches[1]);
+}
+
+TEST(Step, NamesBeyondAsciiAreEncodedAsTheStandardSays)
+{
+    const ScratchFolder folder;
+    write_step(folder / "s.step", samples::curved_surface(500, false), "T\xc3\xbcr \xf0\x9f\x9a\x97 o'clock");
+    const std::string file = content_of(folder / "s.step");
+    EXPECT_NE(file.find(R"(PRODUCT('T\X2\00FC\X0\r \X4\0001F697\X0\ o''clock')"), std::string::npos)
+        << file.substr(0, 2000);
+    EXPECT_TRUE(std::all_of(file.begin(), file.end(), [](unsigned char c) { return c < 128; }));
+}
+
+TEST(Step, PatchesThatMeetShareTheirEdgeInOneOpenShell)
+{
+    const ScratchFolder folder;
+    const NurbsSurface left = samples::curved_surface(500, true);
+    const std::vector<NurbsSurface> patches{left, samples::beside(left)};
+    write_step(folder / "s.step", patches);
+    const std::string file = content_of(folder / "s.step");
+    const auto count = [&](const std::string& entity) {
+        int n = 0;
+        for (size_t at = file.find(entity); at != std::string::npos; at = file.find(entity, at + 1))
+            ++n;
+        return n;
+    };
+    EXPECT_EQ(count("OPEN_SHELL("), 1);
+    EXPECT_EQ(count("SHELL_BASED_SURFACE_MODEL("), 1);
+    EXPECT_EQ(count("ADVANCED_FACE("), 2);
+    EXPECT_EQ(count("EDGE_CURVE("), 7); // 4 + 4, one of them shared
+    EXPECT_EQ(count("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"), 1);
+    EXPECT_EQ(read_step_surfaces(folder / "s.step").size(), 2u);
+}
+
+} // namespace spia

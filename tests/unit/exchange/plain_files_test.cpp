@@ -1,0 +1,365 @@
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <gtest/gtest.h>
+#include <map>
+#include <regex>
+
+#include "engine/core/error.h"
+#include "engine/exchange/write_csv.h"
+#include "engine/exchange/write_dxf.h"
+#include "engine/exchange/write_vtu.h"
+#include "tests/unit/exchange/sample_chain.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia
+{
+namespace
+{
+
+std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);)
+        parts.push_back(part);
+    return parts;
+}
+
+/// A reader of its own: base64, then an 8-byte length, then the numbers.
+template <class Number> std::vector<Number> decoded(const std::string& base64)
+{
+    std::string bytes;
+    unsigned bits = 0, held = 0;
+    for (const char c : base64) {
+        if (c == '=')
+            break;
+        const auto digit =
+            std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
+        EXPECT_NE(digit, std::string::npos);
+        bits = bits << 6 | unsigned(digit);
+        if ((held += 6) >= 8)
+            bytes += char(bits >> (held -= 8) & 255);
+    }
+    uint64_t length = 0;
+    std::memcpy(&length, bytes.data(), 8);
+    EXPECT_EQ(length, bytes.size() - 8);
+    std::vector<Number> numbers(length / sizeof(Number));
+    std::memcpy(numbers.data(), bytes.data() + 8, length);
+    return numbers;
+}
+
+struct VtuArray {
+    std::string type, base64;
+    int components;
+};
+
+/// The arrays of one element of the file by name; checks that tags close in order.
+std::map<std::string, VtuArray> arrays_of(const std::string& file, const std::string& element)
+{
+    std::vector<std::string> open;
+    std::map<std::string, VtuArray> result;
+    const std::regex tag("<(/?)([A-Za-z]+)([^>]*)>([^<]*)");
+    for (std::sregex_iterator it(file.begin(), file.end(), tag), end; it != end; ++it) {
+        if ((*it)[1] == "/") {
+            EXPECT_EQ(open.back(), (*it)[2]);
+            open.pop_back();
+            continue;
+        }
+        if ((*it)[2] == "DataArray" && open.back() == element) {
+            std::map<std::string, std::string> attribute;
+            const std::string attributes = (*it)[3];
+            const std::regex pair("(\\w+)=\"([^\"]*)\"");
+            for (std::sregex_iterator a(attributes.begin(), attributes.end(), pair); a != end; ++a)
+                attribute[(*a)[1]] = (*a)[2];
+            EXPECT_EQ(attribute["format"], "binary");
+            result[attribute["Name"]] = {attribute["type"], (*it)[4],
+                                         std::stoi(attribute["NumberOfComponents"])};
+        }
+        open.push_back((*it)[2]);
+    }
+    EXPECT_TRUE(open.empty());
+    return result;
+}
+
+template <class Matrix>
+void expect_array(const std::map<std::string, VtuArray>& arrays, const std::string& name,
+                  const Matrix& expected, int components = 1)
+{
+    ASSERT_TRUE(arrays.count(name)) << name;
+    EXPECT_EQ(arrays.at(name).components, components) << name;
+    EXPECT_EQ(arrays.at(name).type, (std::is_same_v<typename Matrix::Scalar, double> ? "Float64" : "Int32"))
+        << name;
+    const auto read = decoded<typename Matrix::Scalar>(arrays.at(name).base64);
+    ASSERT_EQ(Eigen::Index(read.size()), expected.size()) << name;
+    EXPECT_TRUE(std::equal(read.begin(), read.end(), expected.data())) << name;
+}
+
+void expect_sheet_fields(const std::map<std::string, VtuArray>& arrays, const SheetFields& fields)
+{
+    expect_array(arrays, "thickness", fields.thickness);
+    expect_array(arrays, "thinning", fields.thinning);
+    expect_array(arrays, "strain_major", fields.strain_major);
+    expect_array(arrays, "strain_minor", fields.strain_minor);
+    expect_array(arrays, "strain_equivalent", fields.strain_equivalent);
+    expect_array(arrays, "stress_major", fields.stress_major);
+    expect_array(arrays, "stress_minor", fields.stress_minor);
+    expect_array(arrays, "stress_equivalent", fields.stress_equivalent);
+    expect_array(arrays, "direction_major", fields.direction_major, 3);
+    expect_array(arrays, "necking", fields.necking);
+}
+
+/// Group code and value.
+using DxfPair = std::pair<int, std::string>;
+
+std::vector<DxfPair> dxf_pairs(const std::string& file)
+{
+    const auto lines = split(file, '\n');
+    EXPECT_EQ(lines.size() % 2, 0u);
+    std::vector<DxfPair> pairs;
+    for (size_t i = 0; i + 1 < lines.size(); i += 2)
+        pairs.emplace_back(std::stoi(lines[i]), lines[i + 1]);
+    return pairs;
+}
+
+struct Polyline {
+    std::string layer;
+    bool closed = false;
+    size_t announced = 0;
+    std::vector<double> x, y;
+};
+
+std::vector<Polyline> polylines(const std::vector<DxfPair>& pairs)
+{
+    std::vector<Polyline> result;
+    bool inside = false;
+    for (const auto& [code, value] : pairs) {
+        if (code == 0 && (inside = value == "LWPOLYLINE"))
+            result.emplace_back();
+        if (!inside)
+            continue;
+        Polyline& line = result.back();
+        if (code == 8)
+            line.layer = value;
+        else if (code == 70)
+            line.closed = std::stoi(value) & 1;
+        else if (code == 90)
+            line.announced = std::stoul(value);
+        else if (code == 10)
+            line.x.push_back(std::stod(value));
+        else if (code == 20)
+            line.y.push_back(std::stod(value));
+    }
+    return result;
+}
+
+/// Each writer of this file on the sample, by name.
+std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>>
+all_writers(const samples::Chain& chain)
+{
+    return {
+        {"part.vtu",
+         [&](const auto& path) { write_vtu(path, chain.part, chain.blank, chain.face, chain.node); }},
+        {"outline.dxf", [&](const auto& path) { write_dxf(path, blank_outline(chain.part, chain.blank)); }},
+        {"outline.csv",
+         [&](const auto& path) { write_outline_csv(path, blank_outline(chain.part, chain.blank)); }},
+        {"fields.csv",
+         [&](const auto& path) { write_fields_csv(path, chain.part, chain.blank, chain.node); }}};
+}
+
+} // namespace
+
+TEST(Vtu, EveryNumberComesBackBitForBit)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const Eigen::VectorXd deviation = Eigen::VectorXd::LinSpaced(chain.part.vertices(), 1e-12, 1.0 / 3);
+    const std::vector<NamedField> extra{{"a<b & \"c\"", &deviation}};
+    write_vtu(folder / "x.vtu", chain.part, chain.blank, chain.face, chain.node, extra);
+    const std::string file = content_of(folder / "x.vtu");
+
+    const auto point = arrays_of(file, "PointData"), cell = arrays_of(file, "CellData");
+    expect_sheet_fields(point, chain.node);
+    expect_sheet_fields(cell, chain.face);
+    expect_array(point, "blank_x", Eigen::VectorXd(chain.blank.position.row(0)));
+    expect_array(point, "blank_y", Eigen::VectorXd(chain.blank.position.row(1)));
+    expect_array(point, "a&lt;b &amp; &quot;c&quot;", deviation);
+    expect_array(arrays_of(file, "Points"), "Points", chain.part.position, 3);
+    expect_array(arrays_of(file, "Cells"), "connectivity", chain.part.triangle);
+    const auto cells = arrays_of(file, "Cells");
+    const auto offsets = decoded<int64_t>(cells.at("offsets").base64);
+    const auto types = decoded<uint8_t>(cells.at("types").base64);
+    ASSERT_EQ(offsets.size(), size_t(chain.part.triangles()));
+    for (size_t f = 0; f < offsets.size(); ++f)
+        EXPECT_EQ(offsets[f], int64_t(3 * (f + 1)));
+    EXPECT_EQ(types, std::vector<uint8_t>(offsets.size(), 5)); // 5 is VTK's triangle
+    EXPECT_NE(file.find("NumberOfPoints=\"" + std::to_string(chain.part.vertices()) + "\""),
+              std::string::npos);
+    EXPECT_NE(file.find("NumberOfCells=\"" + std::to_string(chain.part.triangles()) + "\""),
+              std::string::npos);
+}
+
+TEST(Vtu, WarpingByTheDisplacementGivesTheBlank)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    write_vtu(folder / "x.vtu", chain.part, chain.blank, chain.face, chain.node);
+    const auto warp = decoded<double>(
+        arrays_of(content_of(folder / "x.vtu"), "PointData").at("displacement_to_blank").base64);
+    for (int v = 0; v < chain.part.vertices(); ++v) {
+        const Eigen::Vector3d warped =
+            chain.part.position.col(v) + Eigen::Map<const Eigen::Vector3d>(&warp[size_t(3 * v)]);
+        EXPECT_LT(
+            (warped - Eigen::Vector3d(chain.blank.position(0, v), chain.blank.position(1, v), 0)).norm(),
+            1e-11);
+    }
+}
+
+TEST(Dxf, LoopsAreClosedOnTheirLayersAndEncloseTheBlanksArea)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const auto loops = blank_outline(chain.part, chain.blank);
+    ASSERT_EQ(loops.size(), 2u);
+    write_dxf(folder / "x.dxf", loops);
+    const auto lines = polylines(dxf_pairs(content_of(folder / "x.dxf")));
+    ASSERT_EQ(lines.size(), loops.size());
+    double enclosed = 0;
+    for (size_t l = 0; l < lines.size(); ++l) {
+        EXPECT_TRUE(lines[l].closed);
+        EXPECT_EQ(lines[l].layer, l == 0 ? "OUTLINE" : "HOLES");
+        ASSERT_EQ(lines[l].x.size(), size_t(loops[l].cols()));
+        EXPECT_EQ(lines[l].announced, lines[l].x.size());
+        for (size_t i = 0; i < lines[l].x.size(); ++i) {
+            EXPECT_EQ(lines[l].x[i], loops[l](0, Eigen::Index(i)));
+            EXPECT_EQ(lines[l].y[i], loops[l](1, Eigen::Index(i)));
+            const size_t next = (i + 1) % lines[l].x.size();
+            enclosed += (lines[l].x[i] * lines[l].y[next] - lines[l].x[next] * lines[l].y[i]) / 2;
+        }
+    }
+    // 400 x 300 mm less a hole of a third of each side, stretched by 1.07 and 1.04; holes run clockwise
+    EXPECT_NEAR(enclosed, 1.07 * 1.04 * 400 * 300 * (1 - 1.0 / 9), 1e-6);
+    EXPECT_GT(signed_area(loops[0]), 0);
+    EXPECT_LT(signed_area(loops[1]), 0);
+}
+
+TEST(Dxf, UnitsAreMillimetresAndEveryHandleIsUniqueAndBelowTheSeed)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    write_dxf(folder / "x.dxf", blank_outline(chain.part, chain.blank));
+    const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
+    EXPECT_EQ(pairs.back(), DxfPair(0, "EOF"));
+    std::vector<long> handles, owners;
+    long seed = 0;
+    for (size_t i = 1; i < pairs.size(); ++i) {
+        const auto& [code, value] = pairs[i];
+        if (pairs[i - 1] == DxfPair(9, "$INSUNITS")) {
+            EXPECT_EQ(pairs[i], DxfPair(70, "4"));
+        }
+        if (pairs[i - 1] == DxfPair(9, "$ACADVER")) {
+            EXPECT_EQ(pairs[i], DxfPair(1, "AC1015"));
+        }
+        if (pairs[i - 1] == DxfPair(9, "$HANDSEED"))
+            seed = std::stol(value, nullptr, 16);
+        else if (code == 5 || code == 105)
+            handles.push_back(std::stol(value, nullptr, 16));
+        if (code == 330 || code == 350)
+            owners.push_back(std::stol(value, nullptr, 16));
+    }
+    std::sort(handles.begin(), handles.end());
+    EXPECT_EQ(std::adjacent_find(handles.begin(), handles.end()), handles.end());
+    EXPECT_GT(seed, handles.back());
+    for (const long owner : owners)
+        EXPECT_TRUE(owner == 0 || std::binary_search(handles.begin(), handles.end(), owner)) << owner;
+}
+
+TEST(OutlineCsv, PointsComeBackAsTheSameDoubles)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const auto loops = blank_outline(chain.part, chain.blank);
+    write_outline_csv(folder / "x.csv", loops);
+    const auto rows = split(content_of(folder / "x.csv"), '\n');
+    EXPECT_EQ(rows[0], "loop,index,x,y");
+    size_t row = 1;
+    for (size_t l = 0; l < loops.size(); ++l)
+        for (Eigen::Index i = 0; i < loops[l].cols(); ++i) {
+            const auto cell = split(rows.at(row++), ',');
+            EXPECT_EQ(std::stoul(cell.at(0)), l);
+            EXPECT_EQ(std::stol(cell.at(1)), i);
+            EXPECT_EQ(std::stod(cell.at(2)), loops[l](0, i));
+            EXPECT_EQ(std::stod(cell.at(3)), loops[l](1, i));
+        }
+    EXPECT_EQ(rows.size(), row);
+}
+
+TEST(FieldsCsv, RowsFollowTheVerticesAndReadAsTheSameDoubles)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    write_fields_csv(folder / "x.csv", chain.part, chain.blank, chain.node);
+    const auto rows = split(content_of(folder / "x.csv"), '\n');
+    EXPECT_EQ(rows[0],
+              "vertex,x,y,z,blank_x,blank_y,thickness,thinning,strain_major,strain_minor,strain_equivalent");
+    ASSERT_EQ(rows.size(), size_t(chain.part.vertices()) + 1);
+    for (int v = 0; v < chain.part.vertices(); ++v) {
+        const auto cell = split(rows[size_t(v) + 1], ',');
+        ASSERT_EQ(cell.size(), 11u);
+        EXPECT_EQ(std::stoi(cell[0]), v);
+        const double expected[] = {chain.part.position(0, v),  chain.part.position(1, v),
+                                   chain.part.position(2, v),  chain.blank.position(0, v),
+                                   chain.blank.position(1, v), chain.node.thickness[v],
+                                   chain.node.thinning[v],     chain.node.strain_major[v],
+                                   chain.node.strain_minor[v], chain.node.strain_equivalent[v]};
+        for (size_t i = 0; i < std::size(expected); ++i)
+            EXPECT_EQ(std::stod(cell[i + 1]), expected[i]) << "row " << v << " column " << i + 1;
+    }
+}
+
+TEST(BlankOutline, TheLoopAroundTheLargestAreaComesFirst)
+{
+    // On the part the hole's border is longer than the outer one: by length it would come first.
+    const ScratchFolder folder;
+    samples::Chain chain = samples::chain();
+    const auto before = blank_outline(chain.part, chain.blank);
+    for (int v = 0; v < chain.part.vertices(); ++v)
+        for (Eigen::Index i = 0; i < before[1].cols(); i += 2)
+            if (chain.blank.position.col(v) == before[1].col(i))
+                chain.part.position(2, v) += 5000; // the hole's border zigzags on the part, not in the blank
+    const auto loops = blank_outline(chain.part, chain.blank);
+    EXPECT_EQ(loops[0], before[0]);
+    EXPECT_EQ(loops[1], before[1]);
+}
+
+TEST(PlainFiles, SameInputGivesTheSameBytes)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    for (const auto& [name, write] : all_writers(chain)) {
+        write(folder / name);
+        const std::string first = content_of(folder / name);
+        write(folder / name);
+        EXPECT_EQ(content_of(folder / name), first) << name;
+    }
+}
+
+TEST(PlainFiles, FailureLeavesNoFile)
+{
+    const ScratchFolder folder;
+    samples::Chain chain = samples::chain();
+    for (const auto& [name, write] : all_writers(chain))
+        EXPECT_THROW(write(folder / ("missing/" + name)), ExchangeError) << name;
+    chain.blank.position(0, 3) = std::nan("");
+    for (const auto& [name, write] : all_writers(chain))
+        EXPECT_THROW(write(folder / name), InputError) << name;
+    chain = samples::chain();
+    chain.node.thinning.conservativeResize(5);
+    EXPECT_THROW(write_vtu(folder / "x", chain.part, chain.blank, chain.face, chain.node), InputError);
+    EXPECT_THROW(write_fields_csv(folder / "x", chain.part, chain.blank, chain.node), InputError);
+    EXPECT_THROW(write_dxf(folder / "x", {}), InputError);
+    EXPECT_THROW(write_outline_csv(folder / "x", {OutlineLoop::Zero(2, 2)}), InputError);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+} // namespace spia
