@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/pipeline/session.h"
+
+namespace spia::cli {
+
+struct RunArguments {
+    std::filesystem::path part, folder = "spia-out", json;
+    std::string material = "mild_steel", unit;
+    double thickness = 1;
+    std::string grid;              ///< NxM; empty: automatic
+    std::vector<int> corners;
+    std::vector<double> direction;
+    std::string grid_method = "automatic", ends = "averaged";
+    std::vector<std::string> formats;
+    bool strict = false;
+};
+
+/// Runs the whole chain on a part, writes the files and prints a summary.
+/// @returns 0, or 1 if the result has shortcomings and `strict` was asked for
+int run(const RunArguments& arguments);
+
+struct InfoArguments {
+    std::filesystem::path part, json;
+    std::string unit;
+};
+
+/// Prints what the mesh doctor says. @returns 0, or 2 if the part would be refused
+int info(const InfoArguments& arguments);
+
+/// Prints the built-in grades. @returns 0
+int materials();
+
+/// Where the materials and sample parts lie: SPIA_ASSETS, or the folder the program was built from.
+std::filesystem::path assets();
+
+} // namespace spia::cli

@@ -1,0 +1,115 @@
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <optional>
+
+#include "app/cli/commands.h"
+#include "engine/core/error.h"
+#include "engine/pipeline/outputs.h"
+
+namespace {
+
+enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
+
+int failed(ExitCode code, const char* what)
+{
+    fmt::print(stderr, "spia: {}\n", what);
+    return code;
+}
+
+} // namespace
+
+int main(int count, char** values)
+{
+    using namespace spia;
+    // Messages of libraries belong to the standard error; the standard output is for results.
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("spia", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
+    spdlog::set_level(spdlog::level::warn);
+
+    CLI::App app{"SPIA: from a stamped sheet-metal part to its flat blank, with the strains that forming costs, and to a "
+                 "NURBS surface."};
+    app.set_version_flag("--version", SPIA_VERSION);
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 1 poorer result with --strict, 2 the input is at fault, 3 no solution, 4 a file cannot "
+               "be read or written, 130 cancelled.");
+    int threads = 0;
+
+    cli::RunArguments run;
+    run.formats = output_formats();
+    CLI::App* run_command = app.add_subcommand("run", "Unfold a part and write blank, strains and surface");
+    run_command->add_option("part", run.part, "STL, OBJ, PLY, OFF, glTF or GLB file")->required()->type_name("PART");
+    run_command->add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
+    run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
+        ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
+    run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    run_command->add_option("--thickness", run.thickness, "of the flat sheet")->type_name("MM")->capture_default_str();
+    run_command->add_option("--direction", run.direction, "stamping direction x,y,z (default: automatic)")
+        ->delimiter(',')
+        ->expected(3);
+    run_command->add_option("--grid", run.grid, "cells of the quad grid (default: automatic)")->type_name("NxM");
+    run_command->add_option("--grid-method", run.grid_method, "automatic, coons (the paper's, may fold) or harmonic")
+        ->check(CLI::IsMember({"automatic", "coons", "harmonic"}))
+        ->capture_default_str();
+    run_command
+        ->add_option("--corners", run.corners, "four vertices of the outer boundary, numbers as in the file, from 0")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("a,b,c,d");
+    run_command->add_option("--ends", run.ends, "of the interpolation: averaged knots, or natural as in the paper")
+        ->check(CLI::IsMember({"averaged", "natural"}))
+        ->capture_default_str();
+    run_command->add_option("--formats", run.formats, "files to write")
+        ->delimiter(',')
+        ->check(CLI::IsMember(output_formats()))
+        ->type_name("LIST")
+        ->capture_default_str();
+    run_command->add_option("--json", run.json, "write the figures of the run")->type_name("FILE");
+    run_command->add_flag("--strict", run.strict, "exit 1 if the result has shortcomings");
+    run_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+
+    cli::InfoArguments info;
+    CLI::App* info_command = app.add_subcommand("info", "Examine a part: what it is, what is wrong with it, what to do");
+    info_command->add_option("part", info.part, "STL, OBJ, PLY, OFF, glTF or GLB file")->required()->type_name("PART");
+    info_command->add_option("--unit", info.unit, "length unit of the file")
+        ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
+    info_command->add_option("--json", info.json, "write the findings")->type_name("FILE");
+
+    CLI::App* materials_command = app.add_subcommand("materials", "List the built-in sheet grades");
+
+    try {
+        app.parse(count, values);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? fine : bad_input;
+    }
+    std::optional<tbb::global_control> limit;
+    if (threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, size_t(threads));
+    try {
+        if (*run_command)
+            return cli::run(run);
+        if (*info_command)
+            return cli::info(info);
+        if (*materials_command)
+            return cli::materials();
+    } catch (const InputError& error) {
+        return failed(bad_input, error.what());
+    } catch (const SolveError& error) {
+        return failed(no_solution, error.what());
+    } catch (const ExchangeError& error) {
+        return failed(bad_file, error.what());
+    } catch (const Cancelled&) {
+        return failed(cancelled, "cancelled; files that were finished stay");
+    } catch (const std::bad_alloc&) {
+        return failed(no_solution, "there is not enough memory for this part");
+    } catch (const std::exception& error) {
+        return failed(internal, (std::string("an error of the program itself: ") + error.what()).c_str());
+    }
+    return fine;
+}

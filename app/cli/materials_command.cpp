@@ -1,0 +1,31 @@
+#include <fmt/core.h>
+
+#include <cstdlib>
+
+#include "app/cli/commands.h"
+#include "engine/forming/material_library.h"
+
+namespace spia::cli {
+
+std::filesystem::path assets()
+{
+    if (const char* folder = std::getenv("SPIA_ASSETS"))
+        return folder;
+    return SPIA_ASSETS_DIR;
+}
+
+int materials()
+{
+    const auto folder = assets() / "materials";
+    fmt::print("{:<16} {:<34} {:>9} {:>9} {:>5} {:>5} {:>5}\n", "name", "grade", "yield MPa", "E MPa", "r0", "r45", "r90");
+    for (const auto& [key, material] : read_materials(folder)) {
+        const MembraneLaw law(material);
+        fmt::print("{:<16} {:<34} {:>9.0f} {:>9.0f} {:>5.2f} {:>5.2f} {:>5.2f}\n", key, material.name,
+                   law.curve().yield_stress(), material.young_MPa, material.r0, material.r45, material.r90);
+    }
+    fmt::print("Give one with --material NAME, or your own file of the same form (see {}).\n",
+               (folder / "README.md").string());
+    return 0;
+}
+
+} // namespace spia::cli

@@ -1,0 +1,112 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+
+#include "app/cli/commands.h"
+#include "app/cli/terminal.h"
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
+#include "engine/forming/material_library.h"
+#include "engine/mesh/topology.h"
+#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/report.h"
+
+namespace spia::cli {
+namespace {
+
+SessionOptions options(const RunArguments& arguments)
+{
+    SessionOptions result;
+    if (!arguments.unit.empty())
+        result.read.unit = length_unit(arguments.unit);
+    result.flatten.material = find_material(arguments.material, assets() / "materials");
+    result.flatten.thickness = arguments.thickness;
+    if (!arguments.direction.empty())
+        result.flatten.direction =
+            Eigen::Vector3d(arguments.direction[0], arguments.direction[1], arguments.direction[2]);
+    if (!arguments.corners.empty())
+        result.corners = {arguments.corners[0], arguments.corners[1], arguments.corners[2], arguments.corners[3]};
+    if (!arguments.grid.empty()) {
+        int n = 0, m = 0, read = 0;
+        if (std::sscanf(arguments.grid.c_str(), "%dx%d%n", &n, &m, &read) != 2 || read != int(arguments.grid.size()) ||
+            n < 1 || m < 1 || n > 2000 || m > 2000)
+            throw InputError(fmt::format("--grid {}: give two numbers of cells from 1 to 2000 as in --grid 60x40",
+                                         arguments.grid));
+        result.grid.columns = n;
+        result.grid.rows = m;
+    }
+    result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
+                         : arguments.grid_method == "harmonic" ? GridMethod::harmonic
+                                                               : GridMethod::automatic;
+    if (arguments.ends == "natural")
+        result.interpolate.ends = InterpolateOptions::Ends::natural;
+    return result;
+}
+
+void print_doctor(const PartFile& part)
+{
+    for (const std::string& note : part.notes)
+        fmt::print("  note: {}\n", note);
+    for (const Finding& finding : part.doctor.findings)
+        fmt::print("  {}: {}{}{}\n", finding.severity == Severity::repaired ? "repaired" : "note", finding.text,
+                   finding.advice.empty() ? "" : "; ", finding.advice);
+}
+
+void print_summary(const Session& session)
+{
+    const TriMesh& part = session.part->mesh;
+    const FlattenResult& flat = *session.blank;
+    const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
+    const Deviation& deviation = session.surface->deviation;
+    const GridResult& grid = session.grid->result;
+    fmt::print("part      {} triangles, {} boundary loops, {:.0f} mm2\n", part.triangles(), boundary_loops(part).size(),
+               area(part));
+    fmt::print("blank     {:.2f} x {:.2f} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
+               flat.report.energy.size(), flat.report.newton.size(),
+               flat.report.converged ? "converged" : "NOT converged");
+    fmt::print("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
+               100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
+               flat.face.strain_equivalent.maxCoeff());
+    if (flat.necking_triangles > 0)
+        fmt::print("          {} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear there\n",
+                   flat.necking_triangles, session.options.flatten.curve.trusted_strain);
+    fmt::print("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
+               grid.planar.rows, name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
+    fmt::print("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
+               session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
+               std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
+}
+
+} // namespace
+
+int run(const RunArguments& arguments)
+{
+    Session session;
+    session.file = arguments.part;
+    session.options = options(arguments);
+    for (const Stage stage : chain) {
+        JobDisplay display{std::string(name(stage))};
+        session = run_stage(stage, std::move(session), display.progress());
+        display.done(session.seconds.at(stage));
+        if (stage == Stage::read)
+            print_doctor(*session.part);
+    }
+    const auto clock = std::chrono::steady_clock::now();
+    JobDisplay display{"write"};
+    const auto files = write_outputs(session, arguments.folder, arguments.formats, display.progress());
+    const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    display.done(write_seconds);
+    if (!arguments.json.empty())
+        write_atomically(arguments.json, report_json(session, files, write_seconds));
+
+    print_summary(session);
+    for (const auto& file : files)
+        fmt::print("wrote     {}\n", file.string());
+    const auto poorer = shortcomings(session);
+    for (const std::string& text : poorer)
+        fmt::print("WARNING   {}\n", text);
+    return arguments.strict && !poorer.empty() ? 1 : 0;
+}
+
+} // namespace spia::cli

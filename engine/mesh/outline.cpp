@@ -1,0 +1,60 @@
+#include "engine/mesh/outline.h"
+
+#include <algorithm>
+
+namespace spia {
+namespace {
+
+struct Edge {
+    int a, b;
+    double left, right;
+};
+
+double side(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+bool meet(const Edge& e, const Edge& f, const Eigen::Matrix2Xd& x)
+{
+    if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b)
+        return false; // neighbours
+    const Eigen::Vector2d a = x.col(e.a), b = x.col(e.b), c = x.col(f.a), d = x.col(f.b);
+    if (std::max(c[1], d[1]) < std::min(a[1], b[1]) || std::max(a[1], b[1]) < std::min(c[1], d[1]))
+        return false;
+    const double s1 = side(a, b, c), s2 = side(a, b, d), s3 = side(c, d, a), s4 = side(c, d, b);
+    return ((s1 <= 0 && s2 >= 0) || (s1 >= 0 && s2 <= 0)) && ((s3 <= 0 && s4 >= 0) || (s3 >= 0 && s4 <= 0));
+}
+
+} // namespace
+
+int crossings(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& position)
+{
+    std::vector<Edge> edges;
+    for (const auto& loop : loops)
+        for (size_t i = 0; i < loop.size(); ++i) {
+            const int a = loop[i], b = loop[(i + 1) % loop.size()];
+            edges.push_back({a, b, std::min(position(0, a), position(0, b)), std::max(position(0, a), position(0, b))});
+        }
+    // Sweep from left to right: only edges that overlap in x are compared.
+    std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.left < f.left; });
+    std::vector<const Edge*> open;
+    int count = 0;
+    for (const Edge& edge : edges) {
+        std::erase_if(open, [&](const Edge* other) { return other->right < edge.left; });
+        for (const Edge* other : open)
+            count += meet(edge, *other, position);
+        open.push_back(&edge);
+    }
+    return count;
+}
+
+double length(const std::vector<int>& loop, const Eigen::Matrix2Xd& position)
+{
+    double sum = 0;
+    for (size_t i = 0; i < loop.size(); ++i)
+        sum += (position.col(loop[(i + 1) % loop.size()]) - position.col(loop[i])).norm();
+    return sum;
+}
+
+} // namespace spia

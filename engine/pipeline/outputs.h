@@ -1,0 +1,24 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/pipeline/session.h"
+
+namespace spia {
+
+/// Formats by the names the command line uses.
+const std::vector<std::string>& output_formats();
+
+/// Writes the results of a finished session into a folder, which is made if need be: PART.iges, PART.step, PART.glb,
+/// PART.vtu, PART.dxf, PART.png, and for csv the two tables fields.csv and outline.csv. Each file appears whole or not
+/// at all.
+/// @param formats some of output_formats()
+/// @returns the files, in the order of `formats`
+/// @throws InputError if the chain has not run to its end or a format is unknown; ExchangeError if a file cannot be written
+std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
+                                                 const std::vector<std::string>& formats,
+                                                 const Progress& progress = {});
+
+} // namespace spia

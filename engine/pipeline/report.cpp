@@ -1,0 +1,236 @@
+#include "engine/pipeline/report.h"
+
+#include <sys/resource.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/mesh/distortion.h"
+#include "engine/mesh/outline.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double peak_memory_mb()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024; // Linux counts in kB
+}
+
+double flat_area(const TriMesh& part, const Eigen::Matrix2Xd& X)
+{
+    double sum = 0;
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto x = corners(X, part.triangle.col(f));
+        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
+        sum += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    return sum;
+}
+
+Json steps_json(const std::vector<NewtonStep>& steps)
+{
+    Json list = Json::array();
+    for (const NewtonStep& step : steps)
+        list.push_back({{"energy_J", step.energy}, {"residual", step.residual}, {"step_length", step.step_length}});
+    return list;
+}
+
+std::string_view name(StartMethod start)
+{
+    switch (start) {
+    case StartMethod::projection: return "projection";
+    case StartMethod::conformal: return "conformal";
+    case StartMethod::harmonic: return "harmonic";
+    }
+    return "";
+}
+
+Json findings_json(const DoctorReport& doctor)
+{
+    Json list = Json::array();
+    for (const Finding& finding : doctor.findings)
+        list.push_back({{"fault", name(finding.fault)},
+                        {"severity", finding.severity == Severity::note       ? "note"
+                                     : finding.severity == Severity::repaired ? "repaired"
+                                                                              : "fatal"},
+                        {"count", finding.count},
+                        {"first", finding.first},
+                        {"text", finding.text},
+                        {"advice", finding.advice}});
+    return list;
+}
+
+Json part_json(const PartFile& part)
+{
+    Json json = {{"vertices", part.mesh.vertices()},
+                 {"triangles", part.mesh.triangles()},
+                 {"boundary_loops", boundary_loops(part.mesh).size()},
+                 {"area_mm2", area(part.mesh)},
+                 {"format", part.format},
+                 {"unit", name(part.unit)},
+                 {"findings", findings_json(part.doctor)}};
+    return json;
+}
+
+Json solve_json(const SolveReport& report, const StampingDirection& stamping)
+{
+    return {{"converged", report.converged},
+            {"reason", report.reason},
+            {"energy_iterations", report.energy.size()},
+            {"newton_iterations", report.newton.size()},
+            {"residual", report.residual},
+            {"seconds", report.seconds},
+            {"start", name(report.start)},
+            {"resultant_N_N_Nmm", {report.resultant[0], report.resultant[1], report.resultant[2]}},
+            {"stamping_direction", {stamping.direction[0], stamping.direction[1], stamping.direction[2]}},
+            {"hidden_area_fraction", stamping.hidden_area_fraction},
+            {"energy_steps", steps_json(report.energy)},
+            {"newton_steps", steps_json(report.newton)}};
+}
+
+Json blank_json(const TriMesh& part, const FlattenResult& flat)
+{
+    const Eigen::Matrix2Xd& X = flat.blank.position;
+    const auto loops = boundary_loops(part);
+    const Eigen::Vector2d low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff();
+    return {{"area_mm2", flat_area(part, X)},
+            {"perimeter_mm", length(loops[size_t(0)], X)},
+            {"bounding_box_mm", {low[0], low[1], high[0], high[1]}},
+            {"flipped_triangles", flat.flipped_triangles},
+            {"outline_self_intersections", crossings(loops, X)}};
+}
+
+Json result_json(const FlattenResult& flat)
+{
+    return {{"thinning_max", flat.face.thinning.maxCoeff()},
+            {"thinning_min", flat.face.thinning.minCoeff()},
+            {"equivalent_strain_max", flat.face.strain_equivalent.maxCoeff()},
+            {"thickness_min_mm", flat.face.thickness.minCoeff()},
+            {"thickness_max_mm", flat.face.thickness.maxCoeff()},
+            {"necking_triangles", flat.necking_triangles},
+            {"volume_error", flat.volume_error}};
+}
+
+Json grid_json(const Session& session)
+{
+    const GridResult& grid = session.grid->result;
+    Json corners = Json::array();
+    for (int v : session.grid->boundary.corner)
+        corners.push_back(session.part->source_vertex[size_t(v)]);
+    return {{"columns", grid.planar.columns},
+            {"rows", grid.planar.rows},
+            {"folded_cells", grid.quality.folded_cells},
+            {"method", name(grid.route)},
+            {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
+            {"corners", corners},
+            {"filled_holes", grid.filled->holes}};
+}
+
+Json statistics_json(const DeviationStatistics& s)
+{
+    return {{"max_mm", s.max}, {"rms_mm", s.rms}, {"p95_mm", s.p95}, {"at_mm", {s.where[0], s.where[1], s.where[2]}}};
+}
+
+Json surface_json(const SurfaceStage& stage)
+{
+    const Deviation& d = stage.deviation;
+    return {{"control_points_u", stage.result.surface.count_u},
+            {"control_points_v", stage.result.surface.count_v},
+            {"deviation_max_mm", d.max()},
+            {"deviation_rms_mm", std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms)},
+            {"deviation_p95_mm", std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95)},
+            {"surface_to_mesh", statistics_json(d.surface_to_mesh)},
+            {"mesh_to_surface", statistics_json(d.mesh_to_surface)},
+            {"between_data", statistics_json(d.between_data)}};
+}
+
+} // namespace
+
+std::vector<std::string> shortcomings(const Session& session)
+{
+    std::vector<std::string> list;
+    if (session.blank) {
+        const FlattenResult& flat = *session.blank;
+        if (!flat.report.converged)
+            list.push_back(flat.report.reason);
+        if (flat.flipped_triangles > 0)
+            list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
+        if (const int n = crossings(boundary_loops(session.part->mesh), flat.blank.position))
+            list.push_back(fmt::format("the outline of the blank crosses itself at {} places: the flat sheet would overlap; "
+                                       "cut the part or unfold it in steps",
+                                       n));
+    }
+    if (session.grid && session.grid->result.quality.folded_cells > 0)
+        list.push_back(fmt::format("{} cells of the grid are folded; choose other corners or the harmonic method",
+                                   session.grid->result.quality.folded_cells));
+    return list;
+}
+
+std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds)
+{
+    Json json = {{"schema", "spia.result/1"}, {"input", session.file.string()}};
+    if (session.part)
+        json["part"] = part_json(*session.part);
+    if (session.blank) {
+        const Distortion d = distortion(session.part->mesh, session.blank->blank.position);
+        json["material"] = session.options.flatten.material.name;
+        json["sheet_thickness_mm"] = session.options.flatten.thickness;
+        json["solve"] = solve_json(session.blank->report, session.blank->stamping);
+        json["blank"] = blank_json(session.part->mesh, *session.blank);
+        json["result"] = result_json(*session.blank);
+        json["distortion"] = {
+            {"angular_rms", d.angular_rms}, {"area_rms", d.area_rms}, {"definition", distortion_definition}};
+    }
+    if (session.grid)
+        json["grid"] = grid_json(session);
+    if (session.surface)
+        json["surface"] = surface_json(*session.surface);
+    json["shortcomings"] = shortcomings(session);
+    json["files"] = Json::array();
+    for (const auto& file : files)
+        json["files"].push_back(file.string());
+    double total = write_seconds;
+    for (const Stage stage : chain)
+        if (const auto found = session.seconds.find(stage); found != session.seconds.end()) {
+            json["seconds"][std::string(name(stage))] = found->second;
+            total += found->second;
+        }
+    json["seconds"]["write"] = write_seconds;
+    json["seconds"]["total"] = total;
+    json["peak_memory_mb"] = peak_memory_mb();
+    return json.dump(2) + "\n";
+}
+
+std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
+{
+    Json json = {{"schema", "spia.info/1"},
+                 {"input", file.string()},
+                 {"format", part.format},
+                 {"unit", name(part.unit)},
+                 {"vertices", part.file_vertices},
+                 {"faces", part.file_faces},
+                 {"components", part.doctor.components},
+                 {"healthy", part.doctor.healthy()},
+                 {"findings", findings_json(part.doctor)},
+                 {"notes", part.notes}};
+    const auto optional = [&](const char* key, const std::optional<int>& value) {
+        json[key] = value ? Json(*value) : Json(nullptr);
+    };
+    optional("boundary_loops", part.doctor.boundary_loops);
+    optional("genus", part.doctor.genus);
+    optional("euler_characteristic", part.doctor.euler_characteristic);
+    if (part.doctor.healthy()) {
+        const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(), high = part.mesh.position.rowwise().maxCoeff();
+        json["triangles"] = part.mesh.triangles();
+        json["area_mm2"] = area(part.mesh);
+        json["bounding_box_mm"] = {low[0], low[1], low[2], high[0], high[1], high[2]};
+    }
+    return json.dump(2) + "\n";
+}
+
+} // namespace spia

@@ -1,0 +1,61 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/coons/grid.h"
+#include "engine/coons/lift.h"
+#include "engine/exchange/read_part.h"
+#include "engine/forming/flatten.h"
+#include "engine/nurbs/deviation.h"
+#include "engine/nurbs/interpolate.h"
+
+namespace spia {
+
+/// The steps of the chain, in their order.
+enum class Stage { read, solve, grid, lift, fit };
+inline constexpr Stage chain[] = {Stage::read, Stage::solve, Stage::grid, Stage::lift, Stage::fit};
+std::string_view name(Stage stage);
+
+struct SessionOptions {
+    ReadOptions read;
+    FlattenOptions flatten;
+    std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if not given
+    GridOptions grid;
+    InterpolateOptions interpolate;
+};
+
+/// A planar grid and the sides it was made from.
+struct GridStage {
+    BlankBoundary boundary;
+    GridResult result;
+};
+
+struct SurfaceStage {
+    InterpolateResult result;
+    Deviation deviation;
+};
+
+/// All there is to know about one part: what was asked for and the results so far. Results are finished and const;
+/// a copy is cheap, and an old copy is how one goes back.
+struct Session {
+    std::filesystem::path file;
+    SessionOptions options;
+
+    std::shared_ptr<const PartFile> part;
+    std::shared_ptr<const FlattenResult> blank;
+    std::shared_ptr<const GridStage> grid;
+    std::shared_ptr<const LiftResult> lifted;
+    std::shared_ptr<const SurfaceStage> surface;
+
+    std::map<Stage, double> seconds; ///< of each stage that has run
+};
+
+/// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are dropped.
+/// @throws InputError  if an earlier stage has not run; else what the stage throws
+Session run_stage(Stage stage, Session session, const Progress& progress = {});
+
+} // namespace spia

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# A module includes only what stands before it in this list; heavy third-party headers stay where they belong.
+set -uo pipefail
+cd "$(dirname "$0")/../.."
+order=(core mesh sparse forming unfold coons nurbs exchange pipeline)
+bad=0
+complain() {
+    printf '%s\n' "$*"
+    bad=1
+}
+allowed=()
+for module in "${order[@]}"; do
+    allowed+=("$module")
+    [ -d "engine/$module" ] || continue
+    pattern=$(IFS='|'; echo "${allowed[*]}")
+    while IFS= read -r line; do
+        complain "against the order ($module may include only: ${allowed[*]}): $line"
+    done < <(grep -rnE '#include "(engine|app|tests)/' "engine/$module" | grep -vE "#include \"engine/($pattern)/")
+done
+while IFS= read -r line; do
+    complain "only engine/exchange knows the CAD kernel and glTF: $line"
+done < <(grep -rnE '#include <(.*tiny_gltf|Standard_|Geom_|TopoDS|BRep|IGES|STEP|Interface_|Message_|XSControl)' engine app |
+    grep -v '^engine/exchange/')
+while IFS= read -r line; do
+    complain "only engine/sparse knows SuiteSparse: $line"
+done < <(grep -rnE '#include <(cholmod|umfpack|SuiteSparse)' engine app tests | grep -vE '^(engine/sparse|tests/bench)/')
+while IFS= read -r line; do
+    complain "the engine has no window: $line"
+done < <(grep -rnE '#include <(GLFW|imgui|glm|GL/)' engine)
+[ $bad -eq 0 ] && echo "the include order holds"
+exit $bad
