@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Parameters along the generators of a strip mesh: 0, 1, ..., rows on every other one, 0, 1/2, 3/2, ..., rows on the ones
-/// between, so that inner triangles can be equilateral.
+/// Parameters along the generators of a strip mesh: 0, 1, ..., rows on every other one, 0, 1/2, 3/2, ...,
+/// rows on the ones between, so that inner triangles can be equilateral.
 std::vector<double> generator_points(int column, int rows)
 {
     std::vector<double> t = {0};
@@ -64,7 +64,8 @@ template <class Place> DevelopablePart strips(int columns, int rows, const Place
     return part;
 }
 
-/// A profile in the xz plane, extruded along y from 0 to length. The outer side is to the left of the profile.
+/// A profile in the xz plane, extruded along y from 0 to length. The outer side is to the left of the
+/// profile.
 DevelopablePart extruded(const Profile& profile, double length, int triangles)
 {
     const double edge = std::sqrt(4 / std::sqrt(3.0) * profile.length() * length / triangles);
@@ -111,14 +112,15 @@ DevelopablePart cone_sector(const ConeSector& shape)
 {
     const double sector = shape.sector_deg * pi / 180, half_angle = shape.half_angle_deg * pi / 180;
     const double ratio = shape.far / shape.near;
-    // Rows at geometric distances keep the triangles similar: `columns` strips of the angle sqrt(3) / 2 ln(ratio) / rows.
+    // Rows at geometric distances keep the triangles similar: `columns` strips of the angle sqrt(3) / 2
+    // ln(ratio) / rows.
     const double columns_per_row = sector * std::sin(half_angle) / (std::sqrt(3.0) / 2 * std::log(ratio));
     const int columns = std::max(2, int(std::lround(std::sqrt(shape.triangles * columns_per_row / 2))));
     const int rows = std::max(1, int(std::lround((double(shape.triangles) / columns - 1) / 2)));
     const auto generator = [&](int c) {
         const double azimuth = sector * (columns - c) / columns;
-        return Eigen::Vector3d(std::sin(half_angle) * std::cos(azimuth), std::sin(half_angle) * std::sin(azimuth),
-                               -std::cos(half_angle));
+        return Eigen::Vector3d(std::sin(half_angle) * std::cos(azimuth),
+                               std::sin(half_angle) * std::sin(azimuth), -std::cos(half_angle));
     };
     const double strip_angle = 2 * std::asin((generator(1) - generator(0)).norm() / 2);
     return strips(columns, rows, [&](int c, double t, auto x, auto flat) {
@@ -144,11 +146,14 @@ DevelopablePart lipped_channel(const LippedChannel& shape)
 DevelopablePart perforated_channel(const PerforatedChannel& shape)
 {
     const Profile profile = profile_of(shape.channel);
-    const auto middle = [&](int piece) { return (profile.pieces()[piece].from + profile.pieces()[piece].to) / 2; };
+    const auto middle = [&](int piece) {
+        return (profile.pieces()[piece].from + profile.pieces()[piece].to) / 2;
+    };
     std::vector<Circle> holes;
     for (int i = 0; i < shape.holes_per_row; ++i)
         for (int piece : {4, 6, 3}) // top, right wall, left upper bend
-            holes.push_back({{middle(piece), shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row},
+            holes.push_back({{middle(piece),
+                              shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row},
                              shape.hole_radius});
     const Eigen::Vector2d size(profile.length(), shape.channel.length);
     ParametricMesh rolled = mesh_surface(

@@ -3,8 +3,9 @@
 
 #include "engine/mesh/tri_mesh.h"
 
-/// Parts that are flat sheets, only bent. All vertices lie on the straight generators of the surface, so the strips between
-/// generators are flat and the polyhedron itself, not just the smooth surface, unrolls without strain.
+/// Parts that are flat sheets, only bent. All vertices lie on the straight generators of the surface, so the
+/// strips between generators are flat and the polyhedron itself, not just the smooth surface, unrolls without
+/// strain.
 namespace spia::shapes {
 
 struct DevelopablePart {
@@ -20,49 +21,51 @@ struct QuarterCylinder {
 };
 DevelopablePart quarter_cylinder(const QuarterCylinder& shape = {});
 
-/// A sector of a cone with its apex (not part of it) in the origin and its axis along -z. Triangles grow with the distance
-/// to the apex, in the ratio of `far` to `near`.
+/// A sector of a cone with its apex (not part of it) in the origin and its axis along -z. Triangles grow with
+/// the distance to the apex, in the ratio of `far` to `near`.
 struct ConeSector {
-    double near = 60;          ///< mm from the apex along a generator
-    double far = 140;          ///< mm
+    double near = 60;           ///< mm from the apex along a generator
+    double far = 140;           ///< mm
     double half_angle_deg = 30; ///< between axis and generators
-    double sector_deg = 180;   ///< around the axis, below 360
+    double sector_deg = 180;    ///< around the axis, below 360
     int triangles = 5000;
 };
 DevelopablePart cone_sector(const ConeSector& shape = {});
 
-/// A hat profile: flange, wall, top, wall, flange, bent with one radius. Bends up to 90 degrees; a height field below.
+/// A hat profile: flange, wall, top, wall, flange, bent with one radius. Bends up to 90 degrees; a height
+/// field below.
 struct HatChannel {
-    double top = 60;     ///< mm, flat
-    double wall = 35;    ///< mm, flat
-    double flange = 30;  ///< mm, flat
-    double radius = 8;   ///< mm, of all bends
+    double top = 60;    ///< mm, flat
+    double wall = 35;   ///< mm, flat
+    double flange = 30; ///< mm, flat
+    double radius = 8;  ///< mm, of all bends
     double angle_deg = 90;
     double length = 200; ///< mm
     int triangles = 10000;
 };
 DevelopablePart hat_channel(const HatChannel& shape = {});
 
-/// An upside-down U whose walls end in flanges turned inwards, with lips turned up behind them: six bends of 90 degrees in
-/// the same sense. Seen from above it hides parts of itself, so no projection can flatten it.
+/// An upside-down U whose walls end in flanges turned inwards, with lips turned up behind them: six bends of
+/// 90 degrees in the same sense. Seen from above it hides parts of itself, so no projection can flatten it.
 struct LippedChannel {
-    double top = 60;    ///< mm, flat
-    double wall = 40;   ///< mm, flat
-    double flange = 12; ///< mm, flat
-    double lip = 8;     ///< mm, flat
-    double radius = 6;  ///< mm, of all bends
+    double top = 60;     ///< mm, flat
+    double wall = 40;    ///< mm, flat
+    double flange = 12;  ///< mm, flat
+    double lip = 8;      ///< mm, flat
+    double radius = 6;   ///< mm, of all bends
     double length = 200; ///< mm
     int triangles = 10000;
 };
 DevelopablePart lipped_channel(const LippedChannel& shape = {});
 
-/// A hat channel with a row of round holes in its top, in one wall and across one of its upper bends. The triangles were
-/// laid out flat around the holes and then rolled up, so edges cross the generators: unlike the parts above it is isometric
-/// to `flat` only up to the error of a chord, of second order in the edge length.
+/// A hat channel with a row of round holes in its top, in one wall and across one of its upper bends. The
+/// triangles were laid out flat around the holes and then rolled up, so edges cross the generators: unlike
+/// the parts above it is isometric to `flat` only up to the error of a chord, of second order in the edge
+/// length.
 struct PerforatedChannel {
-    HatChannel channel;      ///< its `triangles` is the number here, too
-    double hole_radius = 7;  ///< mm, in the flat sheet
-    int holes_per_row = 3;   ///< rows: top, right wall, left upper bend
+    HatChannel channel;     ///< its `triangles` is the number here, too
+    double hole_radius = 7; ///< mm, in the flat sheet
+    int holes_per_row = 3;  ///< rows: top, right wall, left upper bend
 };
 DevelopablePart perforated_channel(const PerforatedChannel& shape = {});
 

@@ -30,15 +30,17 @@ const Box wide_pocket{{120, -75}, {75, 38}, 22};
 struct Bead {
     Vector2d from, to;
 };
-const std::vector<Bead> beads = {
-    {{-190, -92}, {0, -92}}, {{-190, -124}, {0, -124}},                                   // on the plateau
-    {{80, -90}, {80, -60}},  {{120, -90}, {120, -60}},  {{160, -90}, {160, -60}}}; // in the wide pocket
-constexpr double bead_top = 3; // half width of the ridge
+const std::vector<Bead> beads = {{{-190, -92}, {0, -92}},
+                                 {{-190, -124}, {0, -124}}, // on the plateau
+                                 {{80, -90}, {80, -60}},
+                                 {{120, -90}, {120, -60}},
+                                 {{160, -90}, {160, -60}}}; // in the wide pocket
+constexpr double bead_top = 3;                              // half width of the ridge
 
 const std::vector<Circle> embosses = {{{120, 62}, 20}, {{-223, -92}, 6}}; // their flat tops
-const std::vector<Circle> holes = {{{120, 62}, 8},    {{70, 88}, 5},      {{170, 36}, 5},     {{225, -5}, 7},
-                                   {{-223, -40}, 5},  {{-223, 60}, 5},    {{284, 100}, 5.5},  {{284, -100}, 5.5},
-                                   {{-284, 100}, 5.5}, {{-284, -100}, 5.5}};
+const std::vector<Circle> holes = {
+    {{120, 62}, 8},  {{70, 88}, 5},     {{170, 36}, 5},     {{225, -5}, 7},     {{-223, -40}, 5},
+    {{-223, 60}, 5}, {{284, 100}, 5.5}, {{284, -100}, 5.5}, {{-284, 100}, 5.5}, {{-284, -100}, 5.5}};
 
 /// The height of the sheet after everything has been pressed into it.
 class Relief {
@@ -85,8 +87,11 @@ ParametricMesh inner_panel(const InnerPanel& shape)
     const Relief relief(shape);
     const auto near_holes = edges_around(holes);
     return mesh_surface(
-        outline(), [&](const Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), relief(p)); }, shape.triangles,
-        [&](const Vector2d& p) { return std::min(near_holes(p), window.corner / 2 + std::abs(window.distance(p))); });
+        outline(), [&](const Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), relief(p)); },
+        shape.triangles,
+        [&](const Vector2d& p) {
+            return std::min(near_holes(p), window.corner / 2 + std::abs(window.distance(p)));
+        });
 }
 
 } // namespace spia::shapes

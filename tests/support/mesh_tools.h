@@ -29,10 +29,10 @@ Eigen::Matrix3d random_rotation(std::uint64_t seed);
 /// Both in one mesh, not connected; the vertices and faces of b come after those of a.
 TriMesh joined(const TriMesh& a, const TriMesh& b);
 
-double mean_edge(const TriMesh& mesh);               ///< mm, every edge counted once
-Eigen::VectorXd edge_lengths(const TriMesh& mesh);   ///< mm, every edge once
-Eigen::VectorXd least_angles(const TriMesh& mesh);   ///< #F, radians
-Eigen::VectorXd angle_sums(const TriMesh& mesh);     ///< #V, radians: 2 pi at an inner vertex without curvature
+double mean_edge(const TriMesh& mesh);             ///< mm, every edge counted once
+Eigen::VectorXd edge_lengths(const TriMesh& mesh); ///< mm, every edge once
+Eigen::VectorXd least_angles(const TriMesh& mesh); ///< #F, radians
+Eigen::VectorXd angle_sums(const TriMesh& mesh);   ///< #V, radians: 2 pi at an inner vertex without curvature
 double share_below(const Eigen::VectorXd& values, double limit); ///< the fraction of values below the limit
 
 /// The slope of the least-squares line through (log h, log error): 2 for a method of second order.

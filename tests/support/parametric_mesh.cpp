@@ -39,7 +39,8 @@ double least_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 class Remesher {
 public:
     Remesher(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
-             const std::vector<Vector2d>& parameter, const Eigen::Matrix3Xi& triangle, const std::vector<int>& corners)
+             const std::vector<Vector2d>& parameter, const Eigen::Matrix3Xi& triangle,
+             const std::vector<int>& corners)
         : region_(region), surface_(surface), edge_(edge)
     {
         TriMesh start;
@@ -69,7 +70,7 @@ public:
     void relax();
 
     int triangles() const { return int(mesh_.n_faces()); }
-    double expected_triangles(const std::function<double(const Vector2d&)>& edge) const;
+    std::vector<std::pair<double, double>> areas_and_edges() const;
     ParametricMesh result() const;
     std::vector<int> corners() const;
 
@@ -82,7 +83,10 @@ private:
         const Vector3d y = surface_(p);
         mesh_.set_point(v, {y.x(), y.y(), y.z()});
     }
-    double length(Halfedge h) const { return (x(mesh_.from_vertex_handle(h)) - x(mesh_.to_vertex_handle(h))).norm(); }
+    double length(Halfedge h) const
+    {
+        return (x(mesh_.from_vertex_handle(h)) - x(mesh_.to_vertex_handle(h))).norm();
+    }
     double wanted(Halfedge h) const
     {
         return edge_((uv(mesh_.from_vertex_handle(h)) + uv(mesh_.to_vertex_handle(h))) / 2);
@@ -100,7 +104,8 @@ private:
     OpenMesh::VPropHandleT<int> corner_; ///< 1: stays where it is
 };
 
-/// No triangle around v turns over in the parameter plane if v moves to p; triangles with `ignored` do not count.
+/// No triangle around v turns over in the parameter plane if v moves to p; triangles with `ignored` do not
+/// count.
 bool Remesher::stays_upright(Vertex v, const Vector2d& p, Vertex ignored) const
 {
     constexpr double thinnest = 1e-3; // of the square of the longest side
@@ -111,7 +116,8 @@ bool Remesher::stays_upright(Vertex v, const Vector2d& p, Vertex ignored) const
         if (a == ignored || b == ignored)
             continue;
         const Vector2d pa = uv(a), pb = uv(b);
-        const double side = std::max({(pa - p).squaredNorm(), (pb - p).squaredNorm(), (pa - pb).squaredNorm()});
+        const double side =
+            std::max({(pa - p).squaredNorm(), (pb - p).squaredNorm(), (pa - pb).squaredNorm()});
         if (doubled_area(p, pa, pb) < thinnest * side)
             return false;
     }
@@ -216,8 +222,9 @@ void Remesher::enlarge_angles()
     }
 }
 
-/// The way in the parameter plane to the centre of the triangles around an inner vertex, or of the two neighbours along the
-/// boundary. Triangles weigh as many as they stand for: area per square of the wanted edge.
+/// The way in the parameter plane to the centre of the triangles around an inner vertex, or of the two
+/// neighbours along the boundary. Triangles weigh as many as they stand for: area per square of the wanted
+/// edge.
 Vector2d Remesher::step_towards_centre(Vertex v) const
 {
     const Vector3d here = x(v);
@@ -274,17 +281,16 @@ void Remesher::relax()
     }
 }
 
-/// How many triangles even edges of this length will give.
-double Remesher::expected_triangles(const std::function<double(const Vector2d&)>& edge) const
+/// Per triangle: its area in space and the wanted edge in its middle.
+std::vector<std::pair<double, double>> Remesher::areas_and_edges() const
 {
-    double sum = 0;
+    std::vector<std::pair<double, double>> list;
     for (auto f : mesh_.faces()) {
         const Halfedge h = mesh_.halfedge_handle(f);
         const Vertex a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h), c = mesh_.opposite_vh(h);
-        const double size = edge((uv(a) + uv(b) + uv(c)) / 3);
-        sum += (x(b) - x(a)).cross(x(c) - x(a)).norm() / 2 / (std::sqrt(3.0) / 4 * size * size);
+        list.emplace_back((x(b) - x(a)).cross(x(c) - x(a)).norm() / 2, edge_((uv(a) + uv(b) + uv(c)) / 3));
     }
-    return sum;
+    return list;
 }
 
 ParametricMesh Remesher::result() const
@@ -314,7 +320,8 @@ std::vector<int> Remesher::corners() const
     return list;
 }
 
-/// Every triangle in four, new vertices in the middle of the edges; those on the boundary are put back onto it.
+/// Every triangle in four, new vertices in the middle of the edges; those on the boundary are put back onto
+/// it.
 void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter, const Region& region)
 {
     std::map<std::pair<int, int>, std::pair<int, int>> middle; // edge -> new vertex, number of triangles
@@ -345,12 +352,31 @@ void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter, const Reg
 }
 
 /// The edge of an equilateral triangle.
-double edge_of(double area) { return std::sqrt(4 / std::sqrt(3.0) * area); }
-
-Remesher start(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
-               double spacing)
+double edge_of(double area)
 {
-    // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go as a whole.
+    return std::sqrt(4 / std::sqrt(3.0) * area);
+}
+
+/// The wanted edge length that lets even triangles add up to this number.
+/// @param parts  area and upper limit of the edge of every piece of the surface
+double first_size(const std::vector<std::pair<double, double>>& parts, int triangles)
+{
+    double small = 1e-3, large = 1e6; // mm
+    for (int i = 0; i < 50; ++i) {
+        const double size = std::sqrt(small * large);
+        double count = 0;
+        for (const auto& [area, limit] : parts)
+            count += area / (std::sqrt(3.0) / 4 * std::pow(std::min(size, limit), 2));
+        (count > triangles ? small : large) = size;
+    }
+    return small;
+}
+
+Remesher start(const Region& region, const Surface& surface,
+               const std::function<double(const Vector2d&)>& edge, double spacing)
+{
+    // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go
+    // as a whole.
     while (spacing > region.smallest_feature / 2)
         spacing /= 2;
     const PlaneMesh plane = cut_lattice(region, spacing);
@@ -378,7 +404,7 @@ ParametricMesh mesh_surface(const Region& region, const Surface& surface, int tr
         first_triangles /= 4;
         ++levels;
     }
-    double size = 0; // mm, the wanted edge away from limits
+    double size = 1e30; // mm, the wanted edge away from limits; at first there are only limits
     const std::function<double(const Vector2d&)> edge = [&](const Vector2d& p) {
         return longest ? std::min(size, longest(p)) : size;
     };
@@ -387,14 +413,11 @@ ParametricMesh mesh_surface(const Region& region, const Surface& surface, int tr
     const Vector2d box = region.high - region.low;
     const double box_edge = edge_of(box.prod() / first_triangles);
     const Remesher rough = attempt(box_edge);
-    double small = 1e-3 * box_edge, large = 1e3 * box_edge;
-    for (int i = 0; i < 60; ++i) {
-        size = std::sqrt(small * large);
-        (rough.expected_triangles(edge) > first_triangles ? small : large) = size;
-    }
+    size = first_size(rough.areas_and_edges(), first_triangles);
 
-    // Lengths between those that are split and those that are collapsed stay as they are, so the number reached follows the
-    // wanted length only roughly, and an existing mesh not at all: start again with the length corrected.
+    // Lengths between those that are split and those that are collapsed stay as they are, so the number
+    // reached follows the wanted length only roughly, and an existing mesh not at all: start again with the
+    // length corrected.
     ParametricMesh result;
     std::vector<int> corners;
     double least_miss = 1e30, best_size = size;

@@ -4,7 +4,8 @@
 
 namespace spia::shapes {
 
-/// A planar curve of straight lines and arcs, drawn like with a pen; tangents are continuous where pieces meet.
+/// A planar curve of straight lines and arcs, drawn like with a pen; tangents are continuous where pieces
+/// meet.
 class Profile {
 public:
     /// @param heading the angle of the first tangent against the first axis, radians

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The lattice, with the signed distance at every vertex. Vertices close to the boundary are moved onto it, so that no
-/// sliver is cut off beside them.
+/// The lattice, with the signed distance at every vertex. Vertices close to the boundary are moved onto it,
+/// so that no sliver is cut off beside them.
 struct Lattice {
     std::vector<Vector2d> position;
     std::vector<double> distance;
@@ -136,7 +136,8 @@ void take_corners(PlaneMesh& mesh, const Region& region, double spacing)
 
 } // namespace
 
-double box_distance(const Vector2d& p, const Vector2d& centre, const Vector2d& half_size, double corner_radius)
+double box_distance(const Vector2d& p, const Vector2d& centre, const Vector2d& half_size,
+                    double corner_radius)
 {
     const Eigen::Array2d q = (p - centre).array().abs() - half_size.array() + corner_radius;
     return q.max(0).matrix().norm() + std::min(0.0, q.maxCoeff()) - corner_radius;

@@ -19,9 +19,13 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radians(double degrees) { return degrees * pi / 180; }
+constexpr double radians(double degrees)
+{
+    return degrees * pi / 180;
+}
 
-/// A meridian of any kind: a point (r, z) for every arc length, and the arc lengths that must become rows of vertices.
+/// A meridian of any kind: a point (r, z) for every arc length, and the arc lengths that must become rows of
+/// vertices.
 struct Meridian {
     std::function<Eigen::Vector2d(double s)> at;
     std::vector<double> rows; ///< ascending, first and last included
@@ -46,16 +50,13 @@ AxisymmetricPart revolve(const Meridian& meridian, int triangles)
     double area = 0; // only roughly
     for (int i = 0; i < 1000; ++i)
         area += 2 * pi * length / 1000 * meridian.at(meridian.rows.front() + (i + 0.5) / 1000 * length).x();
-    const auto circumference = [](double r) { return 2 * pi * r; };
-    const auto plan = [&](double edge) {
-        return plan_rings(row_positions(meridian, edge), edge, 1, meridian.at, circumference);
-    };
-    const double edge = edge_for(triangles, std::sqrt(4 / std::sqrt(3.0) * area / triangles),
-                                 [&](double e) { return count_triangles(plan(e)); });
+    const double edge = std::sqrt(4 / std::sqrt(3.0) * area / triangles); // of equilateral triangles
+    const std::vector<RingPlan> plan =
+        plan_rings(row_positions(meridian, edge), edge, 1, meridian.at, [](double r) { return 2 * pi * r; });
 
     std::vector<Eigen::Matrix3Xd> rings;
     std::vector<double> arc_length;
-    for (const RingPlan& row : plan(edge)) {
+    for (const RingPlan& row : plan) {
         const Eigen::Vector2d rz = meridian.at(row.s);
         const double r = row.points > 1 ? rz.x() : 0; // files write the pole as 3e-15
         Eigen::Matrix3Xd ring(3, row.points);
@@ -66,7 +67,8 @@ AxisymmetricPart revolve(const Meridian& meridian, int triangles)
         rings.push_back(std::move(ring));
         arc_length.insert(arc_length.end(), row.points, row.s);
     }
-    AxisymmetricPart part{stitch_rings(rings), Eigen::VectorXd::Map(arc_length.data(), arc_length.size()), {}};
+    AxisymmetricPart part{
+        stitch_rings(rings), Eigen::VectorXd::Map(arc_length.data(), arc_length.size()), {}};
     for (int i = int(rings.back().cols()); i > 0; --i)
         part.rim.push_back(part.mesh.vertices() - i);
     return part;
@@ -133,7 +135,10 @@ Eigen::Matrix2Xd read_meridian(const std::filesystem::path& file)
     return Eigen::Matrix2Xd::Map(values.data(), 2, Eigen::Index(values.size() / 2));
 }
 
-double SharpCup::area() const { return pi * radius * radius + 2 * pi * radius * height; }
+double SharpCup::area() const
+{
+    return pi * radius * radius + 2 * pi * radius * height;
+}
 
 AxisymmetricPart sharp_cup(const SharpCup& shape)
 {
@@ -151,9 +156,15 @@ double Dome::area() const
     return cap + die + pi * flange_width * (2 * foot + flange_width);
 }
 
-AxisymmetricPart dome(const Dome& shape) { return revolve(meridian_of(profile_of(shape)), shape.triangles); }
+AxisymmetricPart dome(const Dome& shape)
+{
+    return revolve(meridian_of(profile_of(shape)), shape.triangles);
+}
 
-double SphereCap::area() const { return 2 * pi * radius * radius * (1 - std::cos(radians(half_angle_deg))); }
+double SphereCap::area() const
+{
+    return 2 * pi * radius * radius * (1 - std::cos(radians(half_angle_deg)));
+}
 
 AxisymmetricPart sphere_cap(const SphereCap& shape)
 {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 
 namespace spia::shapes {
 namespace {
@@ -32,9 +31,8 @@ int stitch(const Row& inner, const Row& outer, Eigen::Matrix3Xi& triangle, int f
     int i = 0, j = 0;
     while (i < inner_steps || j < outer.size()) {
         const auto a = inner.point(i), b = outer.point(j0 + j);
-        const bool outwards =
-            i == inner_steps ||
-            (j < outer.size() && (a - outer.point(j0 + j + 1)).norm() <= (b - inner.point(i + 1)).norm());
+        const bool outwards = i == inner_steps || (j < outer.size() && (a - outer.point(j0 + j + 1)).norm() <=
+                                                                           (b - inner.point(i + 1)).norm());
         if (outwards) {
             triangle.col(f++) << inner.vertex(i), outer.vertex(j0 + j), outer.vertex(j0 + j + 1);
             ++j;
@@ -79,24 +77,15 @@ std::vector<RingPlan> plan_rings(const std::vector<double>& s, double edge, int 
     return rings;
 }
 
-int count_triangles(const std::vector<RingPlan>& rings)
-{
-    int total = 0;
-    for (size_t k = 0; k < rings.size(); ++k) // one triangle per step along either ring of a pair
-        total += rings[k].points > 1 ? rings[k].points * int((k > 0) + (k + 1 < rings.size())) : 0;
-    return total;
-}
-
 TriMesh stitch_rings(const std::vector<Eigen::Matrix3Xd>& rings)
 {
     assert(rings.size() > 1);
-    int vertices = 0;
-    std::vector<RingPlan> plan;
-    for (const Eigen::Matrix3Xd& ring : rings) {
-        plan.push_back({0, int(ring.cols()), 0});
-        vertices += int(ring.cols());
+    int vertices = 0, triangles = 0;
+    for (size_t k = 0; k < rings.size(); ++k) {
+        const int n = int(rings[k].cols()), neighbours = (k > 0) + (k + 1 < rings.size());
+        vertices += n;
+        triangles += n > 1 ? n * neighbours : 0; // one triangle per step along either ring of a pair
     }
-    const int triangles = count_triangles(plan);
     TriMesh mesh;
     mesh.position.resize(3, vertices);
     mesh.triangle.resize(3, triangles);
@@ -110,21 +99,6 @@ TriMesh stitch_rings(const std::vector<Eigen::Matrix3Xd>& rings)
     }
     assert(f == triangles);
     return mesh;
-}
-
-double edge_for(int triangles, double guess, const std::function<int(double edge)>& count)
-{
-    double best = guess, edge = guess;
-    int least_miss = std::abs(count(guess) - triangles);
-    for (int attempt = 0; attempt < 12; ++attempt) {
-        edge *= std::sqrt(double(count(edge)) / triangles);
-        const int miss = std::abs(count(edge) - triangles);
-        if (miss < least_miss) {
-            least_miss = miss;
-            best = edge;
-        }
-    }
-    return best;
 }
 
 } // namespace spia::shapes

@@ -6,8 +6,8 @@
 
 namespace spia::shapes {
 
-/// Triangles between closed rows of points, each row around the one before it and counter-clockwise seen from the outer
-/// side. The first row may be one single point, the pole. Vertices are numbered row by row.
+/// Triangles between closed rows of points, each row around the one before it and counter-clockwise seen from
+/// the outer side. The first row may be one single point, the pole. Vertices are numbered row by row.
 TriMesh stitch_rings(const std::vector<Eigen::Matrix3Xd>& rings);
 
 /// How the points of one ring are spread.
@@ -17,9 +17,10 @@ struct RingPlan {
     double phase; ///< 0 or 1/2: the first point is this many steps away from the start of the ring
 };
 
-/// Rings of evenly spread points, about `edge` mm apart, every other ring turned by half a step, so that triangles come near
-/// to equilateral. On walls steeper than 80 degrees rings keep count and phase of the one above instead: staggered points on
-/// a vertical wall with round corners would make every other facet overhang.
+/// Rings of evenly spread points, about `edge` mm apart, every other ring turned by half a step, so that
+/// triangles come near to equilateral. On walls steeper than 80 degrees rings keep count and phase of the one
+/// above instead: staggered points on a vertical wall with round corners would make every other facet
+/// overhang.
 /// @param s              ascending arc lengths of the rings
 /// @param place          arc length -> (distance outwards, z) of the ring
 /// @param circumference  distance outwards -> length of the ring, mm; 0 at a pole
@@ -27,12 +28,5 @@ struct RingPlan {
 std::vector<RingPlan> plan_rings(const std::vector<double>& s, double edge, int fold,
                                  const std::function<Eigen::Vector2d(double s)>& place,
                                  const std::function<double(double distance)>& circumference);
-
-/// The number of triangles that stitch_rings will make of such rings.
-int count_triangles(const std::vector<RingPlan>& rings);
-
-/// The edge length for which `count(edge)` comes nearest to the wanted number of triangles.
-/// @param guess where to start; count must fall about like 1 / edge^2
-double edge_for(int triangles, double guess, const std::function<int(double edge)>& count);
 
 } // namespace spia::shapes

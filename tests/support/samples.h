@@ -11,9 +11,9 @@ namespace spia::shapes {
 struct Sample {
     std::string name;
     std::string description;
-    int small;                                 ///< number of triangles that shows the part well in a small file
+    int small; ///< number of triangles that shows the part well in a small file
     std::function<TriMesh(int triangles)> make;
-    bool is_sheet = true;                      ///< false: something that must be refused
+    bool is_sheet = true; ///< false: something that must be refused
 };
 
 /// Every sample, in the order of the list that the program shows.

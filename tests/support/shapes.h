@@ -4,8 +4,8 @@
 #include "engine/mesh/tri_mesh.h"
 #include "tests/support/region.h"
 
-/// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h, square_cup.h,
-/// developable.h, inner_panel.h, fender.h.
+/// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h,
+/// square_cup.h, developable.h, inner_panel.h, fender.h.
 namespace spia::shapes {
 
 /// A flat rectangle in the xy plane, columns x rows cells of two triangles.
@@ -31,10 +31,10 @@ TriMesh saddle(const Saddle& shape = {});
 
 /// @name Not sheets
 ///@{
-TriMesh closed_sphere(double radius, int triangles);             ///< no boundary
-TriMesh torus(double radius, double tube_radius, int triangles); ///< no boundary, genus 1
+TriMesh closed_sphere(double radius, int triangles);               ///< no boundary
+TriMesh torus(double radius, double tube_radius, int triangles);   ///< no boundary, genus 1
 TriMesh moebius_strip(double radius, double width, int triangles); ///< its orientations clash somewhere
-TriMesh two_rectangles();                                        ///< two components
+TriMesh two_rectangles();                                          ///< two components
 ///@}
 
 } // namespace spia::shapes

@@ -14,13 +14,14 @@ namespace {
 
 using std::numbers::pi;
 
-/// The contour at a distance outside the punch square (inside: negative) is a square with rounded corners whose radius
-/// grows with the distance; far inside, a sharp square.
+/// The contour at a distance outside the punch square (inside: negative) is a square with rounded corners
+/// whose radius grows with the distance; far inside, a sharp square.
 struct Contour {
     double half_side, corner_radius;
 
     Contour(const SquareCup& shape, double distance)
-        : half_side(std::max(0.0, shape.punch / 2 + distance)), corner_radius(std::max(0.0, shape.corner_radius + distance))
+        : half_side(std::max(0.0, shape.punch / 2 + distance)),
+          corner_radius(std::max(0.0, shape.corner_radius + distance))
     {
     }
 
@@ -45,10 +46,14 @@ struct Contour {
         } else
             p = {half - (t - half - arc), half_side};
         switch (int(turns) % 4) {
-        case 0: return p;
-        case 1: return {-p.y(), p.x()};
-        case 2: return -p;
-        default: return {p.y(), -p.x()};
+        case 0:
+            return p;
+        case 1:
+            return {-p.y(), p.x()};
+        case 2:
+            return -p;
+        default:
+            return {p.y(), -p.x()};
         }
     }
 };
@@ -57,7 +62,8 @@ struct Contour {
 Profile profile_of(const SquareCup& shape)
 {
     const double slope = pi / 2 - shape.draft_deg * pi / 180;
-    const double tangent_length = shape.punch_radius * std::tan(slope / 2); // from the arc's ends to the corner it replaces
+    const double tangent_length =
+        shape.punch_radius * std::tan(slope / 2); // from the arc's ends to the corner it replaces
     const double radii_drop = (shape.punch_radius + shape.die_radius) * (1 - std::cos(slope));
     assert(radii_drop < shape.depth && tangent_length <= shape.corner_radius);
     return Profile({-shape.punch / 2, 0}, 0)
@@ -72,8 +78,8 @@ Profile profile_of(const SquareCup& shape)
 
 double SquareCup::area() const
 {
-    // The contour's length is linear in the distance d: straight sides 4 (side - 2 radius), corners 2 pi (radius + d).
-    // So each smooth piece of the profile counts with the contour at its centroid (Pappus).
+    // The contour's length is linear in the distance d: straight sides 4 (side - 2 radius), corners 2 pi
+    // (radius + d). So each smooth piece of the profile counts with the contour at its centroid (Pappus).
     const Profile profile = profile_of(*this);
     double total = std::pow(punch + 2 * profile.at(profile.pieces()[1].from).x(), 2);
     const double r = corner_radius + profile.at(profile.pieces()[1].from).x();
@@ -85,9 +91,11 @@ double SquareCup::area() const
         double centroid = profile.at((piece.from + piece.to) / 2).x();
         if (piece.curvature != 0) {
             const double radius = 1 / std::abs(piece.curvature), half = length / radius / 2;
-            // From the middle of the arc towards its centre of curvature, which lies left of the tangent if curvature > 0.
+            // From the middle of the arc towards its centre of curvature, which lies left of the tangent if
+            // curvature > 0.
             const double middle_heading = piece.heading + piece.curvature * length / 2;
-            const double towards_centre = piece.curvature > 0 ? -std::sin(middle_heading) : std::sin(middle_heading);
+            const double towards_centre =
+                piece.curvature > 0 ? -std::sin(middle_heading) : std::sin(middle_heading);
             centroid += towards_centre * radius * (1 - std::sin(half) / half);
         }
         total += length * (sides + 2 * pi * (corner_radius + centroid));
@@ -100,14 +108,12 @@ TriMesh square_cup(const SquareCup& shape)
     const Profile profile = profile_of(shape);
     const auto place = [&](double s) { return profile.at(s); };
     const auto circumference = [&](double distance) { return Contour(shape, distance).length(); };
-    const auto plan = [&](double edge) {
-        return plan_rings(even_spacing(profile, edge * std::sqrt(3.0) / 2), edge, 4, place, circumference);
-    };
-    const double edge = edge_for(shape.triangles, std::sqrt(4 / std::sqrt(3.0) * shape.area() / shape.triangles),
-                                 [&](double e) { return count_triangles(plan(e)); });
+    const double edge =
+        std::sqrt(4 / std::sqrt(3.0) * shape.area() / shape.triangles); // of equilateral triangles
+    const std::vector<double> rows = even_spacing(profile, edge * std::sqrt(3.0) / 2);
 
     std::vector<Eigen::Matrix3Xd> rings;
-    for (const RingPlan& row : plan(edge)) {
+    for (const RingPlan& row : plan_rings(rows, edge, 4, place, circumference)) {
         const Eigen::Vector2d at = place(row.s);
         const Contour contour(shape, at.x());
         Eigen::Matrix3Xd ring(3, row.points);

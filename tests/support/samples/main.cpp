@@ -24,7 +24,8 @@ void write(const fs::path& file, const TriMesh& mesh)
 void list()
 {
     for (const shapes::Sample& sample : shapes::samples())
-        fmt::print("{:<20} {}{}\n", sample.name, sample.description, sample.is_sheet ? "" : " (to be refused)");
+        fmt::print("{:<20} {}{}\n", sample.name, sample.description,
+                   sample.is_sheet ? "" : " (to be refused)");
     fmt::print("{:<20} {}\n", "revolved", "around z from --meridian FILE, a CSV with columns r_mm,z_mm");
 }
 
@@ -33,14 +34,16 @@ void write_all(const fs::path& folder, const std::string& ending, int triangles)
     fs::create_directories(folder);
     for (const shapes::Sample& sample : shapes::samples())
         if (sample.is_sheet)
-            write(folder / (sample.name + "." + ending), sample.make(triangles > 0 ? triangles : sample.small));
+            write(folder / (sample.name + "." + ending),
+                  sample.make(triangles > 0 ? triangles : sample.small));
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Writes sample parts: sheet-metal shapes of any size, the same at every call.", "spia-samples");
+    CLI::App app("Writes sample parts: sheet-metal shapes of any size, the same at every call.",
+                 "spia-samples");
     std::string name, ending = "obj";
     fs::path out, all, meridian;
     int triangles = 0;
@@ -49,7 +52,8 @@ int main(int argc, char** argv)
     app.add_option("--triangles", triangles, "about how many; a small number fit for the part if not given")
         ->check(CLI::Range(100, 20000000));
     app.add_option("--out", out, "file to write, .stl (binary) or .obj; NAME.obj if not given");
-    app.add_option("--meridian", meridian, "for the part `revolved`: CSV with columns r_mm,z_mm")->check(CLI::ExistingFile);
+    app.add_option("--meridian", meridian, "for the part `revolved`: CSV with columns r_mm,z_mm")
+        ->check(CLI::ExistingFile);
     app.add_option("--all", all, "write every part that is a sheet into this folder");
     app.add_option("--format", ending, "of the files of --all")->check(CLI::IsMember({"obj", "stl"}));
     app.add_flag("--list", show_list, "show what there is");

@@ -17,7 +17,8 @@ TEST(Shapes, PlateHasItsAreaAndOneLoopPerHole)
         expect_count(mesh, n);
         expect_topology(mesh, 3, -1);
         expect_well_shaped(mesh, 0, 25);
-        EXPECT_NEAR(area(mesh), shape.area(), 3.0 / n * shape.area()); // the chords of the holes: edge^2, so 1 / n
+        EXPECT_NEAR(area(mesh), shape.area(),
+                    3.0 / n * shape.area()); // the chords of the holes: edge^2, so 1 / n
         EXPECT_NEAR(least_upward(mesh), 1, 1e-12);
     }
 }
@@ -70,7 +71,10 @@ TEST(Shapes, MoebiusStripHasClashingOrientations)
     EXPECT_THROW(halfedges(mesh), InputError);
 }
 
-TEST(Shapes, TwoRectanglesAreTwoComponents) { expect_topology(two_rectangles(), 2, 2); }
+TEST(Shapes, TwoRectanglesAreTwoComponents)
+{
+    expect_topology(two_rectangles(), 2, 2);
+}
 
 } // namespace
 } // namespace spia::shapes

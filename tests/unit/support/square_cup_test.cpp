@@ -7,10 +7,10 @@ namespace {
 
 TEST(SquareCup, AreaOfThePolyhedronTendsToTheClosedForm)
 {
-    for (double draft : {0.0, 10.0}) {
+    for (double draft : {0.0, 10.0}) { // unequal radii: errors of their two terms must not cancel
         std::vector<double> h, error;
         for (int n : {4000, 16000, 64000}) {
-            const SquareCup shape{.draft_deg = draft, .triangles = n};
+            const SquareCup shape{.punch_radius = 6, .die_radius = 10, .draft_deg = draft, .triangles = n};
             const TriMesh mesh = square_cup(shape);
             h.push_back(mean_edge(mesh));
             error.push_back(std::abs(area(mesh) - shape.area()));
@@ -27,6 +27,8 @@ TEST(SquareCup, IsADiskOfGoodTrianglesAtEverySize)
         expect_count(mesh, n);
         expect_topology(mesh, 1, 1);
         expect_well_shaped(mesh, 0, 25);
+        EXPECT_GT(least_angles(mesh).mean(),
+                  47 * std::numbers::pi / 180); // right angles throughout: 45 at most
         EXPECT_GT(least_upward(mesh), -1e-12);
     }
 }
