@@ -117,7 +117,9 @@ TEST(ClosestPoint, AboveAPlaneItIsTheFootAndBesideItTheEdge)
 
 TEST(ClosestPoint, OfEquallyNearFacesTheFirstIsFound)
 {
-    const TriMesh mesh = shapes::rectangle(8, 8, 8, 8);
+    TriMesh mesh = shapes::rectangle(8, 8, 8, 8);
+    mesh.triangle =
+        mesh.triangle.rowwise().reverse().eval(); // the first ones are not those of smallest coordinates
     const ClosestPointSearch search(mesh);
     for (int v = 0; v < mesh.vertices(); ++v) { // all faces around a vertex are equally near to it
         int first = mesh.triangles();

@@ -177,6 +177,23 @@ TEST(Interpolate, ParametersFollowTheDistancesOfTheNodes)
     }
 }
 
+TEST(Interpolate, KnotsAreMeansOfThreeParametersOrTheParametersThemselves)
+{
+    const double x[] = {0, 1, 3, 7, 15, 20};
+    const QuadGrid grid = surfaces::grid(
+        5, 2, [&](double s, double t) { return Eigen::Vector3d(x[std::lround(5 * s)], 20 * t, 0); });
+    const std::vector<double> averaged = {0, 0, 0, 0, 11. / 60, 25. / 60, 1, 1, 1, 1};
+    const std::vector<double> natural = {0, 0, 0, 0, 0.05, 0.15, 0.35, 0.75, 1, 1, 1, 1};
+    const NurbsSurface a = interpolate(grid).surface, n = interpolate(grid, {Ends::natural}).surface;
+    ASSERT_EQ(a.knots_u.size(), averaged.size());
+    ASSERT_EQ(n.knots_u.size(), natural.size());
+    for (size_t i = 0; i < averaged.size(); ++i)
+        EXPECT_NEAR(a.knots_u[i], averaged[i], 1e-15);
+    for (size_t i = 0; i < natural.size(); ++i)
+        EXPECT_NEAR(n.knots_u[i], natural[i], 1e-15);
+    EXPECT_EQ(a.knots_v, (std::vector<double>{0, 0, 0, 1, 1, 1})) << "three rows: degree 2";
+}
+
 TEST(Interpolate, MovedGridGivesTheMovedSurface)
 {
     const QuadGrid grid = surfaces::grid(14, 9, sheet);
