@@ -1,0 +1,180 @@
+#include "engine/exchange/read_part.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fmt/core.h>
+#include <fstream>
+
+#include "engine/core/error.h"
+#include "engine/exchange/checked_file.h"
+#include "engine/exchange/read_gltf.h"
+#include "engine/exchange/read_openmesh.h"
+#include "engine/mesh/topology.h"
+
+namespace spia
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// One of stl, obj, ply, off, gltf, glb.
+std::string extension_of(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
+        if (extension == known)
+            return extension.substr(1);
+    throw InputError(fmt::format(
+        "the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files",
+        extension));
+}
+
+std::string content_of(const fs::path& path)
+{
+    constexpr uintmax_t most_bytes = uintmax_t(3) << 30;
+    std::error_code problem;
+    const fs::file_status status = fs::status(path, problem);
+    if (!fs::exists(status))
+        throw InputError("there is no such file");
+    if (!fs::is_regular_file(status))
+        throw InputError("this is not a file but a folder or a device");
+    const uintmax_t size = fs::file_size(path, problem);
+    if (problem)
+        throw InputError("its size cannot be found out: " + problem.message());
+    if (size == 0)
+        throw InputError("the file is empty");
+    if (size > most_bytes)
+        throw InputError(fmt::format("{} bytes are more than the {} that are read", size, most_bytes));
+    std::string content(size_t(size), '\0');
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream.read(content.data(), std::streamsize(size)))
+        throw InputError("the file cannot be read; look at its permissions");
+    return content;
+}
+
+CheckedFile check(const std::string& extension, std::string_view content)
+{
+    if (extension == "obj")
+        return check_obj(content);
+    if (extension == "off")
+        return check_off(content);
+    if (extension == "ply")
+        return check_ply(content);
+    return check_stl(content);
+}
+
+/// Fills format and notes of the part.
+PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile& part,
+                    const Progress& progress)
+{
+    const std::string content = content_of(path);
+    progress.checkpoint(0.2, "reading the file");
+    if (extension == "gltf" || extension == "glb") {
+        GltfContent gltf = read_gltf(path, content, progress.part(0.2, 1));
+        part.format = extension == "glb" ? "glTF (binary)" : "glTF (text)";
+        part.notes = std::move(gltf.notes);
+        return std::move(gltf.soup);
+    }
+    const CheckedFile checked = check(extension, content);
+    progress.checkpoint(0.6, "reading the file");
+    part.format = checked.format;
+    part.notes = checked.notes;
+    return read_openmesh(checked);
+}
+
+void note_size(PartFile& part, bool unit_given)
+{
+    if (part.mesh.vertices() == 0)
+        return;
+    if (!unit_given && part.unit == LengthUnit::m)
+        part.notes.push_back("lengths were taken as metres, as the glTF specification says");
+    constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's plate
+    const double diagonal = bounding_diagonal(part.mesh);
+    if (!unit_given && (diagonal < small || diagonal > large))
+        part.notes.push_back(fmt::format(
+            "the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
+            diagonal, name(part.unit)));
+}
+
+PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
+{
+    const std::string extension = extension_of(path);
+    const bool gltf = extension == "gltf" || extension == "glb";
+    PartFile part;
+    part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
+    PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
+    for (Eigen::Vector3d& p : soup.position)
+        p *= millimetres(part.unit);
+    part.file_vertices = soup.vertices();
+    part.file_faces = soup.polygons();
+
+    DoctorOptions doctor = options.doctor;
+    doctor.weld = options.weld.value_or(gltf || extension == "stl");
+    Examination examination = examine(soup, doctor, progress.part(0.5, 1));
+    part.mesh = std::move(examination.mesh);
+    part.doctor = std::move(examination.report);
+    part.source_vertex = std::move(examination.source_vertex);
+    part.source_face = std::move(examination.source_face);
+    note_size(part, options.unit.has_value());
+    return part;
+}
+
+/// Does the work and puts the file's name before whatever is wrong with it.
+template <class Work> PartFile named(const fs::path& path, const Work& work)
+{
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+    }
+}
+
+struct UnitName {
+    LengthUnit unit;
+    std::string_view name;
+    double millimetres;
+};
+constexpr std::array<UnitName, 4> units = {{{LengthUnit::mm, "mm", 1},
+                                            {LengthUnit::cm, "cm", 10},
+                                            {LengthUnit::m, "m", 1000},
+                                            {LengthUnit::inch, "inch", 25.4}}};
+
+} // namespace
+
+double millimetres(LengthUnit unit)
+{
+    return units[size_t(unit)].millimetres;
+}
+
+std::string_view name(LengthUnit unit)
+{
+    return units[size_t(unit)].name;
+}
+
+LengthUnit length_unit(std::string_view name)
+{
+    for (const UnitName& known : units)
+        if (known.name == name)
+            return known.unit;
+    throw InputError(fmt::format("'{}' is not a unit of length here; give mm, cm, m or inch", name));
+}
+
+PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
+{
+    return named(path, [&] { return examine_file(path, options, progress); });
+}
+
+PartFile read_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
+{
+    return named(path, [&] {
+        PartFile part = examine_file(path, options, progress);
+        require_healthy(part.doctor);
+        return part;
+    });
+}
+
+} // namespace spia

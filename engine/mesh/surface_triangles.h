@@ -1,0 +1,33 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/mesh/doctor.h"
+#include "engine/mesh/edge_uses.h"
+
+namespace spia
+{
+
+/// The triangles a soup's polygons were split into. Vertices keep their numbers in the soup.
+struct SurfaceTriangles {
+    std::vector<Triangle> triangle;
+    std::vector<int> number; ///< per triangle: its polygon in the soup, never decreasing
+};
+
+/// Joins vertices if asked to, removes repeated corners and duplicates, and splits what has more than three
+/// corners; every change is added to the report. Expects indices in range and finite coordinates.
+SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options,
+                                   DoctorReport& report, const Progress& progress);
+
+/// Counts faults of one kind and remembers the first.
+struct Tally {
+    int count = 0, first = -1;
+    void add(int which) { first = count++ == 0 ? which : first; }
+};
+
+/// "1 face has", "3 faces have"
+std::string counted(int n, std::string_view one, std::string_view many);
+
+} // namespace spia

@@ -1,0 +1,206 @@
+#include "engine/mesh/weld.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+namespace spia
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+/// same_as for equal coordinates; -0 equals 0.
+std::vector<int> join_equal(const std::vector<Vector3d>& position)
+{
+    std::vector<int> order(position.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto before = [&](int a, int b) {
+        const Vector3d &p = position[size_t(a)], &q = position[size_t(b)];
+        return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+    };
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return before(a, b) || (!before(b, a) && a < b); });
+    std::vector<int> same_as(position.size());
+    for (size_t i = 0; i < order.size(); ++i) {
+        const bool joins = i > 0 && position[size_t(order[i])] == position[size_t(order[i - 1])];
+        same_as[size_t(order[i])] = joins ? same_as[size_t(order[i - 1])] : order[i];
+    }
+    return same_as;
+}
+
+/// Vertices at the ends of edges that one polygon uses alone, in increasing order.
+std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& same_as)
+{
+    std::vector<std::array<int, 2>> edges;
+    for (int p = 0; p < soup.polygons(); ++p) {
+        const auto corners = soup.polygon(p);
+        for (size_t k = 0; k < corners.size(); ++k) {
+            const int a = same_as[size_t(corners[k])], b = same_as[size_t(corners[(k + 1) % corners.size()])];
+            if (a != b)
+                edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<int> open;
+    for (size_t i = 0; i < edges.size(); ++i)
+        if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1]))
+            open.insert(open.end(), edges[i].begin(), edges[i].end());
+    std::sort(open.begin(), open.end());
+    open.erase(std::unique(open.begin(), open.end()), open.end());
+    return open;
+}
+
+/// A grid of cubes of one tolerance: whatever is closer than that lies in the same cube or one of its 26
+/// neighbours.
+class NearGrid
+{
+public:
+    explicit NearGrid(double cell) : cell_(cell) {}
+
+    void add(int i, const Vector3d& p)
+    {
+        constexpr size_t crowded =
+            256; // so many places within one tolerance are no gaps; looking at all of them is slow
+        auto& places = cubes_[key(cube(p))];
+        if (places.size() < crowded)
+            places.push_back(i);
+    }
+
+    /// Calls visit(i) for what was added and may be near p.
+    template <class Visit> void around(const Vector3d& p, const Visit& visit) const
+    {
+        const auto centre = cube(p);
+        for (int64_t i = -1; i <= 1; ++i)
+            for (int64_t j = -1; j <= 1; ++j)
+                for (int64_t k = -1; k <= 1; ++k)
+                    if (const auto found = cubes_.find(key({centre[0] + i, centre[1] + j, centre[2] + k}));
+                        found != cubes_.end())
+                        for (const int other : found->second)
+                            visit(other);
+    }
+
+private:
+    std::array<int64_t, 3> cube(const Vector3d& p) const
+    {
+        return {int64_t(std::floor(p.x() / cell_)), int64_t(std::floor(p.y() / cell_)),
+                int64_t(std::floor(p.z() / cell_))};
+    }
+    static uint64_t key(const std::array<int64_t, 3>& c) // cubes that collide only cost a comparison
+    {
+        return uint64_t(c[0]) * 73856093u ^ uint64_t(c[1]) * 19349663u ^ uint64_t(c[2]) * 83492791u;
+    }
+
+    double cell_;
+    std::unordered_map<uint64_t, std::vector<int>> cubes_;
+};
+
+/// Two open vertices with a gap between them, given by their places in the list of open vertices.
+struct Gap {
+    double width;
+    int a, b; ///< a < b
+};
+
+/// Gaps up to the tolerance, the narrowest first.
+std::vector<Gap> gaps(const std::vector<Vector3d>& position, const std::vector<int>& open, double tolerance)
+{
+    constexpr size_t most = 16; // per vertex; its nearest ones are enough to connect what lies at one place
+    NearGrid grid(tolerance);
+    std::vector<Gap> result, here;
+    for (size_t i = 0; i < open.size(); ++i) {
+        const Vector3d& p = position[size_t(open[i])];
+        here.clear();
+        grid.around(p, [&](int other) {
+            const double width = (position[size_t(open[size_t(other)])] - p).norm();
+            if (width <= tolerance)
+                here.push_back({width, other, int(i)});
+        });
+        const auto narrower = [](const Gap& g, const Gap& h) {
+            return std::tie(g.width, g.a, g.b) < std::tie(h.width, h.a, h.b);
+        };
+        std::sort(here.begin(), here.end(), narrower);
+        result.insert(result.end(), here.begin(), here.begin() + long(std::min(most, here.size())));
+        grid.add(int(i), p);
+    }
+    std::sort(result.begin(), result.end(), [](const Gap& g, const Gap& h) {
+        return std::tie(g.width, g.a, g.b) < std::tie(h.width, h.a, h.b);
+    });
+    return result;
+}
+
+/// Per open vertex the polygons at it, increasing.
+std::vector<std::vector<int>> polygons_at(const PolygonSoup& soup, const std::vector<int>& same_as,
+                                          const std::vector<int>& open)
+{
+    std::vector<int> place(size_t(soup.vertices()), -1);
+    for (size_t i = 0; i < open.size(); ++i)
+        place[size_t(open[i])] = int(i);
+    std::vector<std::vector<int>> at(open.size());
+    for (int p = 0; p < soup.polygons(); ++p)
+        for (const int v : soup.polygon(p))
+            if (const int i = place[size_t(same_as[size_t(v)])];
+                i >= 0 && (at[size_t(i)].empty() || at[size_t(i)].back() != p))
+                at[size_t(i)].push_back(p);
+    return at;
+}
+
+bool have_common(const std::vector<int>& a, const std::vector<int>& b)
+{
+    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end(); *i < *j ? ++i : ++j)
+        if (*i == *j)
+            return true;
+    return false;
+}
+
+/// Closes the narrowest gaps first, unless that would bring two corners of one polygon together.
+void close_gaps(const PolygonSoup& soup, double tolerance, Weld& result)
+{
+    const std::vector<int> open = open_vertices(soup, result.same_as);
+    auto at = polygons_at(soup, result.same_as, open);
+    std::vector<int> group(open.size()); // the first open vertex of the same place
+    std::iota(group.begin(), group.end(), 0);
+    const auto root = [&](int i) {
+        while (group[size_t(i)] != i)
+            i = group[size_t(i)] = group[size_t(group[size_t(i)])];
+        return i;
+    };
+    for (const Gap& gap : gaps(soup.position, open, tolerance)) {
+        const size_t a = size_t(std::min(root(gap.a), root(gap.b))),
+                     b = size_t(std::max(root(gap.a), root(gap.b)));
+        if (a == b || have_common(at[a], at[b]))
+            continue;
+        std::vector<int> both;
+        std::merge(at[a].begin(), at[a].end(), at[b].begin(), at[b].end(), std::back_inserter(both));
+        at[a] = std::move(both);
+        at[b].clear();
+        group[b] = int(a);
+        ++result.near;
+        result.widest = std::max(result.widest, gap.width);
+    }
+    std::vector<int> moved(size_t(soup.vertices()), -1);
+    for (size_t i = 0; i < open.size(); ++i)
+        moved[size_t(open[i])] = open[size_t(root(int(i)))];
+    for (int& v : result.same_as)
+        v = moved[size_t(v)] >= 0 ? moved[size_t(v)] : v;
+}
+
+} // namespace
+
+Weld weld(const PolygonSoup& soup, double tolerance)
+{
+    Weld result;
+    result.same_as = join_equal(soup.position);
+    for (int v = 0; v < soup.vertices(); ++v)
+        result.exact += result.same_as[size_t(v)] != v;
+    if (tolerance > 0)
+        close_gaps(soup, tolerance, result);
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,548 @@
+#include "engine/exchange/read_part.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/core.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <random>
+#include <sys/resource.h>
+
+#include "engine/core/error.h"
+#include "engine/mesh/topology.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+const fs::path data_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data";
+
+class ReadPart : public testing::Test
+{
+protected:
+    fs::path write(const std::string& name, const std::string& content)
+    {
+        const fs::path path = scratch / name;
+        std::ofstream(path, std::ios::binary) << content;
+        return path;
+    }
+    PartFile read(const std::string& name, const std::string& content, const ReadOptions& options = {})
+    {
+        return read_part(write(name, content), options);
+    }
+    void expect_refused(const std::string& name, const std::string& content, const std::string& words)
+    {
+        try {
+            read(name, content);
+            ADD_FAILURE() << name << " was accepted; expected: " << words;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+        }
+    }
+    ScratchFolder scratch;
+};
+
+template <class T> void append(std::string& bytes, T value)
+{
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// A bent sheet with digits that single precision does not hold.
+TriMesh bent_sheet()
+{
+    TriMesh mesh = shapes::rectangle(100. / 3, 70. / 3, 5, 4);
+    for (int v = 0; v < mesh.vertices(); ++v)
+        mesh.position(2, v) = 0.01 * mesh.position(0, v) * mesh.position(0, v);
+    return mesh;
+}
+
+std::string obj_text(const TriMesh& mesh)
+{
+    std::string text = "# comment\nmtllib none.mtl\no part\n";
+    for (int v = 0; v < mesh.vertices(); ++v)
+        text += fmt::format("v {} {} {}\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
+    text += "vt 0 0\nvn 0 0 1\nusemtl steel\ns off\n";
+    for (int f = 0; f < mesh.triangles(); ++f)
+        text += fmt::format("f {}/1/1 {}//1 {}\n", mesh.triangle(0, f) + 1, mesh.triangle(1, f) + 1,
+                            mesh.triangle(2, f) + 1);
+    return text;
+}
+
+std::string off_text(const TriMesh& mesh)
+{
+    std::string text = fmt::format("COFF # with colours\n{} {} 0\n\n", mesh.vertices(), mesh.triangles());
+    for (int v = 0; v < mesh.vertices(); ++v)
+        text += fmt::format("{} {} {} 255 0 0 255\n", mesh.position(0, v), mesh.position(1, v),
+                            mesh.position(2, v));
+    for (int f = 0; f < mesh.triangles(); ++f)
+        text += fmt::format("3 {} {} {} 0.5 0.5 0.5\n", mesh.triangle(0, f), mesh.triangle(1, f),
+                            mesh.triangle(2, f));
+    return text;
+}
+
+/// With normals, a quality, colours and texture lists around what is needed, as scanners and modellers write
+/// them.
+std::string ply_text(const TriMesh& mesh)
+{
+    std::string text = fmt::format(
+        "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex {}\r\nproperty float nx\r\n"
+        "property double x\r\nproperty double y\r\nproperty double z\r\nproperty float quality\r\nelement "
+        "face {}\r\n"
+        "property uchar red\r\nproperty list uint8 int32 vertex_indices\r\nproperty list uchar float "
+        "texcoord\r\n"
+        "element edge 1\r\nproperty int a\r\nend_header\r\n",
+        mesh.vertices(), mesh.triangles());
+    for (int v = 0; v < mesh.vertices(); ++v)
+        text +=
+            fmt::format("1 {} {} {} nan\r\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
+    for (int f = 0; f < mesh.triangles(); ++f)
+        text += fmt::format("7 3 {} {} {} 2 0.5 0.25\r\n", mesh.triangle(0, f), mesh.triangle(1, f),
+                            mesh.triangle(2, f));
+    return text + "5\r\n";
+}
+
+std::string ply_binary(const TriMesh& mesh, bool big)
+{
+    std::string bytes = fmt::format(
+        "ply\nformat binary_{}_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
+        "property double z\nproperty uchar red\nelement face {}\nproperty list ushort uint vertex_index\n"
+        "end_header\n",
+        big ? "big" : "little", mesh.vertices(), mesh.triangles());
+    const auto put = [&](auto value) {
+        std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
+        if (big)
+            std::reverse(raw.begin(), raw.end());
+        bytes += raw;
+    };
+    for (int v = 0; v < mesh.vertices(); ++v) {
+        for (int k = 0; k < 3; ++k)
+            put(mesh.position(k, v));
+        put(uint8_t(200));
+    }
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        put(uint16_t(3));
+        for (int k = 0; k < 3; ++k)
+            put(uint32_t(mesh.triangle(k, f)));
+    }
+    return bytes;
+}
+
+std::string stl_text(const TriMesh& mesh)
+{
+    std::string text = "solid router cover\n"; // "outer" in a name is no loop
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        text += " facet normal 0 0 1\n  outer loop\n";
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3f p = mesh.position.col(mesh.triangle(k, f)).cast<float>();
+            text += fmt::format("   vertex {} {} {}\n", p.x(), p.y(), p.z());
+        }
+        text += "  endloop\n endfacet\n";
+    }
+    return text + "endsolid router cover\n";
+}
+
+std::string stl_binary(const TriMesh& mesh)
+{
+    std::string bytes = "solid, though it is binary";
+    bytes.resize(80, ' ');
+    append(bytes, uint32_t(mesh.triangles()));
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        bytes.append(12, '\0');
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 3; ++i)
+                append(bytes, float(mesh.position(i, mesh.triangle(k, f))));
+        bytes.append(2, '\0');
+    }
+    return bytes;
+}
+
+std::string base64(const std::string& bytes)
+{
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t word = 0;
+        for (size_t k = 0; k < 3; ++k)
+            word = word << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0u);
+        for (size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? digits[word >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+std::string glb(std::string json, std::string binary)
+{
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    binary.resize((binary.size() + 3) / 4 * 4, '\0');
+    std::string bytes = "glTF";
+    append(bytes, uint32_t(2));
+    append(bytes, uint32_t(12 + 8 + json.size() + 8 + binary.size()));
+    append(bytes, uint32_t(json.size()));
+    bytes += "JSON" + json;
+    append(bytes, uint32_t(binary.size()));
+    return bytes + std::string("BIN\0", 4) + binary;
+}
+
+/// A 2 x 1 strip in metres: a triangle list on the left (vertices 0 to 3), and a strip with vertices of its
+/// own (4 to 7) on the right, moved there by a node and mirrored in it.
+struct GltfStrip {
+    std::string binary, json;
+
+    explicit GltfStrip(const std::string& buffer_uri = "", const std::string& extra = "")
+    {
+        for (const float value :
+             {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) // counter-clockwise
+            append(binary, value);
+        for (const uint16_t i : {0, 1, 2, 0, 2, 3})
+            append(binary, i);
+        for (const uint8_t i : {0, 1, 3, 2})
+            append(binary, i);
+        json = fmt::format(
+            R"({{"asset":{{"version":"2.0"}},{}"scene":0,"scenes":[{{"nodes":[0]}}],
+            "nodes":[{{"children":[1,2]}},{{"mesh":0}},{{"mesh":1,"translation":[2,0,0],"scale":[-1,1,1]}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}},
+                      {{"primitives":[{{"attributes":{{"POSITION":0}},"indices":2,"mode":5}}, {{"attributes":{{"POSITION":0}},"mode":1}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},
+                         {{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}},
+                         {{"bufferView":1,"byteOffset":12,"componentType":5121,"count":4,"type":"SCALAR"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":16}}],
+            "buffers":[{{"byteLength":64{}}}]}})",
+            extra, buffer_uri.empty() ? "" : fmt::format(R"(,"uri":"{}")", buffer_uri));
+    }
+};
+
+} // namespace
+
+TEST_F(ReadPart, EveryTextFormatKeepsAllDigitsAndTheOrderOfTheFile)
+{
+    const TriMesh mesh = bent_sheet();
+    for (const auto& [name, content] : {std::pair{"part.obj", obj_text(mesh)},
+                                        {"PART.OFF", off_text(mesh)},
+                                        {"part.ply", ply_text(mesh)},
+                                        {"little.ply", ply_binary(mesh, false)},
+                                        {"big.ply", ply_binary(mesh, true)}}) {
+        const PartFile part = read(name, content);
+        EXPECT_EQ(part.mesh.position, mesh.position) << name;
+        EXPECT_EQ(part.mesh.triangle, mesh.triangle) << name;
+        EXPECT_TRUE(part.doctor.findings.empty()) << name;
+        EXPECT_EQ(part.file_faces, mesh.triangles()) << name;
+    }
+}
+
+TEST_F(ReadPart, BothKindsOfStlAreWeldedInTheOrderOfTheirCorners)
+{
+    const TriMesh mesh = bent_sheet();
+    for (const auto& [name, content] :
+         {std::pair{"text.stl", stl_text(mesh)}, {"binary.stl", stl_binary(mesh)}}) {
+        const PartFile part = read(name, content);
+        ASSERT_EQ(part.mesh.vertices(), mesh.vertices()) << name;
+        for (int f = 0; f < mesh.triangles(); ++f)
+            for (int k = 0; k < 3; ++k)
+                EXPECT_LT((part.mesh.position.col(part.mesh.triangle(k, f)) -
+                           mesh.position.col(mesh.triangle(k, f)))
+                              .norm(),
+                          3e-6)
+                    << name; // half a unit in the last place of 33 in single precision, per coordinate
+        int seen = 0;
+        for (int i = 0; i < part.mesh.triangle.size();
+             ++i) { // a vertex is numbered when a corner first comes to it
+            EXPECT_LE(part.mesh.triangle(i % 3, i / 3), seen) << name;
+            seen = std::max(seen, part.mesh.triangle(i % 3, i / 3) + 1);
+        }
+    }
+}
+
+TEST_F(ReadPart, UnitsScaleLengthsAndAreasTheirSquare)
+{
+    const std::string text = obj_text(bent_sheet());
+    const double in_mm = area(read("part.obj", text).mesh);
+    for (const auto& [unit, length] : {std::pair{"cm", 10.0}, {"m", 1000.0}, {"inch", 25.4}}) {
+        const PartFile part = read("part.obj", text, {.unit = length_unit(unit)});
+        EXPECT_NEAR(area(part.mesh) / (in_mm * length * length), 1, 1e-14) << unit;
+        EXPECT_EQ(name(part.unit), unit);
+    }
+    EXPECT_THROW(length_unit("furlong"), InputError);
+}
+
+TEST_F(ReadPart, ObjCornersMayCountBackwardsAndLinesMayGoOn)
+{
+    const PartFile part =
+        read("part.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0 1.0\nf -3 -2 -1\nv +0 1e0 0.\nf 1 3 \\\n 4\nl 1 2\n");
+    EXPECT_EQ(part.mesh.triangles(), 2);
+    EXPECT_NEAR(area(part.mesh), 1, 1e-15);
+    ASSERT_FALSE(part.notes.empty());
+    EXPECT_NE(part.notes[0].find("1 points, lines"), std::string::npos);
+}
+
+TEST_F(ReadPart, FacesThatOpenMeshDropsAreSeenByTheDoctorUnderTheirNumber)
+{
+    const std::string square = "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3\n";
+    const PartFile obj = read("part.obj", square + "f 1 3 1\nf 1 3 3 4\n");
+    ASSERT_NE(obj.doctor.find(Fault::repeated_corner), nullptr);
+    EXPECT_EQ(obj.doctor.find(Fault::repeated_corner)->count, 2);
+    EXPECT_EQ(obj.doctor.find(Fault::repeated_corner)->first, 1);
+    EXPECT_EQ(obj.source_face, (std::vector<int>{0, 2}));
+    EXPECT_NEAR(area(obj.mesh), 81, 1e-12);
+
+    TriMesh mesh = bent_sheet();
+    mesh.triangle.conservativeResize(3, mesh.triangles() + 1);
+    mesh.triangle.col(mesh.triangles() - 1) << 3, 4, 3;
+    mesh.triangle.col(7).swap(mesh.triangle.col(mesh.triangles() - 1));
+    const PartFile stl = read("part.stl", stl_binary(mesh));
+    ASSERT_NE(stl.doctor.find(Fault::repeated_corner), nullptr);
+    EXPECT_EQ(stl.doctor.find(Fault::repeated_corner)->first, 7);
+    EXPECT_EQ(stl.file_faces, mesh.triangles());
+    EXPECT_EQ(stl.mesh.triangles(), mesh.triangles() - 1);
+}
+
+TEST_F(ReadPart, GltfNodesStripsAndMirrorsMakeOneSheetInMillimetres)
+{
+    const GltfStrip strip;
+    const std::string data = "data:application/octet-stream;base64," + base64(strip.binary);
+    const fs::path beside = write("strip.bin", strip.binary);
+    for (const auto& [name, content] : {std::pair{"part.glb", glb(strip.json, strip.binary)},
+                                        {"part.gltf", GltfStrip(data).json},
+                                        {"other.gltf", GltfStrip("strip.bin").json}}) {
+        const PartFile part = read(name, content);
+        EXPECT_EQ(part.mesh.vertices(), 6) << name; // 8 in the file, two of them shared along the joint
+        EXPECT_EQ(part.mesh.triangles(), 4) << name;
+        EXPECT_NEAR(area_vectors(part.mesh).row(2).sum(), 2e6, 1) << name; // 2 m x 1 m, all faces up
+        EXPECT_NEAR(bounding_diagonal(part.mesh), std::sqrt(5) * 1000, 1e-9) << name;
+        EXPECT_EQ(part.doctor.find(Fault::flipped_face), nullptr) << name;
+        EXPECT_EQ(part.doctor.boundary_loops, 1) << name;
+        EXPECT_EQ(part.notes.size(), 2u) << name; // the lines that were skipped, and the unit
+    }
+    EXPECT_NEAR(area(read("part.glb", glb(strip.json, strip.binary), {.unit = LengthUnit::mm}).mesh), 2,
+                1e-9);
+}
+
+TEST_F(ReadPart, GltfRefusesCompressionAndFilesElsewhere)
+{
+    write("outside.bin", GltfStrip().binary);
+    fs::create_directory(scratch / "inner");
+    expect_refused("inner/part.gltf", GltfStrip("../outside.bin").json, "outside.bin");
+    expect_refused("inner/part.gltf", GltfStrip((scratch / "outside.bin").string()).json, "outside.bin");
+    expect_refused("part.gltf", GltfStrip("none.bin").json, "damaged");
+    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+        const GltfStrip strip("", fmt::format(R"("extensionsRequired":["{}"],)", name));
+        expect_refused("part.glb", glb(strip.json, strip.binary), "compressed");
+    }
+    const GltfStrip unknown("", R"("extensionsRequired":["ACME_bent_space"],)");
+    expect_refused("part.glb", glb(unknown.json, unknown.binary), "ACME_bent_space");
+    expect_refused("deep.gltf", std::string(100000, '['), "nested");
+}
+
+TEST_F(ReadPart, WhatIsNoMeshFileIsSaidSo)
+{
+    expect_refused("part.dwg", "x", "extension '.dwg'");
+    expect_refused("part", "x", "extension ''");
+    expect_refused("empty.obj", "", "empty");
+    fs::create_directory(scratch / "folder.stl");
+    EXPECT_THROW(read_part(scratch / "folder.stl"), InputError);
+    EXPECT_THROW(read_part(scratch / "missing.stl"), InputError);
+    expect_refused("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces");
+}
+
+TEST_F(ReadPart, DamageIsRefusedWithItsPlace)
+{
+    expect_refused("a.obj", "v 0 0 0\nv 1 x 0\n", "line 2");
+    expect_refused("b.obj", "v 0 0 0\nv 1 nan 0\n", "line 2");
+    expect_refused("c.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "vertex 4");
+    expect_refused("d.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 /3\n", "'/3'");
+    expect_refused("e.obj", "v 0 0 0\nf 1 0 1\n", "line 2");
+    expect_refused("f.obj", "v 0 0 1e200\n", "line 1");
+    expect_refused("a.off", "OFF\n2000000000 2000000000 0\n0 0 0\n", "do not fit");
+    expect_refused("b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "vertex 2 of 3");
+    expect_refused("c.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n# the face is missing\n",
+                   "face 0 of 1 is missing");
+    expect_refused("d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n", "vertex 3");
+    expect_refused("e.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n4000000000 0 1 2\n", "line 6");
+    expect_refused("f.off", "OFF BINARY\n", "binary OFF");
+    expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "header does not end");
+    expect_refused("b.ply", "ply\nformat ascii 1.0\nproperty int x\nend_header\n",
+                   "before the first element");
+    expect_refused("c.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 9000000\nproperty float x\nend_header\n0 0 0\n",
+                   "announces");
+    const TriMesh mesh = bent_sheet();
+    const std::string ply = ply_binary(mesh, false), stl = stl_binary(mesh), text = stl_text(mesh);
+    expect_refused("cut.ply", ply.substr(0, ply.size() - 3), "cut off");
+    expect_refused("cut.stl", stl.substr(0, stl.size() - 3), "cut off");
+    expect_refused("cut_text.stl", text.substr(0, text.find("endsolid")), "cut off");
+    std::string bad = stl;
+    std::memset(bad.data() + 80, 0xff, 4);
+    expect_refused("many.stl", bad, "claims 4294967295 facets");
+    bad = stl;
+    std::memset(bad.data() + 84 + 50 * 3 + 12, 0xff, 4); // not a number
+    expect_refused("nan.stl", bad, "facet 3");
+}
+
+TEST_F(ReadPart, SickPartIsReportedByExamineAndRefusedByRead)
+{
+    // A tetrahedron.
+    const fs::path path =
+        write("part.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+    const PartFile part = examine_part(path);
+    EXPECT_FALSE(part.doctor.healthy());
+    EXPECT_EQ(part.mesh.triangles(), 4);
+    EXPECT_EQ(part.doctor.euler_characteristic, 2);
+    EXPECT_THROW(read_part(path), InputError);
+}
+
+namespace
+{
+
+struct KnownPart {
+    const char* file;
+    int vertices, faces, loops, components, flipped; ///< flipped: 0 none, 1 some
+};
+
+void PrintTo(const KnownPart& part, std::ostream* out)
+{
+    *out << part.file;
+}
+
+} // namespace
+
+class RealPart : public testing::TestWithParam<KnownPart>
+{
+};
+
+TEST_P(RealPart, HasTheTopologyItsOriginStates)
+{
+    const KnownPart known = GetParam();
+    if (!fs::exists(data_folder / known.file))
+        GTEST_SKIP() << "no " << data_folder / known.file;
+    const PartFile part = examine_part(data_folder / known.file);
+    EXPECT_EQ(part.file_vertices, known.vertices);
+    EXPECT_EQ(part.file_faces, known.faces);
+    EXPECT_EQ(part.mesh.vertices(), known.vertices);
+    EXPECT_EQ(part.doctor.boundary_loops, known.loops);
+    EXPECT_EQ(part.doctor.components, known.components);
+    EXPECT_EQ(part.doctor.genus, 0);
+    EXPECT_EQ(part.doctor.find(Fault::flipped_face) != nullptr, known.flipped != 0);
+    EXPECT_EQ(part.doctor.healthy(), known.components == 1);
+    if (known.components == 1) {
+        EXPECT_EQ(int(boundary_loops(part.mesh).size()),
+                  known.loops); // by the half-edge mesh: a second count
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, RealPart,
+                         testing::Values(KnownPart{"fe/fairing_front.obj", 22896, 44647, 8, 1, 1},
+                                         KnownPart{"fe/mudguard_front.obj", 3050, 5802, 1, 1, 0},
+                                         KnownPart{"fe/mudguard_front.ply", 3050, 5802, 1, 1, 0},
+                                         KnownPart{"fe/mudguard_front.stl", 3050, 5802, 1, 1, 0},
+                                         KnownPart{"mesh/face.obj", 25905, 51712, 1, 1, 0},
+                                         KnownPart{"mesh/camelhead.off", 11381, 22704, 1, 1, 0},
+                                         KnownPart{"mesh/lilium.obj", 3389, 6590, 1, 1, 0},
+                                         KnownPart{"mesh/camel_b.obj", 2032, 3576, 1, 1, 0},
+                                         KnownPart{"mesh/beetle.off", 19887, 38656, 11, 1, 0},
+                                         KnownPart{"mesh/halftunnel.off", 831, 784, 3, 1, 0},
+                                         KnownPart{"mesh/nefertiti.off", 299, 562, 1, 1, 0},
+                                         KnownPart{"mesh/three_peaks.off", 1907, 3671, 1, 1, 0},
+                                         KnownPart{"mesh/mask_cone.off", 1230, 2332, 2, 2, 0},
+                                         KnownPart{"mesh/cowhead.obj", 15049, 29999, 1, 1, 0},
+                                         KnownPart{"mesh/maze.obj", 6120, 9174, 1, 1, 0},
+                                         KnownPart{"mesh/inverted_triangles.obj", 12577, 24685, 6, 1, 1},
+                                         KnownPart{"mesh/terrain.stl", 1813, 3498, 1, 1, 0}),
+                         [](const auto& parameter) {
+                             std::string name = parameter.param.file;
+                             std::replace_if(
+                                 name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+                             return name;
+                         });
+
+TEST_F(ReadPart, DamagedFilesOfEveryFormatEndInAPartOrAnInputError)
+{
+    const TriMesh mesh = bent_sheet();
+    const GltfStrip strip;
+    const std::vector<std::pair<std::string, std::string>> seeds = {
+        {"a.obj", obj_text(mesh)},
+        {"a.off", off_text(mesh)},
+        {"a.ply", ply_text(mesh)},
+        {"b.ply", ply_binary(mesh, false)},
+        {"c.ply", ply_binary(mesh, true)},
+        {"a.stl", stl_text(mesh)},
+        {"b.stl", stl_binary(mesh)},
+        {"a.glb", glb(strip.json, strip.binary)},
+        {"a.gltf", GltfStrip("data:application/octet-stream;base64," + base64(strip.binary)).json}};
+    const std::vector<std::string> spice = {"-1",
+                                            "0",
+                                            "999999999",
+                                            "4294967296",
+                                            "1e999",
+                                            "nan",
+                                            "inf",
+                                            "\n",
+                                            "{",
+                                            "[",
+                                            "\"",
+                                            "/",
+                                            "\\",
+                                            "f",
+                                            "v",
+                                            "element face 7\n",
+                                            "outer loop\n",
+                                            "property list char int x\n",
+                                            "\xff\xff\xff\xff"};
+    std::mt19937 random(20240229);
+    const char* wanted = std::getenv("SPIA_FUZZ_ROUNDS"); // for a longer search, e.g. with the sanitizers
+    const int rounds = wanted ? std::atoi(wanted) : 60;
+    int accepted = 0, refused = 0;
+    for (const auto& [name, seed] : seeds)
+        for (int round = 0; round < rounds; ++round) {
+            std::string content = seed;
+            for (uint32_t changes = 1 + random() % 4; changes > 0 && !content.empty(); --changes) {
+                const size_t at = random() % content.size();
+                switch (random() % 6) {
+                case 0:
+                    content.resize(at);
+                    break;
+                case 1:
+                    content[at] = char(random());
+                    break;
+                case 2:
+                    content[at] = char(content[at] ^ (1 << random() % 8));
+                    break;
+                case 3:
+                    content.erase(at, random() % 40);
+                    break;
+                case 4:
+                    content.insert(at, spice[random() % spice.size()]);
+                    break;
+                case 5:
+                    content.insert(at, content.substr(random() % content.size(), random() % 60));
+                    break;
+                }
+            }
+            const fs::path path = write(name, content);
+            try {
+                const PartFile part = read_part(path);
+                EXPECT_GT(part.mesh.triangles(), 0);
+                EXPECT_NO_THROW(halfedges(part.mesh));
+                ++accepted;
+            } catch (const InputError&) {
+                ++refused;
+            } catch (const std::exception& other) {
+                ADD_FAILURE() << name << " round " << round << ": " << other.what();
+            }
+        }
+    EXPECT_GT(accepted, rounds / 4); // small changes often hurt nothing, e.g. a digit or a colour
+    EXPECT_GT(refused, int(seeds.size()) * rounds / 4);
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 2'000'000) << "kilobytes: some damage led to a huge allocation";
+}
+
+} // namespace spia
