@@ -271,6 +271,10 @@ public:
             }
             if (step == options_.most_steps)
                 break;
+            if (step >= patience && result.residual > 0.5 * result.steps[size_t(step - patience)].residual) {
+                result.ended = Ended::stalled;
+                return result;
+            }
             const Eigen::VectorXd newton = direction_at(X, R, result.residual);
             const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
             double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
@@ -327,6 +331,9 @@ private:
         return gmres(A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations).x;
     }
 
+    /// Steps within which the residual must have halved.
+    static constexpr int patience = 15;
+
     const Eigen::Matrix3Xi& triangle_;
     System& system_;
     RigidMotion rigid_;
@@ -360,27 +367,28 @@ EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Eleme
     Newton newton(part, element, system, start, matrix, cholesky, options, progress);
     EquilibriumResult result = newton.solve(start, 1, options.tolerance);
     // From far away: pass from the gradient of the energy, whose zero is the start, to the virtual-work equations.
-    constexpr double loose = 1e-4, smallest = 1.0 / 64;
+    constexpr double loose = 1e-4, smallest_stride = 1.0 / 32;
+    const size_t most_steps = size_t(3 * options.most_steps);
     Eigen::Matrix2Xd X = start;
-    for (double reached = 0, stride = 0.5; result.ended != Ended::converged && reached < 1;) {
+    double reached = 0;
+    for (double stride = 0.5; result.ended != Ended::converged && stride >= smallest_stride;) {
+        if (result.steps.size() > most_steps) {
+            result.ended = Ended::too_many_steps;
+            break;
+        }
         const double share = std::min(1.0, reached + stride);
         EquilibriumResult next = newton.solve(X, share, share < 1 ? loose : options.tolerance);
-        if (getenv("HOM")) fprintf(stderr, "share %.4f ended %d res %.1e steps %zu\n", share, int(next.ended), next.residual, next.steps.size());
-        const bool done = next.ended == Ended::converged;
-        next.steps.insert(next.steps.begin(), result.steps.begin(), result.steps.end());
-        if (done) {
+        const bool solved = next.ended == Ended::converged;
+        result.steps.insert(result.steps.end(), next.steps.begin(), next.steps.end());
+        if (solved && share == 1) {
+            next.steps = std::move(result.steps);
+            return next;
+        }
+        if (solved) {
             X = next.position;
             reached = share;
-            stride *= 2;
-        } else {
-            stride /= 2;
         }
-        if (share == 1 || stride < smallest || !done)
-            result = std::move(next);
-        else
-            result.steps = std::move(next.steps);
-        if (stride < smallest)
-            break;
+        stride *= solved ? 2 : 0.5;
     }
     return result;
 }

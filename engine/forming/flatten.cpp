@@ -90,7 +90,8 @@ Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction)
 /// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
 /// is no number to begin with.
 EnergyResult energy_stage(const TriMesh& part, const std::vector<Element>& element, const FlattenOptions& options,
-                          Eigen::Matrix2Xd X, BlockMatrix& matrix, Cholesky& cholesky, const Progress& progress)
+                          Eigen::Matrix2Xd X, double decrement, BlockMatrix& matrix, Cholesky& cholesky,
+                          const Progress& progress)
 {
     const Eigen::VectorXd h = Eigen::VectorXd::Constant(part.triangles(), options.thickness);
     std::vector<double> rates{options.curve.continuation_rate};
@@ -104,7 +105,7 @@ EnergyResult energy_stage(const TriMesh& part, const std::vector<Element>& eleme
         curve.continuation_rate = rates[level];
         EnergyOptions energy;
         energy.most_steps = options.most_energy_steps;
-        energy.decrement = last ? (getenv("DEC") ? atof(getenv("DEC")) : 1e-3) : 1e-2;
+        energy.decrement = last ? decrement : 1e-2;
         result = minimise_energy(part.triangle, element, MembraneLaw(options.material, curve), h, X, matrix, cholesky,
                                  energy, progress.part(double(level) / rates.size(), double(level + 1) / rates.size()));
         X = result.position;
@@ -113,6 +114,9 @@ EnergyResult energy_stage(const TriMesh& part, const std::vector<Element>& eleme
     result.steps = std::move(steps);
     return result;
 }
+
+/// Newton decrements of the energy stage, relative: as a start for the equilibrium, and as a result of its own.
+constexpr double near_enough = 1e-3, exact = 1e-6;
 
 std::string reason(const EnergyResult& energy, const EquilibriumResult& equilibrium)
 {
@@ -238,8 +242,8 @@ FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const 
     InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky);
     result.report.start = guess.method;
 
-    EnergyResult energy = energy_stage(part, element, options, std::move(guess.position), matrix, cholesky,
-                                       progress.part(0.1, 0.6));
+    EnergyResult energy = energy_stage(part, element, options, std::move(guess.position), near_enough, matrix,
+                                       cholesky, progress.part(0.1, 0.6));
     result.report.energy = std::move(energy.steps);
     place_under_part(part, element, plane, energy.position);
 
@@ -248,8 +252,13 @@ FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const 
     const EquilibriumOptions newton{options.most_newton_steps, options.tolerance};
     EquilibriumResult equilibrium =
         solve_equilibrium(part, element, MembraneLaw(options.material, options.curve), options.thickness, friction,
-                          energy.position, matrix, cholesky, newton, progress.part(0.6, 1));
+                          energy.position, matrix, cholesky, newton, progress.part(0.6, 0.95));
     result.report.converged = equilibrium.ended == Ended::converged;
+    if (!result.report.converged) {
+        energy = energy_stage(part, element, options, std::move(energy.position), exact, matrix, cholesky,
+                              progress.part(0.95, 1));
+        result.report.energy.insert(result.report.energy.end(), energy.steps.begin(), energy.steps.end());
+    }
     result.report.reason = reason(energy, equilibrium);
     result.report.newton = std::move(equilibrium.steps);
     result.report.residual = equilibrium.residual;
