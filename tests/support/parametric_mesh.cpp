@@ -320,34 +320,30 @@ std::vector<int> Remesher::corners() const
     return list;
 }
 
-/// Every triangle in four, new vertices in the middle of the edges; those on the boundary are put back onto
-/// it.
-void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter, const Region& region)
+/// Every triangle in four, new vertices in the middle of the edges. Those between boundary vertices come onto
+/// the boundary when the mesh is relaxed.
+void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter)
 {
-    std::map<std::pair<int, int>, std::pair<int, int>> middle; // edge -> new vertex, number of triangles
+    std::map<std::pair<int, int>, int> middle; // edge -> new vertex
     parameter.clear();
     for (int v = 0; v < coarse.mesh.vertices(); ++v)
         parameter.push_back(coarse.parameter.col(v));
     Eigen::Matrix3Xi fine(3, 4 * coarse.mesh.triangles());
     for (int f = 0; f < coarse.mesh.triangles(); ++f) {
-        int m[3];
         const Eigen::Vector3i t = coarse.mesh.triangle.col(f);
+        Eigen::Vector3i m;
         for (int k = 0; k < 3; ++k) {
             const int a = t[k], b = t[(k + 1) % 3];
-            const auto [entry, is_new] = middle.try_emplace(std::minmax(a, b), int(parameter.size()), 0);
+            const auto [entry, is_new] = middle.try_emplace(std::minmax(a, b), int(parameter.size()));
             if (is_new)
                 parameter.push_back((parameter[a] + parameter[b]) / 2);
-            ++entry->second.second;
-            m[k] = entry->second.first;
+            m[k] = entry->second;
         }
         fine.col(4 * f) << t[0], m[0], m[2];
         fine.col(4 * f + 1) << t[1], m[1], m[0];
         fine.col(4 * f + 2) << t[2], m[2], m[1];
-        fine.col(4 * f + 3) << m[0], m[1], m[2];
+        fine.col(4 * f + 3) = m;
     }
-    for (const auto& [edge, vertex] : middle)
-        if (vertex.second == 1)
-            parameter[vertex.first] = on_boundary_of(region, parameter[vertex.first]);
     coarse.mesh.triangle = std::move(fine);
 }
 
@@ -443,7 +439,7 @@ ParametricMesh mesh_surface(const Region& region, const Surface& surface, int tr
     size = best_size;
     for (int level = 0; level < levels; ++level) {
         std::vector<Vector2d> parameter;
-        quarter(result, parameter, region);
+        quarter(result, parameter);
         size /= 2;
         Remesher finer(region, surface, edge, parameter, result.mesh.triangle, corners);
         polish(finer);

@@ -25,14 +25,36 @@ TEST(Shapes, PlateHasItsAreaAndOneLoopPerHole)
 
 TEST(Shapes, BoundaryOfAPlateLiesOnItsRectangleAndCircles)
 {
-    const Plate shape;
-    const TriMesh mesh = plate(shape);
-    const Region region = perforated({0, 0}, {shape.width, shape.height}, shape.holes);
-    for (const auto& loop : boundary_loops(mesh))
-        for (int v : loop)
-            EXPECT_LT(std::abs(region.distance(mesh.position.col(v).head<2>())), 1e-9);
-    for (const Eigen::Vector2d& corner : region.corners)
-        EXPECT_EQ((mesh.position.topRows(2).colwise() - corner).colwise().norm().minCoeff(), 0);
+    for (int n : {4000, 70000}) { // the larger one is made by quartering
+        const Plate shape{.triangles = n};
+        const TriMesh mesh = plate(shape);
+        const Region region = perforated({0, 0}, {shape.width, shape.height}, shape.holes);
+        double farthest = 0;
+        for (const auto& loop : boundary_loops(mesh))
+            for (int v : loop)
+                farthest = std::max(farthest, std::abs(region.distance(mesh.position.col(v).head<2>())));
+        EXPECT_LT(farthest, 1e-9);
+        for (const Eigen::Vector2d& corner : region.corners)
+            EXPECT_EQ((mesh.position.topRows(2).colwise() - corner).colwise().norm().minCoeff(), 0);
+    }
+}
+
+TEST(Shapes, MeshOfAnUndersampledSurfaceIsStillAHeightField)
+{
+    Region square;
+    square.low = {0, 0};
+    square.high = {200, 200};
+    square.corners = {{0, 0}, {200, 0}, {200, 200}, {0, 200}};
+    square.distance = [](const Eigen::Vector2d& p) { return box_distance(p, {100, 100}, {100, 100}, 0); };
+    const auto egg_crate =
+        [](const Eigen::Vector2d& p) { // slopes up to 76 degrees, a wave is two to six edges long
+            return Eigen::Vector3d(p.x(), p.y(), 25 * std::sin(p.x() / 6) * std::sin(p.y() / 6));
+        };
+    for (int n : {3000, 6000, 12000}) {
+        const ParametricMesh crate = mesh_surface(square, egg_crate, n);
+        expect_topology(crate.mesh, 1, 1);
+        EXPECT_GT(least_upward(crate.mesh), 0) << n;
+    }
 }
 
 TEST(Shapes, SaddleHasNegativeCurvatureInside)
