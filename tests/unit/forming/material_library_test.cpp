@@ -252,10 +252,17 @@ TEST(MaterialLibrary, FindsAGradeByStemAndByNameInAnyCase)
 TEST(MaterialLibrary, ReadsAUsersOwnFileFromItsPath)
 {
     const ScratchFolder folder;
-    for (const char* file : {"own.json", "dp600.json", "Own Sheet.txt", "own"}) {
+    for (const char* file : {"own.json", "dp600.json", "Own Sheet.txt", "own", "dp600"}) {
         put(folder / file, good);
         EXPECT_EQ(find_material((folder / file).string(), shipped).name, "own") << file;
     }
+    const fs::path before = fs::current_path();
+    fs::current_path(folder / "");
+    EXPECT_EQ(find_material("own", shipped).name, "own");
+    EXPECT_EQ(find_material("dp600.json", shipped).name, "own");
+    EXPECT_NE(find_material("dp600", shipped).name,
+              "own"); // the grade goes before a file without an extension
+    fs::current_path(before);
     EXPECT_EQ(find_material((folder / "own.json").string(), folder / "no such folder").name, "own");
 }
 
