@@ -1,0 +1,113 @@
+// Seconds and memory per stage on the inner panel, and beside them in the same run one symbolic and numeric sparse Cholesky
+// factorisation of a symmetric matrix with the solver's own pattern: the yardstick. Absolute times mean little on a
+// shared machine; read the counter `per_factorisation`.
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <map>
+
+#include "engine/coons/boundary.h"
+#include "engine/forming/flatten.h"
+#include "engine/forming/material_library.h"
+#include "engine/pipeline/session.h"
+#include "tests/support/inner_panel.h"
+
+namespace {
+
+using namespace spia;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+const TriMesh& panel(int triangles)
+{
+    static std::map<int, TriMesh> made;
+    auto& mesh = made[triangles];
+    if (mesh.triangles() == 0) {
+        shapes::InnerPanel shape;
+        shape.triangles = triangles;
+        mesh = shapes::inner_panel(shape).mesh;
+    }
+    return mesh;
+}
+
+FlattenOptions mild_steel()
+{
+    FlattenOptions options;
+    options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    options.thickness = 0.8;
+    return options;
+}
+
+/// One analysis and one factor of the Laplacian-like stiffness of the flat sheet.
+double factorisation_seconds(const TriMesh& part)
+{
+    BlockMatrix matrix(part.triangle, part.vertices());
+    std::vector<Matrix6d> element(size_t(part.triangles()));
+    const auto geometry = elements(part);
+    for (size_t f = 0; f < element.size(); ++f) {
+        const Eigen::Matrix<double, 4, 6> B = gradient_operator(geometry[f]);
+        element[f] = geometry[f].area * (B.transpose() * B);
+    }
+    matrix.assemble(element);
+    matrix.add_to_diagonal(0, 1);
+    matrix.add_to_diagonal(1, 1);
+    const auto start = Clock::now();
+    Cholesky cholesky(matrix);
+    if (!cholesky.factor(matrix))
+        throw std::runtime_error("the yardstick's matrix is not definite");
+    return seconds_since(start);
+}
+
+void solve(benchmark::State& state)
+{
+    const TriMesh& part = panel(int(state.range(0)));
+    double solving = 0, factoring = 0;
+    for (auto _ : state) {
+        factoring += factorisation_seconds(part);
+        const auto start = Clock::now();
+        const FlattenResult result = flatten(part, mild_steel());
+        solving += seconds_since(start);
+        state.counters["energy_steps"] = double(result.report.energy.size());
+        state.counters["newton_steps"] = double(result.report.newton.size());
+        state.counters["converged"] = result.report.converged;
+    }
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    state.counters["triangles"] = part.triangles();
+    state.counters["factorisation_s"] = factoring / double(state.iterations());
+    state.counters["solve_s"] = solving / double(state.iterations());
+    state.counters["per_factorisation"] = solving / factoring;
+    state.counters["peak_MB"] = double(usage.ru_maxrss) / 1024;
+}
+
+/// The stages after the solver, on its blank.
+void grid_lift_fit(benchmark::State& state)
+{
+    Session session;
+    auto file = std::make_shared<PartFile>();
+    file->mesh = panel(int(state.range(0)));
+    session.part = file;
+    session.blank = std::make_shared<FlattenResult>(flatten(file->mesh, mild_steel()));
+    for (auto _ : state)
+        for (const Stage stage : {Stage::grid, Stage::lift, Stage::fit})
+            session = run_stage(stage, session);
+    for (const Stage stage : {Stage::grid, Stage::lift, Stage::fit})
+        state.counters[std::string(name(stage)) + "_s"] = session.seconds.at(stage);
+    state.counters["triangles"] = file->mesh.triangles();
+}
+
+void sizes(benchmark::internal::Benchmark* bench)
+{
+    for (int triangles : {2000, 20000, 50000, 105000, 207000, 500000})
+        bench->Arg(triangles);
+    bench->Unit(benchmark::kMillisecond)->Iterations(1);
+}
+
+BENCHMARK(solve)->Apply(sizes);
+BENCHMARK(grid_lift_fit)->Apply(sizes);
+
+} // namespace
+
+BENCHMARK_MAIN();
