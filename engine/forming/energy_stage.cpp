@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
 #include "engine/core/error.h"
@@ -75,7 +76,8 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
     std::vector<Matrix6d> stiffness(static_cast<size_t>(faces));
     std::vector<Eigen::Matrix<double, 6, 1>> force(static_cast<size_t>(faces));
     for (int step = 0; step < options.most_steps; ++step) {
-        progress.checkpoint(double(step) / options.most_steps, "energy step");
+        progress.checkpoint(double(step) / options.most_steps,
+                            fmt::format("energy step {}, {:.4g} J", step + 1, E * 1e-3));
         parallel_for(faces, [&](int f) {
             const Element& e = element[size_t(f)];
             const EnergyDensity w = energy_density(law, inverse_gradient(e, corners(X, triangle.col(f))));

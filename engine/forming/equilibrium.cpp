@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "engine/core/parallel.h"
 #include "engine/mesh/topology.h"
@@ -261,8 +262,9 @@ public:
         Eigen::Matrix2Xd& X = result.position;
         Eigen::VectorXd R = residual(X);
         for (int step = 0; step <= options_.most_steps; ++step) {
-            progress_.checkpoint(double(step) / options_.most_steps, "equilibrium step");
             result.residual = R.norm() / reference_;
+            progress_.checkpoint(double(step) / options_.most_steps,
+                                 fmt::format("equilibrium step {}, residual {:.1e}", step + 1, result.residual));
             result.resultant = spring_ * rigid_.moved(X);
             result.steps.push_back({0, result.residual, 0});
             if (result.residual <= tolerance) {
@@ -367,8 +369,8 @@ EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Eleme
     Newton newton(part, element, system, start, matrix, cholesky, options, progress);
     EquilibriumResult result = newton.solve(start, 1, options.tolerance);
     // From far away: pass from the gradient of the energy, whose zero is the start, to the virtual-work equations.
-    constexpr double loose = 1e-4, smallest_stride = 1.0 / 32;
-    const size_t most_steps = size_t(3 * options.most_steps);
+    constexpr double loose = 1e-3, smallest_stride = 1.0 / 16;
+    const size_t most_steps = size_t(2 * options.most_steps);
     Eigen::Matrix2Xd X = start;
     double reached = 0;
     for (double stride = 0.5; result.ended != Ended::converged && stride >= smallest_stride;) {
