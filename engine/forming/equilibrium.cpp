@@ -370,7 +370,7 @@ EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Eleme
     EquilibriumResult result = newton.solve(start, 1, options.tolerance);
     // From far away: pass from the gradient of the energy, whose zero is the start, to the virtual-work equations.
     constexpr double loose = 1e-3, smallest_stride = 1.0 / 16;
-    const size_t most_steps = size_t(2 * options.most_steps);
+    const size_t most_steps = size_t(options.most_steps);
     Eigen::Matrix2Xd X = start;
     double reached = 0;
     for (double stride = 0.5; result.ended != Ended::converged && stride >= smallest_stride;) {

@@ -97,14 +97,4 @@ void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
     }
 }
 
-BlockMatrix BlockMatrix::symmetric_part() const
-{
-    BlockMatrix result = *this;
-    for (int column = 0; column < size(); ++column)
-        for (int i = start_[size_t(column)]; i < start_[size_t(column) + 1]; ++i)
-            result.value_[size_t(i)] =
-                0.5 * (value_[size_t(i)] + value_[size_t(entry(column, row_[size_t(i)]))]);
-    return result;
-}
-
 } // namespace spia

@@ -26,8 +26,6 @@ public:
     Eigen::VectorXd diagonal() const;
     /// y = A x
     void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-    /// (A + A^T) / 2, same pattern
-    BlockMatrix symmetric_part() const;
 
     int vertices() const { return vertices_; }
     int size() const { return 2 * vertices_; }
