@@ -4,7 +4,7 @@
 
 namespace spia {
 
-/// Hardening laws: flow stress in MPa over the equivalent logarithmic plastic strain.
+/// Hardening laws: flow stress in MPa over the equivalent logarithmic strain (the total one: theory of one-step forming).
 struct Swift {
     double K_MPa, e0, n; ///< K (e0 + eps)^n
 };

@@ -10,7 +10,7 @@ namespace spia {
 
 HalfedgeMesh halfedges(const TriMesh& mesh)
 {
-    OpenMesh::omerr().disable(); // what it would print, the exception says
+    omerr().disable(); // what it would print, the exception says
     HalfedgeMesh result;
     result.reserve(size_t(mesh.vertices()), size_t(mesh.vertices() + mesh.triangles()), size_t(mesh.triangles()));
     for (int v = 0; v < mesh.vertices(); ++v)
