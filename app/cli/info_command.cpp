@@ -13,6 +13,8 @@ int info(const InfoArguments& arguments)
     ReadOptions options;
     if (!arguments.unit.empty())
         options.unit = length_unit(arguments.unit);
+    if (arguments.weld)
+        options.weld = true;
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

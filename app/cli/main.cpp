@@ -44,6 +44,7 @@ int main(int count, char** values)
     run_command->add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
+    run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
     run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
@@ -79,6 +80,7 @@ int main(int count, char** values)
     info_command->add_option("part", info.part, "STL, OBJ, PLY, OFF, glTF or GLB file")->required()->type_name("PART");
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
+    info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
     info_command->add_option("--json", info.json, "write the findings")->type_name("FILE");
 
     CLI::App* materials_command = app.add_subcommand("materials", "List the built-in sheet grades");

@@ -20,6 +20,8 @@ SessionOptions options(const RunArguments& arguments)
     SessionOptions result;
     if (!arguments.unit.empty())
         result.read.unit = length_unit(arguments.unit);
+    if (arguments.weld)
+        result.read.weld = true;
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     result.flatten.thickness = arguments.thickness;
     if (!arguments.direction.empty())

@@ -427,7 +427,7 @@ void count_pieces(const Surface& s, DoctorReport& report)
         Fault::several_components, Severity::fatal, report.components, first,
         fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
                     report.components, sizes, size.size() > 5 ? ", ..." : "", first),
-        unjoined ? "read the file with welding if the pieces touch; otherwise save each as a file of its own"
+        unjoined ? "read the file with --weld if the pieces touch; otherwise save each as a file of its own"
                  : "save each piece as a file of its own");
 }
 
