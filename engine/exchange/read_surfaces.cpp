@@ -13,7 +13,6 @@
 #include <XSControl_WorkSession.hxx>
 #include <fmt/core.h>
 #include <fstream>
-#include <sstream>
 
 #include "engine/core/error.h"
 #include "engine/exchange/occt_session.h"
@@ -29,30 +28,23 @@ namespace
     throw ExchangeError(fmt::format("cannot read {}: {}; export it again", path.string(), why));
 }
 
-std::string whole_file(const std::filesystem::path& path)
+std::ifstream opened(const std::filesystem::path& path)
 {
     std::ifstream file(path, std::ios::binary);
     if (!file || std::filesystem::is_directory(path))
         refuse(path, "it cannot be opened");
-    std::ostringstream content;
-    content << file.rdbuf();
-    return std::move(content).str();
+    return file;
 }
 
-/// OpenCASCADE reads what there is of a file that was cut short, so its end mark is looked for here.
-void require_step_end(const std::filesystem::path& path)
-{
-    if (whole_file(path).find("END-ISO-10303-21;") == std::string::npos)
-        refuse(path, "it is no STEP file or was cut short (END-ISO-10303-21 is missing)");
-}
-
-/// The last line of an IGES file, letter T in column 73, counts the lines of the sections S, G, D and P.
+/// The last line of an IGES file, letter T in column 73, counts the lines of the sections S, G, D and P. It
+/// is looked at first because OpenCASCADE crashes on a file that was cut short. (Its STEP reader finds that
+/// out by itself.)
 void require_iges_end(const std::filesystem::path& path)
 {
-    std::istringstream content(whole_file(path));
+    std::ifstream file = opened(path);
     int lines_of[128] = {};
     std::string line, terminate;
-    while (std::getline(content, line))
+    while (std::getline(file, line))
         if (line.size() >= 73) {
             ++lines_of[line[72] & 127];
             if (line[72] == 'T')
@@ -117,7 +109,7 @@ std::vector<NurbsSurface> read_iges_surfaces(const std::filesystem::path& path)
 
 std::vector<NurbsSurface> read_step_surfaces(const std::filesystem::path& path)
 {
-    require_step_end(path);
+    opened(path);
     return read<STEPControl_Reader>(path);
 }
 
