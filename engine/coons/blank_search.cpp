@@ -4,11 +4,9 @@
 #include <cmath>
 #include <tuple>
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 using Eigen::Vector2d;
 
@@ -29,9 +27,8 @@ bool one_layer(const std::vector<MeshPoint>& found, const Eigen::Matrix3Xi& tria
         return false;
     for (int k = 0; k < 3; ++k) {
         const int shared = triangle(k, found[0].face);
-        if (std::all_of(found.begin(), found.end(), [&](const MeshPoint& place) {
-                return (triangle.col(place.face).array() == shared).any();
-            }))
+        if (std::all_of(found.begin(), found.end(),
+                        [&](const MeshPoint& place) { return (triangle.col(place.face).array() == shared).any(); }))
             return true;
     }
     return false;
@@ -68,8 +65,7 @@ bool touches(const Vector2d& p, const Vector2d& q, const std::array<Vector2d, 3>
     const auto apart = [&](const Vector2d& axis) {
         const double s = axis.dot(p), t = axis.dot(q);
         const double a = axis.dot(corner[0]), b = axis.dot(corner[1]), c = axis.dot(corner[2]);
-        const double gap =
-            std::max(std::min({a, b, c}) - std::max(s, t), std::min(s, t) - std::max({a, b, c}));
+        const double gap = std::max(std::min({a, b, c}) - std::max(s, t), std::min(s, t) - std::max({a, b, c}));
         return gap > tolerance * axis.norm();
     };
     const Vector2d along = q - p;
@@ -86,23 +82,20 @@ bool touches(const Vector2d& p, const Vector2d& q, const std::array<Vector2d, 3>
 } // namespace
 
 BlankSearch::BlankSearch(const FilledMesh& filled)
-    : filled_(filled), locator_(filled.plane, filled.mesh.triangle),
-      across_(faces_across(filled.mesh.triangle))
+    : filled_(filled), locator_(filled.plane, filled.mesh.triangle), across_(faces_across(filled.mesh.triangle))
 {
     constexpr double flat = 1e-12; // doubled area over squared longest edge that rounding can give a sliver
     const Eigen::Matrix3Xi& triangle = filled.mesh.triangle;
     for (int f = 0; f < triangle.cols() && !overlaps_; ++f) {
         const Vector2d a = filled.plane.col(triangle(0, f)), b = filled.plane.col(triangle(1, f)),
                        c = filled.plane.col(triangle(2, f));
-        const double longest =
-            std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
         overlaps_ = cross(b - a, c - a) < -flat * longest;
     }
     // Where one layer lies on another, the border of the common region is made of pieces of the outline.
     const size_t n = filled.outline.size();
     for (size_t i = 0; i < n && !overlaps_; ++i) {
-        const Vector2d a = filled.plane.col(filled.outline[i]),
-                       b = filled.plane.col(filled.outline[(i + 1) % n]);
+        const Vector2d a = filled.plane.col(filled.outline[i]), b = filled.plane.col(filled.outline[(i + 1) % n]);
         overlaps_ = unique_place(a).face < 0 || unique_place((a + b) / 2).face < 0;
     }
 }
@@ -146,9 +139,7 @@ bool BlankSearch::line_stays_inside(const MeshPoint& from, const MeshPoint& to) 
         for (const int face : across_[size_t(reached[i])]) {
             if (face < 0 || std::find(reached.begin(), reached.end(), face) != reached.end())
                 continue;
-            const auto corner = [&](int k) -> Vector2d {
-                return filled_.plane.col(filled_.mesh.triangle(k, face));
-            };
+            const auto corner = [&](int k) -> Vector2d { return filled_.plane.col(filled_.mesh.triangle(k, face)); };
             if (touches(p, q, {corner(0), corner(1), corner(2)}, locator_.tolerance()))
                 reached.push_back(face);
         }

@@ -5,13 +5,11 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/locate.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Finds places on a filled blank that may lie on top of itself, like the flattened wall of a nearly closed
 /// tube.
-class BlankSearch
-{
+class BlankSearch {
 public:
     /// @param filled must outlive the search
     explicit BlankSearch(const FilledMesh& filled);

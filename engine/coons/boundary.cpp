@@ -10,22 +10,18 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
-constexpr std::array<double, 6> turning_lengths = {0.0015, 0.003, 0.006,
-                                                   0.012,  0.024, 0.04}; // of the perimeter
+constexpr std::array<double, 6> turning_lengths = {0.0015, 0.003, 0.006, 0.012, 0.024, 0.04}; // of the perimeter
 constexpr int most_candidates = 96;  // all their quadruples are compared: 3.3 million
 constexpr int even_candidates = 32;  // of these, spread evenly for smooth outlines
 constexpr double weight_balance = 4; // against a score of at most 1 per corner
 constexpr double weight_square = 0.5;
-constexpr double weight_straight =
-    4;                           // a cell cannot have a corner where the outline is straight or turns inwards
-constexpr int finalists = 256;   // of these quadruples, looked at more closely
-constexpr double straight = 0.5; // of the turning of a circle as long as the outline, over the same length
+constexpr double weight_straight = 4; // a cell cannot have a corner where the outline is straight or turns inwards
+constexpr int finalists = 256;        // of these quadruples, looked at more closely
+constexpr double straight = 0.5;      // of the turning of a circle as long as the outline, over the same length
 
 std::vector<int> outline_of(const Blank& blank, const TriMesh& part)
 {
@@ -34,16 +30,14 @@ std::vector<int> outline_of(const Blank& blank, const TriMesh& part)
 }
 
 /// A closed polygon measured by its length.
-class Outline
-{
+class Outline {
 public:
     Outline(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane)
     {
         start_.push_back(0);
         for (size_t i = 0; i < loop.size(); ++i) {
             point_.push_back(plane.col(loop[i]));
-            start_.push_back(start_.back() +
-                             (plane.col(loop[(i + 1) % loop.size()]) - plane.col(loop[i])).norm());
+            start_.push_back(start_.back() + (plane.col(loop[(i + 1) % loop.size()]) - plane.col(loop[i])).norm());
         }
     }
 
@@ -79,16 +73,15 @@ private:
 /// cannot be one.
 double corner_score(const Outline& outline, int i)
 {
-    double mean = 0;
+    const double right_angle = std::numbers::pi / 2;
+    double score = 0;
     bool turns_out = true;
     for (const double reach : turning_lengths) {
         const double turn = outline.turning(i, reach * outline.perimeter(), reach * outline.perimeter());
-        mean += turn / turning_lengths.size();
+        const double excess = std::max(0.0, turn - right_angle);
+        score += (turn - 1.5 * excess) / right_angle / turning_lengths.size();
         turns_out = turns_out && turn > straight * 2 * std::numbers::pi * reach;
     }
-    const double right_angle = std::numbers::pi / 2;
-    const double score =
-        mean > right_angle ? 1 - 0.5 * (mean - right_angle) / right_angle : mean / right_angle;
     return turns_out ? score : score - weight_straight;
 }
 
@@ -188,9 +181,9 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
         score[size_t(i)] = corner_score(outline, i);
 
     const auto worth = [&](const std::array<int, 4>& c) {
-        double sum = side_score({outline.length_at(c[0]), outline.length_at(c[1]), outline.length_at(c[2]),
-                                 outline.length_at(c[3])},
-                                outline.perimeter());
+        double sum = side_score(
+            {outline.length_at(c[0]), outline.length_at(c[1]), outline.length_at(c[2]), outline.length_at(c[3])},
+            outline.perimeter());
         for (const int i : c)
             sum += score[size_t(i)];
         return sum;
@@ -217,8 +210,8 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
                     std::push_heap(best.begin(), best.end(), worse_last);
                 }
     std::sort_heap(best.begin(), best.end(), worse_last);
-    const auto fit = std::find_if(best.begin(), best.end(),
-                                  [&](const Quadruple& q) { return cells_fit(outline, q.corner); });
+    const auto fit =
+        std::find_if(best.begin(), best.end(), [&](const Quadruple& q) { return cells_fit(outline, q.corner); });
     Quadruple chosen = fit != best.end() ? *fit : best.front();
 
     // The candidates are sparse: let each corner walk along the outline while that pays. Each step raises the
@@ -244,8 +237,7 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
     const auto lowest =
         std::min_element(corners.begin(), corners.end(), [&](int a, int b) { return height(a) < height(b); });
     std::rotate(corners.begin(), lowest, corners.end());
-    return {loop[size_t(corners[0])], loop[size_t(corners[1])], loop[size_t(corners[2])],
-            loop[size_t(corners[3])]};
+    return {loop[size_t(corners[0])], loop[size_t(corners[1])], loop[size_t(corners[2])], loop[size_t(corners[3])]};
 }
 
 BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std::array<int, 4>& corners)
@@ -260,23 +252,20 @@ BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std:
                                          "one of its boundary vertices",
                                          corners[k]));
         if (std::count(corners.begin(), corners.end(), corners[k]) > 1)
-            throw InputError(fmt::format(
-                "vertex {} is given as a corner twice; four different ones are needed", corners[k]));
+            throw InputError(
+                fmt::format("vertex {} is given as a corner twice; four different ones are needed", corners[k]));
         place[k] = int(found - loop.begin());
     }
-    const auto steps = [&](size_t k) {
-        return (place[k] - place[0] + n) % n;
-    }; // counter-clockwise from the first
+    const auto steps = [&](size_t k) { return (place[k] - place[0] + n) % n; }; // counter-clockwise from the first
     if (steps(1) > steps(2) && steps(2) > steps(3))
         std::swap(place[1], place[3]); // clockwise
     else if (!(steps(1) < steps(2) && steps(2) < steps(3))) {
         std::array<int, 4> sorted = place;
         std::sort(sorted.begin() + 1, sorted.end(),
                   [&](int a, int b) { return (a - place[0] + n) % n < (b - place[0] + n) % n; });
-        throw InputError(
-            fmt::format("the corners do not follow each other along the boundary; give them as {},{},{},{}",
-                        loop[size_t(sorted[0])], loop[size_t(sorted[1])], loop[size_t(sorted[2])],
-                        loop[size_t(sorted[3])]));
+        throw InputError(fmt::format(
+            "the corners do not follow each other along the boundary; give them as {},{},{},{}",
+            loop[size_t(sorted[0])], loop[size_t(sorted[1])], loop[size_t(sorted[2])], loop[size_t(sorted[3])]));
     }
 
     BlankBoundary boundary;
@@ -287,8 +276,7 @@ BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std:
             boundary.side[k].push_back(loop[size_t(i)]);
             if (i == place[(k + 1) % 4])
                 break;
-            length +=
-                (blank.position.col(loop[size_t((i + 1) % n)]) - blank.position.col(loop[size_t(i)])).norm();
+            length += (blank.position.col(loop[size_t((i + 1) % n)]) - blank.position.col(loop[size_t(i)])).norm();
         }
         if (!(length > 0))
             throw InputError(
@@ -304,8 +292,7 @@ Eigen::VectorXd chord_parameters(const std::vector<int>& side, const Eigen::Matr
     Eigen::VectorXd chord(side.size());
     chord[0] = 0;
     for (size_t i = 1; i < side.size(); ++i)
-        chord[Eigen::Index(i)] =
-            chord[Eigen::Index(i) - 1] + (plane.col(side[i]) - plane.col(side[i - 1])).norm();
+        chord[Eigen::Index(i)] = chord[Eigen::Index(i) - 1] + (plane.col(side[i]) - plane.col(side[i - 1])).norm();
     chord /= chord[chord.size() - 1];
     return chord;
 }

@@ -6,8 +6,7 @@
 #include "engine/forming/blank.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Four vertices of the outline of the blank, counter-clockwise, that make good corners of a quad grid: the
 /// outline turns sharply to the left there (measured over a few percent of its length, so that a jagged edge

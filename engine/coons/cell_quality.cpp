@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 constexpr double least_sine = 1e-9; // below it, rounding decides which way the corner turns
 
@@ -25,8 +23,8 @@ CellQuality cell_quality(const QuadGrid& planar)
     quality.min_scaled_jacobian = 1;
     for (int j = 0; j < planar.rows; ++j)
         for (int i = 0; i < planar.columns; ++i) {
-            const std::array<int, 4> node = {planar.node(i, j), planar.node(i + 1, j),
-                                             planar.node(i + 1, j + 1), planar.node(i, j + 1)};
+            const std::array<int, 4> node = {planar.node(i, j), planar.node(i + 1, j), planar.node(i + 1, j + 1),
+                                             planar.node(i, j + 1)};
             double smallest = 1;
             for (size_t k = 0; k < 4; ++k) {
                 const Eigen::Vector2d here = planar.position.col(node[k]).head<2>();

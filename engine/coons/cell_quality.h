@@ -1,15 +1,13 @@
 #pragma once
 #include "engine/coons/quad_grid.h"
 
-namespace spia
-{
+namespace spia {
 
 /// What the cells of a planar grid are like.
 struct CellQuality {
-    int folded_cells = 0;  ///< cells with a corner whose determinant is not positive
-    int first_folded = -1; ///< cell i + j * columns; -1 if none is
-    double min_scaled_jacobian =
-        0; ///< smallest sine of a corner's angle over all cells; 1 in a grid of rectangles
+    int folded_cells = 0;           ///< cells with a corner whose determinant is not positive
+    int first_folded = -1;          ///< cell i + j * columns; -1 if none is
+    double min_scaled_jacobian = 0; ///< smallest sine of a corner's angle over all cells; 1 in a grid of rectangles
 };
 
 /// Looks at the four corners of each cell in the plane (z is not read). A cell folds where the edges to the

@@ -11,8 +11,7 @@
 #include "engine/mesh/locate.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 enum class GridMethod {
     automatic, ///< the first of the others that folds no cell
@@ -36,10 +35,11 @@ std::string_view name(GridRoute route);
 struct GridResult {
     QuadGrid planar; ///< in the plane of the blank, z = 0; the border nodes lie on the outline
     GridRoute route = GridRoute::coons;
-    CellQuality quality;          ///< no folded cell but with GridMethod::coons
-    int nodes_outside = 0;        ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
-    int refinements = 0;          ///< how often an automatic cell count was doubled to get there
-    std::vector<MeshPoint> place; ///< per node, on filled->mesh; face -1 if it is outside
+    CellQuality quality;      ///< no folded cell but with GridMethod::coons
+    int nodes_outside = 0;    ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
+    int refinements = 0;      ///< how often an automatic cell count was doubled to get there
+    bool border_slid = false; ///< the border nodes do not divide the sides evenly: that made loops, see slid_border()
+    std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside
     std::shared_ptr<const FilledMesh> filled; ///< part and blank with their holes closed
 };
 

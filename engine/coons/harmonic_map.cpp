@@ -10,11 +10,9 @@
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 // Cotangents of 84 and of 0.6 degrees. The bound below makes the map one-to-one, the one above keeps it well
 // conditioned.
@@ -106,8 +104,7 @@ void cut(const Eigen::Vector3i& face, const std::array<int, 3>& middle, int pare
 }
 
 /// The triangles of the map, and the positions of its vertices in the plane of the blank.
-Eigen::Matrix2Xd cut_dividing_edges(const FilledMesh& filled, const std::vector<char>& sides,
-                                    HarmonicMap& map)
+Eigen::Matrix2Xd cut_dividing_edges(const FilledMesh& filled, const std::vector<char>& sides, HarmonicMap& map)
 {
     const Eigen::Matrix3Xi& face = filled.mesh.triangle;
     std::vector<std::array<int, 3>> middle(size_t(face.cols()), {-1, -1, -1});
@@ -143,8 +140,7 @@ void place_sides(const BlankBoundary& boundary, const Eigen::Matrix2Xd& plane, E
         for (size_t i = 0; i < boundary.side[k].size(); ++i) {
             const double t = chord[Eigen::Index(i)];
             const std::array<Eigen::Vector2d, 4> place = {Eigen::Vector2d(t, 0), Eigen::Vector2d(1, t),
-                                                          Eigen::Vector2d(1 - t, 1),
-                                                          Eigen::Vector2d(0, 1 - t)};
+                                                          Eigen::Vector2d(1 - t, 1), Eigen::Vector2d(0, 1 - t)};
             square.col(boundary.side[k][i]) = place[k];
         }
     }

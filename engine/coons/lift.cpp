@@ -6,11 +6,9 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 LiftResult carry_over(const QuadGrid& planar, std::vector<MeshPoint> place, const FilledMesh& filled)
 {
@@ -27,8 +25,7 @@ LiftResult carry_over(const QuadGrid& planar, std::vector<MeshPoint> place, cons
         Eigen::Vector3d position = Eigen::Vector3d::Zero();
         for (int k = 0; k < 3; ++k)
             if (here.barycentric[k] != 0) // a border node is exactly on its edge, whatever the third vertex
-                position +=
-                    here.barycentric[k] * filled.mesh.position.col(filled.mesh.triangle(k, here.face));
+                position += here.barycentric[k] * filled.mesh.position.col(filled.mesh.triangle(k, here.face));
         result.lifted.position.col(Eigen::Index(n)) = position;
         result.on_fill[n] = filled.is_fill(here.face);
     }

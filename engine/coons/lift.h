@@ -3,8 +3,7 @@
 
 #include "engine/coons/grid.h"
 
-namespace spia
-{
+namespace spia {
 
 /// A grid of the blank, carried onto the formed part.
 struct LiftResult {
@@ -21,7 +20,6 @@ LiftResult lift(const GridResult& grid);
 /// each node.
 /// @throws InputError if a node misses the blank by more than rounding, or lies where the blank overlaps
 /// itself
-LiftResult lift(const QuadGrid& planar, const Blank& blank, const TriMesh& part,
-                const Progress& progress = {});
+LiftResult lift(const QuadGrid& planar, const Blank& blank, const TriMesh& part, const Progress& progress = {});
 
 } // namespace spia

@@ -9,11 +9,9 @@
 
 #include "engine/core/parallel.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
@@ -21,6 +19,10 @@ using Eigen::Vector4d;
 
 constexpr double least_eps = 1e-9;      // of an ideal cell's area
 constexpr double small_decrease = 1e-3; // of the energy in one step: shape is good enough
+constexpr double first_eps = 0.01;      // at least
+constexpr double enough_decrease = 0.1; // of the energy in one step: worth another one with the same eps
+constexpr int most_steps_per_eps = 5;
+constexpr double slower = 0.5; // chi of the worst corner falls to this part of itself when eps is lowered
 constexpr double armijo = 1e-4;
 constexpr int most_halvings = 40;
 
@@ -51,10 +53,8 @@ std::vector<CellCorner> cell_corners(const QuadGrid& grid)
     double doubled_area = 0; // all cells together, whatever the inner nodes
     for (int j = 0; j < grid.rows; ++j)
         for (int i = 0; i < grid.columns; ++i) {
-            const Eigen::Vector3d p =
-                grid.position.col(grid.node(i + 1, j + 1)) - grid.position.col(grid.node(i, j));
-            const Eigen::Vector3d q =
-                grid.position.col(grid.node(i, j + 1)) - grid.position.col(grid.node(i + 1, j));
+            const Eigen::Vector3d p = grid.position.col(grid.node(i + 1, j + 1)) - grid.position.col(grid.node(i, j));
+            const Eigen::Vector3d q = grid.position.col(grid.node(i, j + 1)) - grid.position.col(grid.node(i + 1, j));
             doubled_area += p.x() * q.y() - p.y() * q.x();
         }
     if (doubled_area > 0) {
@@ -69,9 +69,8 @@ std::vector<CellCorner> cell_corners(const QuadGrid& grid)
             const std::array<int, 4> node = {grid.node(i, j), grid.node(i + 1, j), grid.node(i + 1, j + 1),
                                              grid.node(i, j + 1)};
             for (size_t k = 0; k < 4; ++k)
-                corners.push_back({{node[k], node[(k + 1) % 4], node[(k + 3) % 4]},
-                                   k % 2 == 0 ? du : dv,
-                                   k % 2 == 0 ? dv : du});
+                corners.push_back(
+                    {{node[k], node[(k + 1) % 4], node[(k + 3) % 4]}, k % 2 == 0 ? du : dv, k % 2 == 0 ? dv : du});
         }
     return corners;
 }
@@ -105,8 +104,7 @@ double corner_energy(const Vector4d& J, double eps, double area_weight)
 }
 
 /// Gradient, and second derivative without its negative eigenvalues.
-void corner_derivatives(const Vector4d& J, double eps, double area_weight, Vector4d& gradient,
-                        Matrix4d& hessian)
+void corner_derivatives(const Vector4d& J, double eps, double area_weight, Vector4d& gradient, Matrix4d& hessian)
 {
     const double D = determinant(J), X = chi(D, eps), root = std::hypot(D, eps);
     const double X1 = X / root;                             // chi'
@@ -125,12 +123,10 @@ void corner_derivatives(const Vector4d& J, double eps, double area_weight, Vecto
     hessian(1, 2) -= phi_D;
     hessian(2, 1) -= phi_D;
     const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(hessian);
-    hessian = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-              eigen.eigenvectors().transpose();
+    hessian = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-class Untangler
-{
+class Untangler {
 public:
     Untangler(QuadGrid& grid, const std::vector<Pull>& pulls, const UntangleOptions& options)
         : grid_(grid), pulls_(pulls), options_(options), corner_(cell_corners(grid)),
@@ -150,22 +146,30 @@ public:
     {
         if (unknowns_ == 0)
             return;
-        double floor = 0.01;
+        double smallest = smallest_determinant();
+        eps_ = smallest > 0 ? least_eps : std::max(first_eps, -smallest);
+        int at_this_eps = 0;
         for (int step = 0; step < options_.most_steps; ++step) {
             progress.checkpoint(double(step) / options_.most_steps, "untangling");
-            const double smallest = smallest_determinant();
-            // While cells are folded, eps follows the worst one. It must not get small too soon: where D is
-            // near zero, so would be the Newton steps.
-            eps_ = smallest > 0 ? std::min(least_eps, 0.01 * smallest) : std::max(-0.2 * smallest, floor);
-            floor = std::max(0.5 * floor, least_eps);
+            if (smallest > 0)
+                eps_ = std::min(least_eps, 0.01 * smallest);
             const double before = energy(grid_.position);
-            if (!newton_step(before))
-                return;
-            // With eps at its end the energy falls by leaps or not at all: a folded grid that stands still
-            // stays folded.
-            const bool eps_settled = smallest > 0 || floor <= least_eps;
-            if (eps_settled && energy(grid_.position) > (1 - small_decrease) * before)
-                return;
+            const bool moved = newton_step(before);
+            const double left = energy(grid_.position) / before;
+            smallest = smallest_determinant();
+            if (smallest > 0) {
+                if (!moved || left > 1 - small_decrease)
+                    return;
+            } else if (++at_this_eps == most_steps_per_eps || left > 1 - enough_decrease) {
+                // Not to zero at once: the energy has to follow, or its steep wall stands in the way of the worst
+                // corner.
+                if (eps_ <= least_eps)
+                    return; // folded and standing still
+                const double target = chi(smallest, eps_) * slower;
+                eps_ =
+                    std::max(least_eps, smallest < target ? 2 * std::sqrt(target * (target - smallest)) : least_eps);
+                at_this_eps = 0;
+            }
         }
     }
 
@@ -181,15 +185,13 @@ private:
     double energy(const Eigen::Matrix3Xd& position)
     {
         parallel_for(int(corner_.size()), [&](int k) {
-            value_[size_t(k)] =
-                corner_energy(scaled_edges(corner_[size_t(k)], position), eps_, options_.area_weight);
+            value_[size_t(k)] = corner_energy(scaled_edges(corner_[size_t(k)], position), eps_, options_.area_weight);
         });
         double sum = 0;
         for (const double value : value_)
             sum += value;
         for (const Pull& pull : pulls_)
-            sum += pull.weight / 2 * (position.col(pull.node).head<2>() - pull.target).squaredNorm() /
-                   cell_area_;
+            sum += pull.weight / 2 * (position.col(pull.node).head<2>() - pull.target).squaredNorm() / cell_area_;
         return sum;
     }
 
@@ -250,8 +252,7 @@ private:
         for (const Pull& pull : pulls_) {
             const int row = unknown_[size_t(pull.node)];
             const double stiffness = pull.weight / cell_area_;
-            total_gradient_.segment<2>(row) +=
-                stiffness * (grid_.position.col(pull.node).head<2>() - pull.target);
+            total_gradient_.segment<2>(row) += stiffness * (grid_.position.col(pull.node).head<2>() - pull.target);
             for (int i = 0; i < 2; ++i)
                 entries.emplace_back(row + i, row + i, stiffness);
         }

@@ -5,8 +5,7 @@
 #include "engine/coons/quad_grid.h"
 #include "engine/core/progress.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Draws a node to a place, with weight / 2 times the squared distance over the cell size.
 struct Pull {
@@ -16,7 +15,7 @@ struct Pull {
 };
 
 struct UntangleOptions {
-    int most_steps = 150;      ///< Newton steps
+    int most_steps = 100;      ///< Newton steps
     double area_weight = 0.05; ///< of equal cell areas against good cell shapes
 };
 

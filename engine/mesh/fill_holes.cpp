@@ -12,11 +12,9 @@
 #include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/topology.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 constexpr double largest_cotangent = 1e3; // of a sliver: keeps one bad triangle from ruling the equations
 
@@ -64,10 +62,9 @@ void require_disk(const FilledMesh& filled)
     const int edges = (3 * mesh.triangles() + boundary_edges) / 2;
     const int euler = vertices - edges + mesh.triangles();
     if (euler != 1)
-        throw InputError(
-            fmt::format("the part has handles (Euler number {} instead of 1 once its holes are filled); "
-                        "cut it open before it is flattened",
-                        euler));
+        throw InputError(fmt::format("the part has handles (Euler number {} instead of 1 once its holes are filled); "
+                                     "cut it open before it is flattened",
+                                     euler));
 }
 
 /// New vertices of one hole, and its faces, appended to the filled mesh.
@@ -170,9 +167,8 @@ void place_in_space(FilledMesh& filled, const std::vector<char>& free, const std
     const Eigen::SparseMatrix<double> normal = laplacian.transpose() * laplacian;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
     if (factor.info() != Eigen::Success)
-        throw InputError(
-            "the holes of the part could not be filled smoothly: their edges have no extent in the "
-            "blank; close the slits of the part first");
+        throw InputError("the holes of the part could not be filled smoothly: their edges have no extent in the "
+                         "blank; close the slits of the part first");
     Eigen::MatrixX3d solution = factor.solve(laplacian.transpose() * right);
     // The normal equations square the condition; one correction with the residual gives the lost digits back.
     const Eigen::MatrixX3d residual = right - laplacian * solution;
@@ -196,8 +192,7 @@ int outer_loop(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2X
         }
     }
     if (loops.empty())
-        throw InputError(
-            "the part is closed and has no boundary; cut it open, or take one side of the sheet");
+        throw InputError("the part is closed and has no boundary; cut it open, or take one side of the sheet");
     if (outer < 0)
         throw InputError(
             "no boundary loop of the blank runs counter-clockwise; the blank is upside down: mirror it, or "

@@ -5,8 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 /// A part without holes, in space and in the plane of its blank. The vertices and faces of the part come
 /// first and are unchanged; those of the fill follow.
@@ -17,8 +16,8 @@ struct FilledMesh {
     int part_triangles = 0;
     std::vector<int> outline; ///< the outer boundary loop, counter-clockwise
     int holes = 0;            ///< boundary loops that were filled
-    int fanned_holes = 0; ///< those whose edge crosses itself in the plane: closed by a fan, good for nothing
-                          ///< but the connectivity
+    int fanned_holes = 0;     ///< those whose edge crosses itself in the plane: closed by a fan, good for nothing
+                              ///< but the connectivity
 
     bool is_fill(int face) const { return face >= part_triangles; }
 };

@@ -6,11 +6,9 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 namespace bg = boost::geometry;
 using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
@@ -33,8 +31,7 @@ double nearest_on_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, co
 }
 
 /// The nearest place of one triangle, which may be turned over or have no area.
-MeshPoint nearest_in_triangle(const Eigen::Vector2d& p, const std::array<Eigen::Vector2d, 3>& corner,
-                              int face)
+MeshPoint nearest_in_triangle(const Eigen::Vector2d& p, const std::array<Eigen::Vector2d, 3>& corner, int face)
 {
     Eigen::Vector3d area;
     for (int k = 0; k < 3; ++k)
@@ -74,8 +71,7 @@ struct PlanarLocator::Tree {
 
     std::array<Eigen::Vector2d, 3> corners(int face) const
     {
-        return {position.col(triangle(0, face)), position.col(triangle(1, face)),
-                position.col(triangle(2, face))};
+        return {position.col(triangle(0, face)), position.col(triangle(1, face)), position.col(triangle(2, face))};
     }
 };
 
@@ -85,8 +81,7 @@ PlanarLocator::PlanarLocator(const Eigen::Matrix2Xd& position, const Eigen::Matr
     tree->position = position;
     tree->triangle = triangle;
     if (position.cols() > 0)
-        tree->tolerance =
-            relative_tolerance * (position.rowwise().maxCoeff() - position.rowwise().minCoeff()).norm();
+        tree->tolerance = relative_tolerance * (position.rowwise().maxCoeff() - position.rowwise().minCoeff()).norm();
     std::vector<Entry> entries;
     entries.reserve(size_t(triangle.cols()));
     for (int f = 0; f < triangle.cols(); ++f) {

@@ -3,21 +3,19 @@
 #include <memory>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// A place on a triangle mesh: its coordinates are those of the face's vertices, weighted.
 struct MeshPoint {
     int face = -1;                                         ///< -1: no place
     Eigen::Vector3d barycentric = Eigen::Vector3d::Zero(); ///< not negative, sum 1
-    double distance = 0; ///< from the point that was asked for; 0 inside the face
+    double distance = 0;                                   ///< from the point that was asked for; 0 inside the face
 };
 
 /// Finds the triangle of a flat mesh in which a point lies. The triangles may be slivers, turned over, or lie
 /// on top of each other. Building costs O(n log n), asking O(log n); asking from several threads at once is
 /// allowed.
-class PlanarLocator
-{
+class PlanarLocator {
 public:
     /// @param position 2 by #V; @param triangle 3 by #F. Both are copied.
     PlanarLocator(const Eigen::Matrix2Xd& position, const Eigen::Matrix3Xi& triangle);

@@ -6,11 +6,9 @@
 #include <map>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 using Point = Eigen::Vector2d;
 using Triangle = std::array<int, 3>;
@@ -38,8 +36,7 @@ double shape(const Point& a, const Point& b, const Point& c)
 }
 
 /// Cuts ears, the best shaped first, from a closed row of points.
-class EarClipper
-{
+class EarClipper {
 public:
     explicit EarClipper(const Eigen::Matrix2Xd& outline) : outline_(outline)
     {
@@ -127,8 +124,7 @@ private:
 };
 
 /// Triangles that know their neighbours: edge k of a triangle runs from corner k to corner k + 1.
-class Patch
-{
+class Patch {
 public:
     Patch(const Eigen::Matrix2Xd& outline, std::vector<Triangle> triangles) : triangle_(std::move(triangles))
     {
@@ -186,8 +182,7 @@ public:
             const double spacing = growth * (spacing_[a] + spacing_[b] + spacing_[c]) / 3;
             bool large = shape(point_[a], point_[b], point_[c]) > flip_tolerance;
             for (const int v : {a, b, c})
-                large =
-                    large && std::sqrt(2.0) * (centre - point_[v]).norm() > std::max(spacing, spacing_[v]);
+                large = large && std::sqrt(2.0) * (centre - point_[v]).norm() > std::max(spacing, spacing_[v]);
             if (large)
                 split(t, centre, spacing);
         }
@@ -228,8 +223,7 @@ private:
         const int u = neighbour_[t][k];
         const Point a = point_[triangle_[t][k]], b = point_[triangle_[t][(k + 1) % 3]];
         const Point c = point_[triangle_[t][(k + 2) % 3]], d = point_[triangle_[u][(edge_to(u, t) + 2) % 3]];
-        const double sine =
-            cross(a - c, b - c) * (b - d).dot(a - d) + cross(b - d, a - d) * (a - c).dot(b - c);
+        const double sine = cross(a - c, b - c) * (b - d).dot(a - d) + cross(b - d, a - d) * (a - c).dot(b - c);
         const double scale = (a - c).norm() * (b - c).norm() * (a - d).norm() * (b - d).norm();
         return sine < -flip_tolerance * scale && doubled_area(a, d, c) > 0 && doubled_area(d, b, c) > 0;
     }

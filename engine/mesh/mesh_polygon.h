@@ -1,8 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace spia
-{
+namespace spia {
 
 /// A triangle mesh in the plane.
 struct PlanarMesh {

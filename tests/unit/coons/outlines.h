@@ -10,8 +10,7 @@
 #include "engine/mesh/tri_mesh.h"
 
 /// Flat parts with difficult outlines. They are their own blank.
-namespace spia::outlines
-{
+namespace spia::outlines {
 
 using Points = std::vector<Eigen::Vector2d>;
 constexpr double pi = std::numbers::pi;
@@ -75,15 +74,9 @@ inline Points l_shape(double size, double arm, double spacing)
 
 inline Points u_shape(double size, double arm, double spacing)
 {
-    return divided({{0, 0},
-                    {size, 0},
-                    {size, size},
-                    {size - arm, size},
-                    {size - arm, arm},
-                    {arm, arm},
-                    {arm, size},
-                    {0, size}},
-                   spacing);
+    return divided(
+        {{0, 0}, {size, 0}, {size, size}, {size - arm, size}, {size - arm, arm}, {arm, arm}, {arm, size}, {0, size}},
+        spacing);
 }
 
 inline Points star(double inner, double outer, int points, double spacing)
@@ -121,8 +114,8 @@ inline Points arc(double radius, double width, double angle, int n, int across)
 
 inline Points spiral(double windings, double pitch, double width, int n, int across)
 {
-    return band([=](double t) { return polar(pitch * (0.7 + windings * t), 2 * pi * windings * t); }, width,
-                n, across);
+    return band([=](double t) { return polar(pitch * (0.7 + windings * t), 2 * pi * windings * t); }, width, n,
+                across);
 }
 
 /// A square with teeth on every side, as meshes of scans have them.

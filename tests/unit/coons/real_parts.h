@@ -13,8 +13,7 @@
 #include "engine/mesh/tri_mesh.h"
 
 /// Real parts, and a stand-in for their blanks.
-namespace spia::real_parts
-{
+namespace spia::real_parts {
 
 inline std::filesystem::path folder()
 {

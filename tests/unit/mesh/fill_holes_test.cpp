@@ -10,11 +10,9 @@
 #include "engine/mesh/topology.h"
 #include "tests/support/shapes.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 /// A square plate of n x n cells without the cells for which `hole` holds, lifted to z = height(x, y).
 template <class Hole, class Height> TriMesh plate(int n, const Hole& hole, const Height& height)
@@ -75,8 +73,7 @@ TEST(FillHoles, APlatePartStaysAPlaneAndKeepsItsVertices)
         EXPECT_NEAR(planar_area(filled), 4, 1e-12);
         for (int v = part.vertices(); v < filled.mesh.vertices(); ++v) {
             const Eigen::Vector2d p = filled.plane.col(v);
-            EXPECT_LT((filled.mesh.position.col(v) - Eigen::Vector3d(p.x(), p.y(), 0.3 * p.x() - 0.7 * p.y()))
-                          .norm(),
+            EXPECT_LT((filled.mesh.position.col(v) - Eigen::Vector3d(p.x(), p.y(), 0.3 * p.x() - 0.7 * p.y())).norm(),
                       1e-9);
         }
     }
@@ -176,10 +173,8 @@ TEST(MeshPolygon, CoversTheInsideOfNonConvexPolygonsOnce)
         const PlanarMesh mesh = mesh_polygon(outline);
         ASSERT_GT(mesh.triangle.cols(), 0);
         for (int t = 0; t < mesh.triangle.cols(); ++t) {
-            const Eigen::Vector2d u =
-                mesh.position.col(mesh.triangle(1, t)) - mesh.position.col(mesh.triangle(0, t));
-            const Eigen::Vector2d v =
-                mesh.position.col(mesh.triangle(2, t)) - mesh.position.col(mesh.triangle(0, t));
+            const Eigen::Vector2d u = mesh.position.col(mesh.triangle(1, t)) - mesh.position.col(mesh.triangle(0, t));
+            const Eigen::Vector2d v = mesh.position.col(mesh.triangle(2, t)) - mesh.position.col(mesh.triangle(0, t));
             EXPECT_GT(u.x() * v.y() - u.y() * v.x(), 0);
             sum += (u.x() * v.y() - u.y() * v.x()) / 2;
         }

@@ -7,11 +7,9 @@
 
 #include "tests/support/shapes.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 /// A unit square of slivers: the columns of a grid get narrower and narrower.
 TriMesh graded_square(int n)

@@ -1,0 +1,124 @@
+#include "engine/coons/border_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace spia {
+
+namespace {
+
+/// The border nodes, counter-clockwise, without repetition.
+std::vector<Eigen::Vector2d> border_polygon(const QuadGrid& grid)
+{
+    std::vector<Eigen::Vector2d> border;
+    const auto add = [&](int i, int j) {
+        const Eigen::Vector2d point = grid.position.col(grid.node(i, j)).head<2>();
+        if (border.empty() || point != border.back())
+            border.push_back(point);
+    };
+    for (int i = 0; i < grid.columns; ++i)
+        add(i, 0);
+    for (int j = 0; j < grid.rows; ++j)
+        add(grid.columns, j);
+    for (int i = grid.columns; i > 0; --i)
+        add(i, grid.rows);
+    for (int j = grid.rows; j > 0; --j)
+        add(0, j);
+    return border;
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+/// How often a closed polygon turns around, counter-clockwise positive. Only 1 can bound unfolded cells.
+int turns(const std::vector<Eigen::Vector2d>& polygon)
+{
+    double turning = 0;
+    const size_t n = polygon.size();
+    for (size_t k = 0; k < n; ++k) {
+        const Eigen::Vector2d in = polygon[(k + 1) % n] - polygon[k],
+                              out = polygon[(k + 2) % n] - polygon[(k + 1) % n];
+        turning += std::atan2(cross(in, out), in.dot(out));
+    }
+    return int(std::lround(turning / (2 * std::numbers::pi)));
+}
+
+double area(const std::vector<Eigen::Vector2d>& polygon)
+{
+    double doubled = 0;
+    for (size_t k = 0; k < polygon.size(); ++k)
+        doubled += cross(polygon[k] - polygon[0], polygon[(k + 1) % polygon.size()] - polygon[0]);
+    return doubled / 2;
+}
+
+int crossings(const std::vector<Eigen::Vector2d>& polygon)
+{
+    const size_t n = polygon.size();
+    int count = 0;
+    for (size_t i = 0; i < n; ++i)
+        for (size_t j = i + 2; j < n; ++j) {
+            const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % n], &c = polygon[j],
+                                  &d = polygon[(j + 1) % n];
+            count += cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
+        }
+    return count;
+}
+
+} // namespace
+
+double corner_angle_deg(const QuadGrid& q, int k)
+{
+    const int m = q.columns, n = q.rows;
+    const std::array<std::array<int, 3>, 4> corner = {{{q.node(0, 0), q.node(1, 0), q.node(0, 1)},
+                                                       {q.node(m, 0), q.node(m, 1), q.node(m - 1, 0)},
+                                                       {q.node(m, n), q.node(m - 1, n), q.node(m, n - 1)},
+                                                       {q.node(0, n), q.node(0, n - 1), q.node(1, n)}}};
+    const Eigen::Vector3d a = q.position.col(corner[size_t(k)][1]) - q.position.col(corner[size_t(k)][0]);
+    const Eigen::Vector3d b = q.position.col(corner[size_t(k)][2]) - q.position.col(corner[size_t(k)][0]);
+    const double angle = std::atan2(a.cross(b).z(), a.dot(b)) * 180 / std::numbers::pi;
+    return angle > 0 ? angle : angle + 360;
+}
+
+int impossible_corner(const QuadGrid& grid)
+{
+    constexpr double rounding_deg = 1e-6;
+    for (int k = 0; k < 4; ++k)
+        if (corner_angle_deg(grid, k) > 180 - rounding_deg)
+            return k;
+    return -1;
+}
+
+bool follows_outline(const GridResult& grid, bool overlaps)
+{
+    constexpr double least_area = 0.7, largest_area = 1.4, crossing_share = 0.1;
+    const std::vector<Eigen::Vector2d> border = border_polygon(grid.planar);
+    std::vector<Eigen::Vector2d> outline;
+    for (const int v : grid.filled->outline)
+        outline.push_back(grid.filled->plane.col(v));
+    const double share = area(border) / area(outline);
+    return turns(border) == 1 && share > least_area && share < largest_area &&
+           (overlaps || crossings(border) <= crossing_share * double(border.size()));
+}
+
+std::pair<int, double> widest_vertex(const FilledMesh& filled)
+{
+    std::vector<double> angle(size_t(filled.mesh.vertices()), 0);
+    for (int f = 0; f < filled.mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3i t = filled.mesh.triangle.col(f);
+            const Eigen::Vector2d a = filled.plane.col(t[(k + 1) % 3]) - filled.plane.col(t[k]);
+            const Eigen::Vector2d b = filled.plane.col(t[(k + 2) % 3]) - filled.plane.col(t[k]);
+            angle[size_t(t[k])] += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) * 180 / std::numbers::pi;
+        }
+    const int widest = *std::max_element(filled.outline.begin(), filled.outline.end(),
+                                         [&](int a, int b) { return angle[size_t(a)] < angle[size_t(b)]; });
+    return {widest, angle[size_t(widest)]};
+}
+
+} // namespace spia
