@@ -433,7 +433,7 @@ TEST(SplitPolygon, QuadTakesItsShorterDiagonalUnlessThatFoldsItOver)
     for (const auto& t : split_polygon(kite)) // diagonal 1 - 3
         EXPECT_EQ(std::count(t.begin(), t.end(), 1) + std::count(t.begin(), t.end(), 3), 2);
     const std::vector<Vector3d> dart = {
-        {0, 0, 0}, {4, 1, 0}, {1, 0, 0}, {4, -1, 0}}; // only 0 - 2 lies inside
+        {0, 0, 0}, {4, 1, 0}, {3, 0, 0}, {4, -1, 0}}; // 1 - 3 is shorter, but only 0 - 2 lies inside
     ASSERT_EQ(split_polygon(dart).size(), 2u);
     for (const auto& t : split_polygon(dart))
         EXPECT_EQ(std::count(t.begin(), t.end(), 0) + std::count(t.begin(), t.end(), 2), 2);
