@@ -12,7 +12,7 @@ struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json;
     std::string material = "mild_steel", unit;
     double thickness = 1;
-    std::string grid;              ///< NxM; empty: automatic
+    std::string grid; ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction;
     std::string grid_method = "automatic", ends = "averaged";

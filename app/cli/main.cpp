@@ -26,15 +26,18 @@ int main(int count, char** values)
 {
     using namespace spia;
     // Messages of libraries belong to the standard error; the standard output is for results.
-    spdlog::set_default_logger(std::make_shared<spdlog::logger>("spia", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("spia", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
     spdlog::set_level(spdlog::level::warn);
 
-    CLI::App app{"SPIA: from a stamped sheet-metal part to its flat blank, with the strains that forming costs, and to a "
-                 "NURBS surface."};
+    CLI::App app{
+        "SPIA: from a stamped sheet-metal part to its flat blank, with the strains that forming costs, and to a "
+        "NURBS surface."};
     app.set_version_flag("--version", SPIA_VERSION);
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 1 poorer result with --strict, 2 the input is at fault, 3 no solution, 4 a file cannot "
-               "be read or written, 130 cancelled.");
+    app.footer(
+        "Exit codes: 0 done, 1 poorer result with --strict, 2 the input is at fault, 3 no solution, 4 a file cannot "
+        "be read or written, 130 cancelled.");
     int threads = 0;
 
     cli::RunArguments run;
@@ -76,7 +79,8 @@ int main(int count, char** values)
         ->check(CLI::Range(1, 1024));
 
     cli::InfoArguments info;
-    CLI::App* info_command = app.add_subcommand("info", "Examine a part: what it is, what is wrong with it, what to do");
+    CLI::App* info_command =
+        app.add_subcommand("info", "Examine a part: what it is, what is wrong with it, what to do");
     info_command->add_option("part", info.part, "STL, OBJ, PLY, OFF, glTF or GLB file")->required()->type_name("PART");
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));

@@ -33,8 +33,8 @@ SessionOptions options(const RunArguments& arguments)
         int n = 0, m = 0, read = 0;
         if (std::sscanf(arguments.grid.c_str(), "%dx%d%n", &n, &m, &read) != 2 || read != int(arguments.grid.size()) ||
             n < 1 || m < 1 || n > 2000 || m > 2000)
-            throw InputError(fmt::format("--grid {}: give two numbers of cells from 1 to 2000 as in --grid 60x40",
-                                         arguments.grid));
+            throw InputError(
+                fmt::format("--grid {}: give two numbers of cells from 1 to 2000 as in --grid 60x40", arguments.grid));
         result.grid.columns = n;
         result.grid.rows = m;
     }
@@ -71,8 +71,9 @@ void print_summary(const Session& session)
                100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
                flat.face.strain_equivalent.maxCoeff());
     if (flat.necking_triangles > 0)
-        fmt::print("          {} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear there\n",
-                   flat.necking_triangles, session.options.flatten.curve.trusted_strain);
+        fmt::print(
+            "          {} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear there\n",
+            flat.necking_triangles, session.options.flatten.curve.trusted_strain);
     fmt::print("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
                grid.planar.rows, name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
     fmt::print("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",

@@ -10,10 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double cross(const Vector2d& a, const Vector2d& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Whether one layer can explain all these faces at one point: they meet in a vertex, and it is inside at
 /// most one.

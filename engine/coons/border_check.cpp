@@ -31,10 +31,7 @@ std::vector<Eigen::Vector2d> border_polygon(const QuadGrid& grid)
     return border;
 }
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// How often a closed polygon turns around, counter-clockwise positive. Only 1 can bound unfolded cells.
 int turns(const std::vector<Eigen::Vector2d>& polygon)
@@ -42,8 +39,7 @@ int turns(const std::vector<Eigen::Vector2d>& polygon)
     double turning = 0;
     const size_t n = polygon.size();
     for (size_t k = 0; k < n; ++k) {
-        const Eigen::Vector2d in = polygon[(k + 1) % n] - polygon[k],
-                              out = polygon[(k + 2) % n] - polygon[(k + 1) % n];
+        const Eigen::Vector2d in = polygon[(k + 1) % n] - polygon[k], out = polygon[(k + 2) % n] - polygon[(k + 1) % n];
         turning += std::atan2(cross(in, out), in.dot(out));
     }
     return int(std::lround(turning / (2 * std::numbers::pi)));

@@ -100,8 +100,7 @@ double side_score(const std::array<double, 4>& length, double perimeter)
         return -10;
     const double unbalance_u = (side[0] - side[2]) / u, unbalance_v = (side[1] - side[3]) / v,
                  oblong = (u - v) / (u + v);
-    return -weight_balance * (unbalance_u * unbalance_u + unbalance_v * unbalance_v) -
-           weight_square * oblong * oblong;
+    return -weight_balance * (unbalance_u * unbalance_u + unbalance_v * unbalance_v) - weight_square * oblong * oblong;
 }
 
 struct Quadruple {
@@ -172,10 +171,9 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
     const Outline outline(loop, blank.position);
     const int n = outline.size();
     if (n < 4)
-        throw InputError(
-            fmt::format("the outline of the blank has {} vertices, a quad grid needs four corners; refine "
-                        "the mesh of the part",
-                        n));
+        throw InputError(fmt::format("the outline of the blank has {} vertices, a quad grid needs four corners; refine "
+                                     "the mesh of the part",
+                                     n));
     std::vector<double> score(static_cast<size_t>(n));
     for (int i = 0; i < n; ++i)
         score[size_t(i)] = corner_score(outline, i);
@@ -225,8 +223,7 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
                 if (std::count(next.corner.begin(), next.corner.end(), next.corner[k]) > 1)
                     continue;
                 next.worth = worth(next.corner);
-                if (next.worth > chosen.worth &&
-                    cells_fit(outline, next.corner) >= cells_fit(outline, chosen.corner)) {
+                if (next.worth > chosen.worth && cells_fit(outline, next.corner) >= cells_fit(outline, chosen.corner)) {
                     chosen = next;
                     moved = true;
                 }

@@ -51,8 +51,7 @@ void find_layer_by_layer(const BlankSearch& blank, GridResult& grid)
                     if (place.face >= 0 || queued[size_t(other)])
                         continue;
                     queued[size_t(other)] = 1;
-                    place =
-                        blank.place_next_to(grid.planar.position.col(other).head<2>(), places_around(grid, other));
+                    place = blank.place_next_to(grid.planar.position.col(other).head<2>(), places_around(grid, other));
                     if (place.face >= 0)
                         next.push_back(other);
                 }
@@ -71,14 +70,11 @@ void find_nodes(const BlankSearch& blank, GridResult& grid)
             if (!is_border(grid.planar, n))
                 grid.place[size_t(n)] = blank.unique_place(grid.planar.position.col(n).head<2>());
         });
-    grid.nodes_outside = int(
-        std::count_if(grid.place.begin(), grid.place.end(), [](const MeshPoint& place) { return place.face < 0; }));
+    grid.nodes_outside =
+        int(std::count_if(grid.place.begin(), grid.place.end(), [](const MeshPoint& place) { return place.face < 0; }));
     grid.quality = cell_quality(grid.planar);
 }
 
-bool is_sound(const GridResult& grid)
-{
-    return grid.quality.folded_cells == 0 && grid.nodes_outside == 0;
-}
+bool is_sound(const GridResult& grid) { return grid.quality.folded_cells == 0 && grid.nodes_outside == 0; }
 
 } // namespace spia

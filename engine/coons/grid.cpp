@@ -90,8 +90,7 @@ void choose_counts(const Workshop& shop, const GridOptions& options, int& column
                 v += (trial.position.col(trial.node(i, j)) - trial.position.col(trial.node(i, j - 1))).norm();
         }
     const auto count = [&](double here) {
-        return std::max(std::min(least_cells, options.cells),
-                        int(std::lround(options.cells * here / std::max(u, v))));
+        return std::max(std::min(least_cells, options.cells), int(std::lround(options.cells * here / std::max(u, v))));
     };
     columns = options.columns > 0 ? options.columns : count(u);
     rows = options.rows > 0 ? options.rows : count(v);
@@ -150,10 +149,9 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderPara
                 "the blank lies on itself around boundary vertex {} (inner angle {:.0f} degrees), and the cells of a "
                 "{} x {} grid cannot turn around such a place; cut the part there into two",
                 vertex, angle_deg, m, n));
-        throw InputError(
-            fmt::format("the outline of the blank is too intricate for a {} x {} grid: the border nodes, "
-                        "joined by straight lines, do not follow it; choose a finer grid",
-                        m, n));
+        throw InputError(fmt::format("the outline of the blank is too intricate for a {} x {} grid: the border nodes, "
+                                     "joined by straight lines, do not follow it; choose a finer grid",
+                                     m, n));
     }
     const std::string corners = fmt::format("{}", fmt::join(shop.boundary.corner, ", "));
     if (grid.quality.folded_cells > 0)
@@ -162,10 +160,9 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderPara
             "cells stay folded, the first one in column {}, row {}; choose corners that divide the "
             "outline more evenly, or a finer grid",
             m, n, corners, grid.quality.folded_cells, grid.quality.first_folded % m, grid.quality.first_folded / m));
-    throw InputError(
-        fmt::format("the {} x {} grid between the corner vertices {} leaves the blank at {} of its nodes; "
-                    "choose a finer grid, or other corners",
-                    m, n, corners, grid.nodes_outside));
+    throw InputError(fmt::format("the {} x {} grid between the corner vertices {} leaves the blank at {} of its nodes; "
+                                 "choose a finer grid, or other corners",
+                                 m, n, corners, grid.nodes_outside));
 }
 
 } // namespace

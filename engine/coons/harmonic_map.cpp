@@ -19,10 +19,7 @@ namespace {
 constexpr double smallest_weight = 0.1;
 constexpr double largest_weight = 100;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// An undirected edge of two triangles or one, as it appears in the sorted list of all of them.
 struct Edge {
@@ -210,8 +207,7 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     matrix.setFromTriplets(entries.begin(), entries.end());
     progress.checkpoint(0.2, "harmonic map: solution");
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
-    assert(factor.info() ==
-           Eigen::Success); // positive definite: positive weights, and every vertex hangs on the sides
+    assert(factor.info() == Eigen::Success); // positive definite: positive weights, and every vertex hangs on the sides
     const Eigen::MatrixX2d solution = factor.solve(right);
     for (size_t v = 0; v < unknown.size(); ++v)
         if (unknown[v] >= 0)

@@ -20,8 +20,7 @@ LiftResult carry_over(const QuadGrid& planar, std::vector<MeshPoint> place, cons
         if (here.face < 0)
             throw InputError(fmt::format("grid node {} ({:.6g}, {:.6g}) has no unique place on the blank; "
                                          "use the automatic or the harmonic grid",
-                                         n, planar.position(0, Eigen::Index(n)),
-                                         planar.position(1, Eigen::Index(n))));
+                                         n, planar.position(0, Eigen::Index(n)), planar.position(1, Eigen::Index(n))));
         Eigen::Vector3d position = Eigen::Vector3d::Zero();
         for (int k = 0; k < 3; ++k)
             if (here.barycentric[k] != 0) // a border node is exactly on its edge, whatever the third vertex
@@ -35,10 +34,7 @@ LiftResult carry_over(const QuadGrid& planar, std::vector<MeshPoint> place, cons
 
 } // namespace
 
-LiftResult lift(const GridResult& grid)
-{
-    return carry_over(grid.planar, grid.place, *grid.filled);
-}
+LiftResult lift(const GridResult& grid) { return carry_over(grid.planar, grid.place, *grid.filled); }
 
 LiftResult lift(const QuadGrid& planar, const Blank& blank, const TriMesh& part, const Progress& progress)
 {

@@ -62,8 +62,7 @@ double bend(const Eigen::Vector2d& in, const Eigen::Vector2d& out, bool corner)
     const double cosine = in.dot(out), sine = in.x() * out.y() - in.y() * out.x();
     if (corner) { // the cell there needs an angle below 180 degrees, better not by a hair
         constexpr double sharp_enough = 0.1;
-        return cosine < 0 || sine > sharp_enough ? (sine > 0 ? 0 : largest_bend)
-                                                 : largest_bend * (sharp_enough - sine);
+        return cosine < 0 || sine > sharp_enough ? (sine > 0 ? 0 : largest_bend) : largest_bend * (sharp_enough - sine);
     }
     return cosine <= -1 + 2 / largest_bend ? largest_bend : (1 - cosine) / (1 + cosine);
 }
@@ -140,8 +139,8 @@ BorderParameters slid_border(const FilledMesh& filled, const BlankBoundary& boun
                         (here.place[size_t(a)] - nodes[size_t(k) - 1].place[size_t(c)]).normalized();
                     double cost = before.cost + uneven + bend(in, out, here.corner);
                     if (k == n - 1)
-                        cost += bend(
-                            out, (nodes[1].place[size_t(before.second)] - nodes[0].place[middle]).normalized(), true);
+                        cost += bend(out, (nodes[1].place[size_t(before.second)] - nodes[0].place[middle]).normalized(),
+                                     true);
                     if (cost < state.cost)
                         state = {cost, c, before.second};
                 }

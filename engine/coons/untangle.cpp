@@ -84,10 +84,7 @@ Vector4d scaled_edges(const CellCorner& corner, const Eigen::Matrix3Xd& position
     return edges;
 }
 
-double determinant(const Vector4d& J)
-{
-    return J[0] * J[3] - J[1] * J[2];
-}
+double determinant(const Vector4d& J) { return J[0] * J[3] - J[1] * J[2]; }
 
 /// chi(D) = (D + sqrt(D^2 + eps^2)) / 2, without cancellation for negative D.
 double chi(double D, double eps)
@@ -112,8 +109,8 @@ void corner_derivatives(const Vector4d& J, double eps, double area_weight, Vecto
     const double top = J.squaredNorm() + area_weight * (D * D + 1);
     const double phi_a = 1 / X, phi_aD = -X1 / (X * X);
     const double phi_D = 2 * area_weight * D / X - top * X1 / (X * X);
-    const double phi_DD = 2 * area_weight / X - 4 * area_weight * D * X1 / (X * X) - top * X2 / (X * X) +
-                          2 * top * X1 * X1 / (X * X * X);
+    const double phi_DD =
+        2 * area_weight / X - 4 * area_weight * D * X1 / (X * X) - top * X2 / (X * X) + 2 * top * X1 * X1 / (X * X * X);
     const Vector4d c(J[3], -J[2], -J[1], J[0]); // dD / dJ
     gradient = 2 * phi_a * J + phi_D * c;
     hessian = 2 * phi_a * Matrix4d::Identity() + 2 * phi_aD * (J * c.transpose() + c * J.transpose()) +
@@ -129,8 +126,7 @@ void corner_derivatives(const Vector4d& J, double eps, double area_weight, Vecto
 class Untangler {
 public:
     Untangler(QuadGrid& grid, const std::vector<Pull>& pulls, const UntangleOptions& options)
-        : grid_(grid), pulls_(pulls), options_(options), corner_(cell_corners(grid)),
-          unknown_(size_t(grid.nodes()), -1)
+        : grid_(grid), pulls_(pulls), options_(options), corner_(cell_corners(grid)), unknown_(size_t(grid.nodes()), -1)
     {
         for (int j = 1; j < grid.rows; ++j)
             for (int i = 1; i < grid.columns; ++i)
@@ -166,8 +162,7 @@ public:
                 if (eps_ <= least_eps)
                     return; // folded and standing still
                 const double target = chi(smallest, eps_) * slower;
-                eps_ =
-                    std::max(least_eps, smallest < target ? 2 * std::sqrt(target * (target - smallest)) : least_eps);
+                eps_ = std::max(least_eps, smallest < target ? 2 * std::sqrt(target * (target - smallest)) : least_eps);
                 at_this_eps = 0;
             }
         }

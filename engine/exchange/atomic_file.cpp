@@ -12,50 +12,40 @@
 
 namespace fs = std::filesystem;
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 std::string advice(int error)
 {
     switch (error) {
     case ENOENT:
-    case ENOTDIR:
-        return "create the folder or choose another one";
+    case ENOTDIR: return "create the folder or choose another one";
     case EACCES:
     case EPERM:
-    case EROFS:
-        return "choose a folder in which you may write";
+    case EROFS: return "choose a folder in which you may write";
     case ENOSPC:
     case EDQUOT:
-    case EFBIG:
-        return "free some space or choose another disk";
-    case EISDIR:
-        return "give the name of a file";
-    case ENAMETOOLONG:
-        return "choose a shorter name";
-    default:
-        return "choose another place";
+    case EFBIG: return "free some space or choose another disk";
+    case EISDIR: return "give the name of a file";
+    case ENAMETOOLONG: return "choose a shorter name";
+    default: return "choose another place";
     }
 }
 
 [[noreturn]] void fail(const fs::path& path, int error)
 {
-    throw ExchangeError(fmt::format("cannot write {}: {}; {}", path.string(),
-                                    std::generic_category().message(error), advice(error)));
+    throw ExchangeError(
+        fmt::format("cannot write {}: {}; {}", path.string(), std::generic_category().message(error), advice(error)));
 }
 
 /// A new file beside the target; it vanishes unless it is renamed.
-class TemporaryFile
-{
+class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& target) : target_(target)
     {
         for (int attempt = 0; attempt < 100; ++attempt) {
-            path_ =
-                target.parent_path() /
-                fmt::format(".{}.{}-{}.tmp", target.filename().string().substr(0, 200), ::getpid(), attempt);
+            path_ = target.parent_path() /
+                    fmt::format(".{}.{}-{}.tmp", target.filename().string().substr(0, 200), ::getpid(), attempt);
             descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ >= 0 || errno != EEXIST)
                 break;
@@ -113,8 +103,7 @@ void write_atomically(const fs::path& path, std::string_view content)
     const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
     if (target.filename().empty() || fs::is_directory(target, ignored))
         fail(path, EISDIR);
-    if (fs::exists(target, ignored) &&
-        !fs::is_regular_file(target, ignored)) // a rename would replace the device
+    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) // a rename would replace the device
         throw ExchangeError(
             fmt::format("cannot write {}: it is not a regular file; choose another name", path.string()));
     TemporaryFile file(target);

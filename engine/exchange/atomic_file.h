@@ -2,8 +2,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace spia
-{
+namespace spia {
 
 /// Writes the whole file or nothing: the content goes to a new file beside it, reaches the disk, and takes
 /// the name in one step. Until then an older file of that name stays as it was; a link is followed and stays

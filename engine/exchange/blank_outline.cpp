@@ -8,8 +8,7 @@
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/topology.h"
 
-namespace spia
-{
+namespace spia {
 
 std::vector<OutlineLoop> blank_outline(const TriMesh& part, const Blank& blank)
 {
@@ -19,10 +18,9 @@ std::vector<OutlineLoop> blank_outline(const TriMesh& part, const Blank& blank)
         loops.push_back(blank.position(Eigen::all, loop));
     if (loops.empty())
         throw InputError("the part has no boundary, so its blank has no outline");
-    const auto outer =
-        std::max_element(loops.begin(), loops.end(), [](const OutlineLoop& a, const OutlineLoop& b) {
-            return std::abs(signed_area(a)) < std::abs(signed_area(b));
-        });
+    const auto outer = std::max_element(loops.begin(), loops.end(), [](const OutlineLoop& a, const OutlineLoop& b) {
+        return std::abs(signed_area(a)) < std::abs(signed_area(b));
+    });
     std::rotate(loops.begin(), outer, outer + 1);
     return loops;
 }
@@ -31,8 +29,7 @@ double signed_area(const OutlineLoop& loop)
 {
     double doubled = 0;
     for (Eigen::Index i = 0; i < loop.cols(); ++i) {
-        const Eigen::Vector2d a = loop.col(i) - loop.col(0),
-                              b = loop.col((i + 1) % loop.cols()) - loop.col(0);
+        const Eigen::Vector2d a = loop.col(i) - loop.col(0), b = loop.col((i + 1) % loop.cols()) - loop.col(0);
         doubled += a.x() * b.y() - a.y() * b.x();
     }
     return doubled / 2;
@@ -44,8 +41,8 @@ void require_outline(const std::vector<OutlineLoop>& loops)
         throw InputError("there is no outline to write; flatten the part first");
     for (size_t i = 0; i < loops.size(); ++i)
         if (loops[i].cols() < 3 || !loops[i].allFinite())
-            throw InputError(fmt::format(
-                "loop {} of the outline does not have three finite points; flatten the part again", i));
+            throw InputError(
+                fmt::format("loop {} of the outline does not have three finite points; flatten the part again", i));
 }
 
 } // namespace spia

@@ -5,8 +5,7 @@
 #include "engine/forming/blank.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 /// A closed polygon in the plane, mm, 2 by #points; the last point is joined to the first.
 using OutlineLoop = Eigen::Matrix2Xd;

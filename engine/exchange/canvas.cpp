@@ -10,8 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/stroke_font.h"
 
-namespace spia
-{
+namespace spia {
 
 Canvas::Canvas(int width, int height)
     : width_(width), height_(height), colour_(size_t(width * height * fine * fine), Eigen::Vector3f::Ones()),
@@ -50,15 +49,13 @@ void Canvas::rectangle(double left, double top, double right, double bottom, con
             blend(sample(x, y), colour, 1);
 }
 
-void Canvas::text(std::string_view words, double x, double y, double height, const Eigen::Vector3d& colour,
-                  Align align)
+void Canvas::text(std::string_view words, double x, double y, double height, const Eigen::Vector3d& colour, Align align)
 {
     const double unit = height / stroke_font::capital_height, width = unit * stroke_font::width(words);
     const double start = align == Align::left ? x : align == Align::centre ? x - width / 2 : x - width;
     const Pen pen{.colour = colour, .width = 0.14 * height, .hidden = false};
     for (const auto& [from, to] : stroke_font::segments(words))
-        line({start + unit * from.x(), y - unit * from.y(), 0}, {start + unit * to.x(), y - unit * to.y(), 0},
-             pen);
+        line({start + unit * from.x(), y - unit * from.y(), 0}, {start + unit * to.x(), y - unit * to.y(), 0}, pen);
 }
 
 std::string Canvas::png() const
@@ -72,8 +69,8 @@ std::string Canvas::png() const
                 for (int dx = 0; dx < fine; ++dx)
                     sum += colour_[sample(x * fine + dx, y * fine + dy)];
             for (int k = 0; k < 3; ++k)
-                bytes.push_back(static_cast<unsigned char>(
-                    std::lround(255 * std::clamp(sum[k] / (fine * fine), 0.f, 1.f))));
+                bytes.push_back(
+                    static_cast<unsigned char>(std::lround(255 * std::clamp(sum[k] / (fine * fine), 0.f, 1.f))));
         }
     std::string result;
     const auto append = [](void* to, void* from, int size) {

@@ -5,14 +5,12 @@
 #include <string_view>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// A white picture with a depth per pixel. x runs right, y down, both in pixels from the upper left corner;
 /// of two points on a pixel the one of greater depth is seen. Colours are sRGB, 0..1. Drawn twice as fine as
 /// it is shown.
-class Canvas
-{
+class Canvas {
 public:
     Canvas(int width, int height);
 
@@ -57,9 +55,7 @@ private:
 template <class Colour> void Canvas::triangle(const Eigen::Matrix3d& corner, const Colour& colour)
 {
     const Eigen::Matrix<double, 2, 3> p = corner.topRows<2>() * fine;
-    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-        return a.x() * b.y() - a.y() * b.x();
-    };
+    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); };
     const double area = cross(p.col(1) - p.col(0), p.col(2) - p.col(0));
     if (area == 0)
         return;

@@ -7,10 +7,8 @@
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/text_lines.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 /// The vertex of a corner "7", "7/1", "7//3" or "-1/1/1", counted from 0.
 int vertex_of(const TextLines& lines, std::string_view corner, size_t vertices_so_far)
@@ -49,8 +47,7 @@ CheckedFile check_obj(std::string_view file)
             for (size_t k = 1; k < words.size(); ++k) {
                 corners.push_back(vertex_of(lines, words[k], result.position.size()));
                 if (corners.back() < 0)
-                    lines.fail(fmt::format("the face names vertex '{}', which does not exist",
-                                           words[k].substr(0, 40)));
+                    lines.fail(fmt::format("the face names vertex '{}', which does not exist", words[k].substr(0, 40)));
                 largest = std::max(largest, corners.back());
             }
             if (corners.size() < 3 || has_repetition(corners)) {
@@ -70,9 +67,9 @@ CheckedFile check_obj(std::string_view file)
             lines.fail(fmt::format("more than {} vertices or faces", most_elements));
     }
     if (largest >= int(result.position.size()))
-        throw InputError(fmt::format(
-            "a face names vertex {} (counted from 1), but the file has {}; it is damaged or cut off",
-            largest + 1, result.position.size()));
+        throw InputError(
+            fmt::format("a face names vertex {} (counted from 1), but the file has {}; it is damaged or cut off",
+                        largest + 1, result.position.size()));
     if (skipped > 0)
         result.notes.push_back(
             fmt::format("{} points, lines or free-form pieces were skipped: only faces are read", skipped));

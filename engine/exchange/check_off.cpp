@@ -5,10 +5,8 @@
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/text_lines.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 /// Reads "OFF", also with the letters for texture, colours and normals, which follow the coordinates and are
 /// ignored.
@@ -43,8 +41,8 @@ CheckedFile check_off(std::string_view file)
     // The shortest vertex is "0 0 0", the shortest face "0", each with its line end.
     if (vertices < 0 || faces < 0 || vertices > most_elements || faces > most_elements ||
         6.0 * vertices + 2.0 * faces > double(file.size()))
-        lines.fail(fmt::format("{} vertices and {} faces do not fit into a file of {} bytes", vertices, faces,
-                               file.size()));
+        lines.fail(
+            fmt::format("{} vertices and {} faces do not fit into a file of {} bytes", vertices, faces, file.size()));
 
     result.content = fmt::format("OFF\n{} {} 0\n", vertices, faces);
     for (int v = 0; v < vertices; ++v) {
@@ -59,14 +57,13 @@ CheckedFile check_off(std::string_view file)
             throw InputError(fmt::format("the file is cut off: face {} of {} is missing", f, faces));
         const int corners = lines.integer(0);
         if (corners < 0 || size_t(corners) >= lines.words().size())
-            lines.fail(fmt::format("face {} claims {} corners, the line has {} numbers", f, corners,
-                                   lines.words().size()));
+            lines.fail(
+                fmt::format("face {} claims {} corners, the line has {} numbers", f, corners, lines.words().size()));
         fmt::format_to(std::back_inserter(result.content), "{}", corners);
         for (int k = 1; k <= corners; ++k) {
             const int v = lines.integer(size_t(k));
             if (v < 0 || v >= vertices)
-                lines.fail(fmt::format("face {} names vertex {}, but there are {} (counted from 0)", f, v,
-                                       vertices));
+                lines.fail(fmt::format("face {} names vertex {}, but there are {} (counted from 0)", f, v, vertices));
             fmt::format_to(std::back_inserter(result.content), " {}", v);
         }
         result.content += "\n";

@@ -11,10 +11,8 @@
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/text_lines.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 
@@ -98,8 +96,7 @@ Header read_header(std::string_view file)
                 header.elements.back().properties.push_back(
                     {std::string(words[4]), type_of(lines, words[3]), true, type_of(lines, words[2])});
             } else {
-                header.elements.back().properties.push_back(
-                    {std::string(words[2]), type_of(lines, words[1])});
+                header.elements.back().properties.push_back({std::string(words[2]), type_of(lines, words[1])});
             }
         } else if (words[0] == "end_header") {
             if (!encoding_known)
@@ -114,12 +111,10 @@ Header read_header(std::string_view file)
 }
 
 /// The values behind the header, one after the other.
-class Values
-{
+class Values {
 public:
     explicit Values(const Header& header)
-        : encoding_(header.encoding), body_(header.body),
-          lines_(header.body, encoding_ == Header::text ? '#' : '\0')
+        : encoding_(header.encoding), body_(header.body), lines_(header.body, encoding_ == Header::text ? '#' : '\0')
     {
     }
 
@@ -135,22 +130,14 @@ public:
         if (encoding_ == Header::big)
             std::reverse(raw.begin(), raw.begin() + long(bytes(type)));
         switch (type) {
-        case Type::i8:
-            return as<int8_t>(raw);
-        case Type::u8:
-            return as<uint8_t>(raw);
-        case Type::i16:
-            return as<int16_t>(raw);
-        case Type::u16:
-            return as<uint16_t>(raw);
-        case Type::i32:
-            return as<int32_t>(raw);
-        case Type::u32:
-            return as<uint32_t>(raw);
-        case Type::f32:
-            return as<float>(raw);
-        case Type::f64:
-            return as<double>(raw);
+        case Type::i8: return as<int8_t>(raw);
+        case Type::u8: return as<uint8_t>(raw);
+        case Type::i16: return as<int16_t>(raw);
+        case Type::u16: return as<uint16_t>(raw);
+        case Type::i32: return as<int32_t>(raw);
+        case Type::u32: return as<uint32_t>(raw);
+        case Type::f32: return as<float>(raw);
+        case Type::f64: return as<double>(raw);
         }
         return 0;
     }
@@ -183,9 +170,9 @@ private:
 int whole(double value, double limit, const Element& element, int i)
 {
     if (!(value >= 0 && value < limit && value == std::floor(value)))
-        throw InputError(fmt::format(
-            "{} {} holds the number {}, allowed are whole numbers below {:.0f}; the file is damaged",
-            element.name, i, value, limit));
+        throw InputError(
+            fmt::format("{} {} holds the number {}, allowed are whole numbers below {:.0f}; the file is damaged",
+                        element.name, i, value, limit));
     return int(value);
 }
 
@@ -205,19 +192,19 @@ void require_room(const Header& header)
             least += double(element.count) *
                      (header.encoding == Header::text ? 2 : double(bytes(p.list ? p.length_type : p.type)));
     if (least > double(header.body.size()) + 1)
-        throw InputError(fmt::format(
-            "the header announces at least {:.0f} bytes, but {} follow; the file is cut off or damaged",
-            least, header.body.size()));
+        throw InputError(
+            fmt::format("the header announces at least {:.0f} bytes, but {} follow; the file is cut off or damaged",
+                        least, header.body.size()));
 }
 
 const Element& only(const Header& header, std::string_view name)
 {
     const auto is = [&](const Element& e) { return e.name == name; };
     if (std::count_if(header.elements.begin(), header.elements.end(), is) != 1)
-        throw InputError(fmt::format(
-            "the file must have exactly one element '{}'; save the mesh with vertices and faces (strips "
-            "are not read)",
-            name));
+        throw InputError(
+            fmt::format("the file must have exactly one element '{}'; save the mesh with vertices and faces (strips "
+                        "are not read)",
+                        name));
     return *std::find_if(header.elements.begin(), header.elements.end(), is);
 }
 
@@ -277,14 +264,13 @@ CheckedFile check_ply(std::string_view file)
         if (element.properties.empty() && element.count > 0)
             throw InputError(fmt::format("the element '{}' has no properties", element.name.substr(0, 40)));
 
-    CheckedFile result{.format = header.encoding == Header::text ? "PLY (text)" : "PLY (binary)",
-                       .extension = "ply",
-                       .binary = true};
+    CheckedFile result{
+        .format = header.encoding == Header::text ? "PLY (text)" : "PLY (binary)", .extension = "ply", .binary = true};
     result.faces = face.count;
-    result.content = fmt::format(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-        "property float z\nelement face {}\nproperty list int int vertex_indices\nend_header\n",
-        vertex.count, face.count);
+    result.content =
+        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+                    "property float z\nelement face {}\nproperty list int int vertex_indices\nend_header\n",
+                    vertex.count, face.count);
     Values values(header);
     for (const Element& element : header.elements) {
         for (int i = 0; i < element.count; ++i)
@@ -294,8 +280,8 @@ CheckedFile check_ply(std::string_view file)
                 read_face(values, element, i, vertex.count, result);
             else
                 for (const Property& p : element.properties)
-                    for (int rest = p.list ? whole(values.next(p.length_type), most_elements, element, i) : 1;
-                         rest > 0; --rest)
+                    for (int rest = p.list ? whole(values.next(p.length_type), most_elements, element, i) : 1; rest > 0;
+                         --rest)
                         values.next(p.type);
         if (&element == &face)
             break; // nothing behind the faces is of interest

@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// A mesh file that was gone through before OpenMesh reads it. Its readers (version 9.0) trust what they are
 /// given: they round all coordinates to single precision, skip lines they cannot read (which shifts the

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spia
-{
+namespace spia {
 
 Eigen::Vector3d viridis(double t)
 {
@@ -21,8 +20,7 @@ Eigen::Vector3d viridis(double t)
 
 Eigen::Vector3d linear_rgb(const Eigen::Vector3d& srgb)
 {
-    return srgb.unaryExpr(
-        [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); });
+    return srgb.unaryExpr([](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); });
 }
 
 } // namespace spia

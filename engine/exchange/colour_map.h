@@ -1,8 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace spia
-{
+namespace spia {
 
 /// The colour map of every picture and file: viridis, perceptually uniform and readable with colour blindness
 /// and in grey. Piecewise linear in sRGB through nine anchors. [S. van der Walt and N. Smith, matplotlib
@@ -17,16 +16,10 @@ Eigen::Vector3d linear_rgb(const Eigen::Vector3d& srgb);
 struct ColourRange {
     double least = 0, greatest = 1;
     /// 0..1 within the range; 0.5 everywhere if it is a single value
-    double position(double value) const
-    {
-        return greatest > least ? (value - least) / (greatest - least) : 0.5;
-    }
+    double position(double value) const { return greatest > least ? (value - least) / (greatest - least) : 0.5; }
 };
 
 /// From the least to the greatest value; at least one value
-inline ColourRange colour_range(const Eigen::VectorXd& values)
-{
-    return {values.minCoeff(), values.maxCoeff()};
-}
+inline ColourRange colour_range(const Eigen::VectorXd& values) { return {values.minCoeff(), values.maxCoeff()}; }
 
 } // namespace spia

@@ -5,8 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/sheet_field_list.h"
 
-namespace spia
-{
+namespace spia {
 
 void require_complete(const ExportScene& scene)
 {
@@ -15,28 +14,25 @@ void require_complete(const ExportScene& scene)
     require_blank_of(*scene.part, *scene.blank);
     require_fields(*scene.fields, scene.part->vertices(), "vertex");
     if (const QuadGrid* grid = scene.quad_mesh;
-        grid && (grid->columns < 1 || grid->rows < 1 || grid->position.cols() != grid->nodes() ||
-                 !grid->position.allFinite()))
-        throw InputError(fmt::format(
-            "the quad mesh of {} x {} cells does not have {} finite nodes; fill and lift it again",
-            grid->columns, grid->rows, grid->nodes()));
+        grid &&
+        (grid->columns < 1 || grid->rows < 1 || grid->position.cols() != grid->nodes() || !grid->position.allFinite()))
+        throw InputError(
+            fmt::format("the quad mesh of {} x {} cells does not have {} finite nodes; fill and lift it again",
+                        grid->columns, grid->rows, grid->nodes()));
     if (const TriMesh* surface = scene.surface) {
         if (surface->triangles() == 0 || !surface->position.allFinite() || surface->triangle.minCoeff() < 0 ||
             surface->triangle.maxCoeff() >= surface->vertices())
             throw InputError("the triangles of the surface do not make a mesh; interpolate or fit it again");
         if (scene.surface_normal &&
             (scene.surface_normal->cols() != surface->position.cols() || !scene.surface_normal->allFinite()))
-            throw InputError(
-                fmt::format("{} normals for {} vertices of the surface, or one that is not finite",
-                            scene.surface_normal->cols(), surface->vertices()));
+            throw InputError(fmt::format("{} normals for {} vertices of the surface, or one that is not finite",
+                                         scene.surface_normal->cols(), surface->vertices()));
     }
     if (const NurbsSurface* net = scene.control_net;
-        net &&
-        (net->count_u < 2 || net->count_v < 2 ||
-         net->control.cols() != Eigen::Index(net->count_u) * net->count_v || !net->control.allFinite()))
-        throw InputError(
-            fmt::format("the control net does not have {} x {} finite points; interpolate or fit it again",
-                        net->count_u, net->count_v));
+        net && (net->count_u < 2 || net->count_v < 2 ||
+                net->control.cols() != Eigen::Index(net->count_u) * net->count_v || !net->control.allFinite()))
+        throw InputError(fmt::format("the control net does not have {} x {} finite points; interpolate or fit it again",
+                                     net->count_u, net->count_v));
 }
 
 TriMesh triangles_of(const QuadGrid& grid)

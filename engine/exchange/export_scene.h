@@ -6,8 +6,7 @@
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// What a scene file or a picture shows: the whole chain side by side. Everything is borrowed for the call;
 /// what is null is left out, except that part, blank and fields belong together and are always there.

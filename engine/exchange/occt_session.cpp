@@ -8,13 +8,10 @@
 #include <TCollection_AsciiString.hxx>
 #include <spdlog/spdlog.h>
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
-class LogPrinter : public Message_Printer
-{
+class LogPrinter : public Message_Printer {
 protected:
     void send(const TCollection_AsciiString& text, const Message_Gravity) const override
     {
@@ -42,9 +39,6 @@ void prepare_once()
 
 } // namespace
 
-OcctSession::OcctSession() : lock_(the_lock())
-{
-    prepare_once();
-}
+OcctSession::OcctSession() : lock_(the_lock()) { prepare_once(); }
 
 } // namespace spia

@@ -9,22 +9,19 @@
 
 #include "engine/core/error.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 void require_knots(const std::vector<double>& knots, int degree, int count, char direction)
 {
     const auto refuse = [&](const std::string& what) {
-        throw InputError(fmt::format(
-            "the surface cannot be written: along {} {}; interpolate or fit it again", direction, what));
+        throw InputError(
+            fmt::format("the surface cannot be written: along {} {}; interpolate or fit it again", direction, what));
     };
     if (degree < 1 || degree > Geom_BSplineSurface::MaxDegree())
         refuse(fmt::format("its degree is {}, outside 1 to {}", degree, Geom_BSplineSurface::MaxDegree()));
     if (count < degree + 1 || knots.size() != size_t(count + degree + 1))
-        refuse(fmt::format("{} control points of degree {} do not go with {} knots", count, degree,
-                           knots.size()));
+        refuse(fmt::format("{} control points of degree {} do not go with {} knots", count, degree, knots.size()));
     for (size_t i = 0; i < knots.size(); ++i)
         if (!std::isfinite(knots[i]) || (i > 0 && knots[i] < knots[i - 1]))
             refuse(fmt::format("knot {} is smaller than the one before it or not a number", i));
@@ -75,15 +72,14 @@ void require_exchangeable(const NurbsSurface& surface)
     require_knots(surface.knots_v, surface.degree_v, surface.count_v, 'v');
     const Eigen::Index count = Eigen::Index(surface.count_u) * surface.count_v;
     if (surface.control.cols() != count || surface.weight.size() != count)
-        throw InputError(fmt::format(
-            "the surface cannot be written: {} control points and {} weights for a net of {} x {}; "
-            "interpolate or fit it again",
-            surface.control.cols(), surface.weight.size(), surface.count_u, surface.count_v));
+        throw InputError(
+            fmt::format("the surface cannot be written: {} control points and {} weights for a net of {} x {}; "
+                        "interpolate or fit it again",
+                        surface.control.cols(), surface.weight.size(), surface.count_u, surface.count_v));
     for (int j = 0; j < surface.count_v; ++j)
         for (int i = 0; i < surface.count_u; ++i) {
             const int k = surface.index(i, j);
-            if (!surface.control.col(k).allFinite() || !std::isfinite(surface.weight[k]) ||
-                !(surface.weight[k] > 0))
+            if (!surface.control.col(k).allFinite() || !std::isfinite(surface.weight[k]) || !(surface.weight[k] > 0))
                 throw InputError(
                     fmt::format("the surface cannot be written: control point ({}, {}) is not a finite point "
                                 "of positive weight; interpolate or fit it again",
@@ -102,8 +98,8 @@ Handle(Geom_BSplineSurface) to_occt(const NurbsSurface& surface)
             poles(i + 1, j + 1) = gp_Pnt(point.x(), point.y(), point.z());
             weights(i + 1, j + 1) = surface.weight[surface.index(i, j)];
         }
-    return new Geom_BSplineSurface(poles, weights, u.value, v.value, u.multiplicity, v.multiplicity,
-                                   surface.degree_u, surface.degree_v);
+    return new Geom_BSplineSurface(poles, weights, u.value, v.value, u.multiplicity, v.multiplicity, surface.degree_u,
+                                   surface.degree_v);
 }
 
 NurbsSurface from_occt(const Geom_BSplineSurface& original)
@@ -122,8 +118,7 @@ NurbsSurface from_occt(const Geom_BSplineSurface& original)
     if (opened->UMultiplicity(1) != result.degree_u + 1 || opened->VMultiplicity(1) != result.degree_v + 1 ||
         opened->UMultiplicity(opened->NbUKnots()) != result.degree_u + 1 ||
         opened->VMultiplicity(opened->NbVKnots()) != result.degree_v + 1)
-        throw InputError(
-            "a B-spline surface of the file is not clamped; export it with clamped (open) knot vectors");
+        throw InputError("a B-spline surface of the file is not clamped; export it with clamped (open) knot vectors");
     result.knots_u = knots_from_0_to_1(opened->UKnotSequence());
     result.knots_v = knots_from_0_to_1(opened->VKnotSequence());
     result.control.resize(3, result.count_u * result.count_v);

@@ -3,8 +3,7 @@
 
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// @throws InputError unless counts, knots (clamped, not decreasing, no inner one more than degree times),
 /// weights (> 0)

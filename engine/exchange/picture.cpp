@@ -11,10 +11,8 @@
 #include "engine/exchange/colour_map.h"
 #include "engine/mesh/topology.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using Eigen::Matrix3d, Eigen::Matrix3Xd, Eigen::Vector2d, Eigen::Vector3d;
 
@@ -70,8 +68,7 @@ struct Panel {
         const Matrix3Xd seen = view * points;
         const Vector3d low = seen.rowwise().minCoeff(), high = seen.rowwise().maxCoeff();
         const double width = panel_width - 2 * margin, height = panel_height - head - margin;
-        scale = std::min(width / std::max(high.x() - low.x(), 1e-30),
-                         height / std::max(high.y() - low.y(), 1e-30));
+        scale = std::min(width / std::max(high.x() - low.x(), 1e-30), height / std::max(high.y() - low.y(), 1e-30));
         centre = (low + high) / 2;
         place = {(number + 0.5) * panel_width, head + height / 2, 0};
     }
@@ -138,19 +135,12 @@ void draw_light_edges(const Panel& panel, const TriMesh& mesh, double lift)
 }
 
 /// How many grid lines to go on at a time so that no more than `most` are drawn.
-int stride(int count, int most)
-{
-    return std::max(1, (count + most - 1) / most);
-}
+int stride(int count, int most) { return std::max(1, (count + most - 1) / most); }
 
-std::string strided(int step)
-{
-    return step > 1 ? fmt::format(", every {}. line", step) : "";
-}
+std::string strided(int step) { return step > 1 ? fmt::format(", every {}. line", step) : ""; }
 
 /// The lines of a structured net of count_u by count_v points, every step-th and the last one of each family.
-void draw_net(const Panel& panel, const Matrix3Xd& points, int count_u, int count_v, int step,
-              const Canvas::Pen& pen)
+void draw_net(const Panel& panel, const Matrix3Xd& points, int count_u, int count_v, int step, const Canvas::Pen& pen)
 {
     const Matrix3Xd p = panel.on_canvas(points);
     const auto drawn = [&](int i, int count) { return i % step == 0 || i == count - 1; };
@@ -177,8 +167,7 @@ std::vector<double> round_values(const ColourRange& range)
 }
 
 /// A thin dark line where the value, linear over the triangle on the canvas, is one of the levels.
-class Contour
-{
+class Contour {
 public:
     Contour(const Matrix3d& corner, const Vector3d& value, const std::vector<double>& levels)
         : value_(value), levels_(levels)
@@ -186,11 +175,7 @@ public:
         Eigen::Matrix2d edge;
         edge << (corner.col(1) - corner.col(0)).head<2>(), (corner.col(2) - corner.col(0)).head<2>();
         if (edge.determinant() != 0)
-            slope_ = edge.transpose()
-                         .inverse()
-                         .
-                         operator*(Vector2d(value[1] - value[0], value[2] - value[0]))
-                         .norm();
+            slope_ = edge.transpose().inverse().operator*(Vector2d(value[1] - value[0], value[2] - value[0])).norm();
     }
     double darkness(const Vector3d& share) const
     {
@@ -217,14 +202,12 @@ ColourRange central_range(const Eigen::VectorXd& values)
     return {sorted[cut], sorted[sorted.size() - 1 - cut]};
 }
 
-class Picture
-{
+class Picture {
 public:
     explicit Picture(const ExportScene& scene)
         : scene_(scene), range_(central_range(scene.fields->thinning)), levels_(round_values(range_)),
           view_(view_of(*scene.part, false)), lift_(0.004 * bounding_diagonal(*scene.part)),
-          canvas_((2 + (scene.quad_mesh ? 1 : 0) + (scene.surface || scene.control_net ? 1 : 0)) *
-                      panel_width,
+          canvas_((2 + (scene.quad_mesh ? 1 : 0) + (scene.surface || scene.control_net ? 1 : 0)) * panel_width,
                   panel_height + legend_height)
     {
     }
@@ -259,8 +242,8 @@ private:
         draw_light_edges(panel, part, lift_on(panel));
         draw_boundary(panel, part, lift_on(panel));
         const Vector3d size = part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff();
-        panel.title("part", fmt::format("{} triangles, {:.4g} x {:.4g} x {:.4g} mm", part.triangles(),
-                                        size.x(), size.y(), size.z()));
+        panel.title("part", fmt::format("{} triangles, {:.4g} x {:.4g} x {:.4g} mm", part.triangles(), size.x(),
+                                        size.y(), size.z()));
     }
 
     void draw_blank()
@@ -280,8 +263,7 @@ private:
         }
         draw_boundary(panel, flat, lift_on(panel));
         const Vector3d size = flat.position.rowwise().maxCoeff() - flat.position.rowwise().minCoeff();
-        panel.title("flat blank",
-                    fmt::format("{:.4g} x {:.4g} mm, contours of thinning", size.x(), size.y()));
+        panel.title("flat blank", fmt::format("{:.4g} x {:.4g} mm, contours of thinning", size.x(), size.y()));
     }
 
     void draw_quad_mesh(const QuadGrid& grid)
@@ -292,8 +274,7 @@ private:
         const int step = stride(std::max(grid.columns, grid.rows), 60);
         draw_net(panel, grid.position, grid.columns + 1, grid.rows + 1, step,
                  {.colour = {0.1, 0.25, 0.45}, .width = 1, .opacity = 0.85, .lift = lift_on(panel)});
-        panel.title("quad mesh",
-                    fmt::format("{} x {} cells on the part{}", grid.columns, grid.rows, strided(step)));
+        panel.title("quad mesh", fmt::format("{} x {} cells on the part{}", grid.columns, grid.rows, strided(step)));
     }
 
     void draw_surface()
@@ -318,16 +299,15 @@ private:
                 for (const auto dot : dots.colwise())
                     canvas_.line(dot, dot, {.colour = net_colour, .width = 3.2, .lift = 2 * lift_on(panel)});
             }
-            sizes = fmt::format("{} x {} control points, degree {} x {}{}", net->count_u, net->count_v,
-                                net->degree_u, net->degree_v, strided(step));
+            sizes = fmt::format("{} x {} control points, degree {} x {}{}", net->count_u, net->count_v, net->degree_u,
+                                net->degree_v, strided(step));
         }
         panel.title("NURBS surface", sizes);
     }
 
     void draw_legend()
     {
-        const double left = panel_width - 300, right = panel_width + 300, top = panel_height + 34,
-                     bottom = top + 16;
+        const double left = panel_width - 300, right = panel_width + 300, top = panel_height + 34, bottom = top + 16;
         for (double x = left; x < right; x += 0.5)
             canvas_.rectangle(x, top, x + 0.5, bottom, viridis((x - left) / (right - left)));
         const ColourRange all = colour_range(scene_.fields->thinning);
@@ -340,8 +320,7 @@ private:
         const int digits = std::clamp(int(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
         const auto percent = [](double value, int places) {
             const std::string text = fmt::format("{:.{}f}", 100 * value, places);
-            return text.find_first_of("123456789") == std::string::npos && text[0] == '-' ? text.substr(1)
-                                                                                          : text;
+            return text.find_first_of("123456789") == std::string::npos && text[0] == '-' ? text.substr(1) : text;
         };
         for (const double level : levels_) {
             const double x = left + range_.position(level) * (right - left);
@@ -350,8 +329,8 @@ private:
         }
         canvas_.text(fmt::format("least {} %", percent(all.least, digits + 1)), left, top - 8, 10, pale_ink);
         canvas_.text("thinning in %", panel_width, top - 8, 11.5, ink, Canvas::Align::centre);
-        canvas_.text(fmt::format("greatest {} %", percent(all.greatest, digits + 1)), right, top - 8, 10,
-                     pale_ink, Canvas::Align::right);
+        canvas_.text(fmt::format("greatest {} %", percent(all.greatest, digits + 1)), right, top - 8, 10, pale_ink,
+                     Canvas::Align::right);
     }
 
     /// The sign that there are values beyond the end of the legend: a triangle of that end's colour.

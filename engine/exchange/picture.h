@@ -3,8 +3,7 @@
 
 #include "engine/exchange/export_scene.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Draws the chain as a PNG: the part in the colours of thinning, the flat blank with contours of thinning,
 /// the quad mesh on the part, the NURBS surface with its control net - each in a titled panel, as far as the

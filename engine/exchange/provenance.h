@@ -1,8 +1,7 @@
 #pragma once
 #include <string>
 
-namespace spia
-{
+namespace spia {
 
 /// Name and version of this program as written into files, e.g. "SPIA 0.1.0".
 std::string program_name();

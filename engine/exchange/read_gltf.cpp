@@ -21,10 +21,8 @@
 #include "engine/core/error.h"
 #include "engine/exchange/checked_file.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -96,8 +94,8 @@ void require_plain_geometry(const json& scene)
                               name.rfind("KHR_texture", 0) == 0 || name.rfind("KHR_lights", 0) == 0 ||
                               name.rfind("EXT_texture", 0) == 0;
         if (!harmless)
-            throw InputError(fmt::format("the file needs the extension '{}', which is not known here",
-                                         name.substr(0, 60)));
+            throw InputError(
+                fmt::format("the file needs the extension '{}', which is not known here", name.substr(0, 60)));
     }
 }
 
@@ -106,8 +104,8 @@ void keep_geometry(json& value)
 {
     if (value.is_object()) {
         if (const auto extensions = value.find("extensions"); extensions != value.end()) {
-            if (extensions->is_object() && (extensions->contains("KHR_draco_mesh_compression") ||
-                                            extensions->contains("EXT_meshopt_compression")))
+            if (extensions->is_object() &&
+                (extensions->contains("KHR_draco_mesh_compression") || extensions->contains("EXT_meshopt_compression")))
                 throw InputError("the mesh is compressed; save it without compression");
             value.erase(extensions);
         }
@@ -127,16 +125,14 @@ json geometry_of(const Parts& parts)
         throw InputError("the glTF file is cut off or damaged: its JSON does not end well");
     require_plain_geometry(scene);
     json kept = json::object();
-    for (const char* key :
-         {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"})
+    for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"})
         if (scene.contains(key))
             kept[key] = std::move(scene[key]);
     keep_geometry(kept);
     if (kept.contains("buffers")) {
         const auto& buffers = kept["buffers"];
-        const auto in_chunk = std::count_if(buffers.begin(), buffers.end(), [](const json& b) {
-            return b.is_object() && !b.contains("uri");
-        });
+        const auto in_chunk = std::count_if(buffers.begin(), buffers.end(),
+                                            [](const json& b) { return b.is_object() && !b.contains("uri"); });
         if (in_chunk > 1 || buffers.size() > 100)
             throw InputError("the glTF file has too many buffers; it is damaged");
     }
@@ -154,8 +150,7 @@ struct Folder {
 std::optional<fs::path> inside(const Folder& folder, const std::string& name)
 {
     std::error_code problem;
-    const fs::path file = fs::weakly_canonical(name, problem),
-                   root = fs::weakly_canonical(folder.path, problem);
+    const fs::path file = fs::weakly_canonical(name, problem), root = fs::weakly_canonical(folder.path, problem);
     const fs::path relative = file.lexically_relative(root);
     if (problem || relative.empty() || *relative.begin() == ".." || !fs::is_regular_file(file, problem))
         return std::nullopt;
@@ -167,13 +162,9 @@ bool file_exists(const std::string& name, void* folder)
     return inside(*static_cast<Folder*>(folder), name).has_value();
 }
 
-std::string same_name(const std::string& name, void*)
-{
-    return name;
-}
+std::string same_name(const std::string& name, void*) { return name; }
 
-bool read_whole_file(std::vector<unsigned char>* content, std::string* problem, const std::string& name,
-                     void* user)
+bool read_whole_file(std::vector<unsigned char>* content, std::string* problem, const std::string& name, void* user)
 {
     Folder& folder = *static_cast<Folder*>(user);
     const auto path = inside(folder, name);
@@ -189,10 +180,7 @@ bool read_whole_file(std::vector<unsigned char>* content, std::string* problem, 
     return bool(stream.read(reinterpret_cast<char*>(content->data()), std::streamsize(size)));
 }
 
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*)
-{
-    return false;
-}
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
 std::string pack(const json& scene, std::string_view binary)
 {
@@ -200,9 +188,7 @@ std::string pack(const json& scene, std::string_view binary)
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const size_t padded = (binary.size() + 3) / 4 * 4;
     std::string file = "glTF";
-    const auto append = [&](uint32_t value) {
-        file.append(reinterpret_cast<const char*>(&value), sizeof value);
-    };
+    const auto append = [&](uint32_t value) { file.append(reinterpret_cast<const char*>(&value), sizeof value); };
     append(2);
     append(uint32_t(12 + 8 + text.size() + (padded > 0 ? 8 + padded : 0)));
     append(uint32_t(text.size()));
@@ -229,9 +215,9 @@ tinygltf::Model run_tinygltf(const fs::path& path, const Parts& parts)
     std::string error, warning;
     bool good = false;
     try {
-        good = reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                           reinterpret_cast<const unsigned char*>(packed.data()),
-                                           unsigned(packed.size()), folder.path.string());
+        good =
+            reader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(packed.data()),
+                                        unsigned(packed.size()), folder.path.string());
     } catch (const std::exception& other) { // tinygltf lets standard exceptions out, e.g. for an empty buffer
         error = other.what();
     }
@@ -251,34 +237,31 @@ template <class T> const T& at(const std::vector<T>& list, int i, const char* wh
 }
 
 /// The bytes of an accessor, checked to lie inside their buffer.
-class Elements
-{
+class Elements {
 public:
     Elements(const tinygltf::Model& model, int index) : accessor_(at(model.accessors, index, "accessor"))
     {
         if (accessor_.sparse.isSparse)
-            throw InputError(fmt::format(
-                "accessor {} is sparse, which is not read; save the mesh with plain accessors", index));
+            throw InputError(
+                fmt::format("accessor {} is sparse, which is not read; save the mesh with plain accessors", index));
         const auto& view = at(model.bufferViews, accessor_.bufferView, "buffer view");
         const auto& buffer = at(model.buffers, view.buffer, "buffer");
-        component_bytes_ =
-            size_t(std::max(0, tinygltf::GetComponentSizeInBytes(uint32_t(accessor_.componentType))));
+        component_bytes_ = size_t(std::max(0, tinygltf::GetComponentSizeInBytes(uint32_t(accessor_.componentType))));
         const size_t element =
-            component_bytes_ *
-            size_t(std::max(0, tinygltf::GetNumComponentsInType(uint32_t(accessor_.type))));
+            component_bytes_ * size_t(std::max(0, tinygltf::GetNumComponentsInType(uint32_t(accessor_.type))));
         stride_ = view.byteStride > 0 ? view.byteStride : element;
         const size_t size = buffer.data.size();
         // Each step is a division or subtraction of what is already known to fit: nothing can overflow.
-        const bool fits =
-            element > 0 && accessor_.count > 0 && accessor_.count <= size_t(most_elements) &&
-            view.byteOffset <= size && view.byteLength <= size - view.byteOffset &&
-            accessor_.byteOffset <= view.byteLength && element <= view.byteLength - accessor_.byteOffset &&
-            (accessor_.count - 1) <= (view.byteLength - accessor_.byteOffset - element) / stride_;
+        const bool fits = element > 0 && accessor_.count > 0 && accessor_.count <= size_t(most_elements) &&
+                          view.byteOffset <= size && view.byteLength <= size - view.byteOffset &&
+                          accessor_.byteOffset <= view.byteLength &&
+                          element <= view.byteLength - accessor_.byteOffset &&
+                          (accessor_.count - 1) <= (view.byteLength - accessor_.byteOffset - element) / stride_;
         if (!fits)
-            throw InputError(fmt::format(
-                "accessor {} ({} elements) is empty or does not fit into its buffer of {} bytes; the file "
-                "is cut off or damaged",
-                index, accessor_.count, size));
+            throw InputError(
+                fmt::format("accessor {} ({} elements) is empty or does not fit into its buffer of {} bytes; the file "
+                            "is cut off or damaged",
+                            index, accessor_.count, size));
         bytes_ = buffer.data.data() + view.byteOffset + accessor_.byteOffset;
     }
 
@@ -295,24 +278,15 @@ public:
     {
         const unsigned char* from = bytes_ + size_t(i) * stride_ + size_t(component) * component_bytes_;
         switch (accessor_.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return scaled<int8_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return scaled<uint8_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return scaled<int16_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return scaled<uint16_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_INT:
-            return load<int32_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return load<uint32_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return double(load<float>(from));
-        case TINYGLTF_COMPONENT_TYPE_DOUBLE:
-            return load<double>(from);
-        default:
-            return std::numeric_limits<double>::quiet_NaN();
+        case TINYGLTF_COMPONENT_TYPE_BYTE: return scaled<int8_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return scaled<uint8_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_SHORT: return scaled<int16_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return scaled<uint16_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_INT: return load<int32_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return load<uint32_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_FLOAT: return double(load<float>(from));
+        case TINYGLTF_COMPONENT_TYPE_DOUBLE: return load<double>(from);
+        default: return std::numeric_limits<double>::quiet_NaN();
         }
     }
 
@@ -344,16 +318,14 @@ Eigen::Affine3d transform_of(const tinygltf::Node& node)
     if (node.translation.size() == 3)
         result.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
     if (node.rotation.size() == 4)
-        result.rotate(
-            Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(node.rotation.data())).normalized());
+        result.rotate(Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(node.rotation.data())).normalized());
     if (node.scale.size() == 3)
         result.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()));
     return result;
 }
 
 /// Collects the scene's triangles.
-class Collector
-{
+class Collector {
 public:
     Collector(const tinygltf::Model& model, const Progress& progress)
         : model_(model), progress_(progress), visited_(model.nodes.size(), 0)
@@ -402,8 +374,7 @@ private:
             open.pop_back();
             const auto& node = at(model_.nodes, n, "node");
             if (visited_[size_t(n)]++)
-                throw InputError(
-                    fmt::format("node {} hangs in two places of the scene; the glTF file is damaged", n));
+                throw InputError(fmt::format("node {} hangs in two places of the scene; the glTF file is damaged", n));
             const Eigen::Affine3d here = parent * transform_of(node);
             if (node.mesh >= 0)
                 add_mesh(node.mesh, here);
@@ -426,13 +397,11 @@ private:
             const auto position = primitive.attributes.find("POSITION");
             if (position == primitive.attributes.end())
                 throw InputError(fmt::format("mesh {} has a primitive without positions", m));
-            if (const auto [entry, is_new] =
-                    first_vertex.try_emplace(position->second, content_.soup.vertices());
+            if (const auto [entry, is_new] = first_vertex.try_emplace(position->second, content_.soup.vertices());
                 is_new)
                 add_vertices(position->second, transform);
             const int vertices = Elements(model_, position->second).count();
-            add_triangles(primitive, first_vertex.at(position->second), vertices,
-                          transform.linear().determinant() < 0);
+            add_triangles(primitive, first_vertex.at(position->second), vertices, transform.linear().determinant() < 0);
         }
     }
 
@@ -444,9 +413,8 @@ private:
         if (positions.count() > most_elements - content_.soup.vertices())
             throw InputError(fmt::format("the scene has more than {} vertices", most_elements));
         for (int i = 0; i < positions.count(); ++i)
-            content_.soup.position.push_back(transform * Eigen::Vector3d(positions.value(i, 0),
-                                                                         positions.value(i, 1),
-                                                                         positions.value(i, 2)));
+            content_.soup.position.push_back(
+                transform * Eigen::Vector3d(positions.value(i, 0), positions.value(i, 1), positions.value(i, 2)));
     }
 
     void add_triangles(const tinygltf::Primitive& primitive, int first, int vertices, bool mirrored)
@@ -458,8 +426,7 @@ private:
         } else {
             const Elements numbers(model_, primitive.indices);
             if (numbers.type() != TINYGLTF_TYPE_SCALAR || !numbers.whole_numbers())
-                throw InputError(
-                    fmt::format("accessor {} holds indices that are no whole numbers", primitive.indices));
+                throw InputError(fmt::format("accessor {} holds indices that are no whole numbers", primitive.indices));
             for (int i = 0; i < numbers.count(); ++i) {
                 const double v = numbers.value(i, 0);
                 if (!(v < vertices))
@@ -468,8 +435,7 @@ private:
                 index.push_back(int(v));
             }
         }
-        const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES,
-                   fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+        const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES, fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
         const int n = int(index.size());
         if (list && n % 3 != 0)
             throw InputError(fmt::format("a triangle list has {} corners, which are not three each", n));

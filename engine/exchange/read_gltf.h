@@ -7,8 +7,7 @@
 #include "engine/core/progress.h"
 #include "engine/mesh/soup.h"
 
-namespace spia
-{
+namespace spia {
 
 struct GltfContent {
     PolygonSoup soup;               ///< in file units; vertices node by node, primitive by primitive
@@ -21,7 +20,6 @@ struct GltfContent {
 /// @param path  for .gltf: its folder is where buffers in files of their own are looked for, and nowhere else
 /// @param file  the content of the file, text or binary
 /// @throws InputError for damage, compression and required extensions that change the geometry
-GltfContent read_gltf(const std::filesystem::path& path, std::string_view file,
-                      const Progress& progress = {});
+GltfContent read_gltf(const std::filesystem::path& path, std::string_view file, const Progress& progress = {});
 
 } // namespace spia

@@ -13,16 +13,13 @@
 
 #include "engine/core/error.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using namespace OpenMesh;
 
 /// Takes vertices and faces as they come. A half-edge mesh would lose faces here that the doctor has to see.
-class SoupImporter : public IO::BaseImporter
-{
+class SoupImporter : public IO::BaseImporter {
 public:
     PolygonSoup soup;
 
@@ -37,10 +34,7 @@ public:
         return VertexHandle(soup.vertices() - 1);
     }
     VertexHandle add_vertex() override { return add_vertex(Vec3d(0, 0, 0)); }
-    void set_point(VertexHandle v, const Vec3f& p) override
-    {
-        soup.position.at(size_t(v.idx())) = {p[0], p[1], p[2]};
-    }
+    void set_point(VertexHandle v, const Vec3f& p) override { soup.position.at(size_t(v.idx())) = {p[0], p[1], p[2]}; }
     FaceHandle add_face(const VHandles& corners) override
     {
         for (const VertexHandle v : corners)
@@ -107,14 +101,13 @@ void restore_precision(const CheckedFile& file, PolygonSoup& soup)
     if (file.position.empty())
         return;
     if (file.position.size() != soup.position.size())
-        throw InputError(
-            fmt::format("OpenMesh reads {} of {} vertices", soup.vertices(), file.position.size()));
+        throw InputError(fmt::format("OpenMesh reads {} of {} vertices", soup.vertices(), file.position.size()));
     constexpr double rounding = 1e-6, dust = 1e-37; // single precision, and where it ends
     for (size_t v = 0; v < soup.position.size(); ++v) {
         const Eigen::Vector3d &exact = file.position[v], &read = soup.position[v];
         if (((exact - read).cwiseAbs().array() > rounding * exact.cwiseAbs().array() + dust).any())
-            throw InputError(fmt::format("OpenMesh reads vertex {} as {}, {}, {} instead of {}, {}, {}", v,
-                                         read.x(), read.y(), read.z(), exact.x(), exact.y(), exact.z()));
+            throw InputError(fmt::format("OpenMesh reads vertex {} as {}, {}, {} instead of {}, {}, {}", v, read.x(),
+                                         read.y(), read.z(), exact.x(), exact.y(), exact.z()));
     }
     soup.position = file.position;
 }
@@ -122,8 +115,8 @@ void restore_precision(const CheckedFile& file, PolygonSoup& soup)
 PolygonSoup with_faces_set_aside(const CheckedFile& file, PolygonSoup&& read)
 {
     if (read.polygons() + int(file.aside.size()) != file.faces)
-        throw InputError(fmt::format("OpenMesh reads {} of {} faces", read.polygons(),
-                                     file.faces - int(file.aside.size())));
+        throw InputError(
+            fmt::format("OpenMesh reads {} of {} faces", read.polygons(), file.faces - int(file.aside.size())));
     if (file.aside.empty())
         return std::move(read);
     PolygonSoup result;

@@ -2,8 +2,7 @@
 #include "engine/exchange/checked_file.h"
 #include "engine/mesh/soup.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Lets OpenMesh read a checked file, and takes the coordinates in full precision where the format has it.
 /// One file at a time: OpenMesh's readers keep the state of the file in the reader.

@@ -12,10 +12,8 @@
 #include "engine/exchange/read_openmesh.h"
 #include "engine/mesh/topology.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -28,9 +26,9 @@ std::string extension_of(const fs::path& path)
     for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
         if (extension == known)
             return extension.substr(1);
-    throw InputError(fmt::format(
-        "the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files",
-        extension));
+    throw InputError(
+        fmt::format("the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files",
+                    extension));
 }
 
 std::string content_of(const fs::path& path)
@@ -68,8 +66,7 @@ CheckedFile check(const std::string& extension, std::string_view content)
 }
 
 /// Fills format and notes of the part.
-PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile& part,
-                    const Progress& progress)
+PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile& part, const Progress& progress)
 {
     const std::string content = content_of(path);
     progress.checkpoint(0.2, "reading the file");
@@ -95,9 +92,9 @@ void note_size(PartFile& part, bool unit_given)
     constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's plate
     const double diagonal = bounding_diagonal(part.mesh);
     if (!unit_given && (diagonal < small || diagonal > large))
-        part.notes.push_back(fmt::format(
-            "the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
-            diagonal, name(part.unit)));
+        part.notes.push_back(
+            fmt::format("the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
+                        diagonal, name(part.unit)));
 }
 
 PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
@@ -145,15 +142,9 @@ constexpr std::array<UnitName, 4> units = {{{LengthUnit::mm, "mm", 1},
 
 } // namespace
 
-double millimetres(LengthUnit unit)
-{
-    return units[size_t(unit)].millimetres;
-}
+double millimetres(LengthUnit unit) { return units[size_t(unit)].millimetres; }
 
-std::string_view name(LengthUnit unit)
-{
-    return units[size_t(unit)].name;
-}
+std::string_view name(LengthUnit unit) { return units[size_t(unit)].name; }
 
 LengthUnit length_unit(std::string_view name)
 {

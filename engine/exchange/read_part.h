@@ -9,8 +9,7 @@
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 enum class LengthUnit { mm, cm, m, inch };
 
@@ -20,19 +19,17 @@ LengthUnit length_unit(std::string_view name); ///< @throws InputError unless mm
 
 struct ReadOptions {
     std::optional<LengthUnit> unit = {}; ///< of the file; not given: m for glTF (its specification), else mm
-    std::optional<bool> weld =
-        {};                    ///< join vertices at one place; not given: for STL and glTF, which repeat them
-    DoctorOptions doctor = {}; ///< its `weld` is ignored
+    std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
+    DoctorOptions doctor = {};           ///< its `weld` is ignored
 };
 
 /// What a file holds, and what was done to it.
 struct PartFile {
-    TriMesh mesh;        ///< mm; vertices and faces in the order of the file
-    DoctorReport doctor; ///< faults and repairs; it names vertices and faces as in the file, counted from 0
-    std::vector<int>
-        source_vertex; ///< per vertex of mesh its number in the file; never decreases (see Examination)
-    std::vector<int> source_face; ///< per triangle of mesh its face in the file; never decreases
-    int file_vertices = 0;        ///< STL: different points, in the order of their first corner
+    TriMesh mesh;                   ///< mm; vertices and faces in the order of the file
+    DoctorReport doctor;            ///< faults and repairs; it names vertices and faces as in the file, counted from 0
+    std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases (see Examination)
+    std::vector<int> source_face;   ///< per triangle of mesh its face in the file; never decreases
+    int file_vertices = 0;          ///< STL: different points, in the order of their first corner
     int file_faces = 0;
     std::string format; ///< e.g. "STL (binary)"
     LengthUnit unit = LengthUnit::mm;
@@ -42,8 +39,7 @@ struct PartFile {
 /// Reads an STL, OBJ, PLY, OFF, glTF or GLB file as a sheet part: one piece with a boundary and no handles.
 /// Coordinates keep their full precision (STL and glTF hold single precision).
 /// @throws InputError  the file cannot be read, or the doctor found a fault that cannot be repaired
-PartFile read_part(const std::filesystem::path& path, const ReadOptions& options = {},
-                   const Progress& progress = {});
+PartFile read_part(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
 
 /// The same, but a sick part is no error: its report says why read_part() refuses it.
 /// @throws InputError  the file cannot be read

@@ -18,10 +18,8 @@
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/occt_surface.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why)
 {
@@ -53,8 +51,7 @@ void require_iges_end(const std::filesystem::path& path)
     int s, g, d, p;
     if (std::sscanf(terminate.c_str(), "S%7dG%7dD%7dP%7d", &s, &g, &d, &p) != 4)
         refuse(path, "it is no IGES file or was cut short (the terminate section is missing)");
-    if (s != lines_of[int('S')] || g != lines_of[int('G')] || d != lines_of[int('D')] ||
-        p != lines_of[int('P')])
+    if (s != lines_of[int('S')] || g != lines_of[int('G')] || d != lines_of[int('D')] || p != lines_of[int('P')])
         refuse(path, "lines are missing (the terminate section counts others than there are)");
 }
 
@@ -65,9 +62,9 @@ NurbsSurface surface_under(const TopoDS_Face& face, int number)
         surface = trimmed->BasisSurface();
     const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
     if (spline.IsNull())
-        throw InputError(fmt::format(
-            "face {} of the file is a {}, not a B-spline surface; import the file as a part instead", number,
-            surface->DynamicType()->Name()));
+        throw InputError(
+            fmt::format("face {} of the file is a {}, not a B-spline surface; import the file as a part instead",
+                        number, surface->DynamicType()->Name()));
     return from_occt(*spline);
 }
 

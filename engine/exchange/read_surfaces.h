@@ -4,8 +4,7 @@
 
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// The B-spline surfaces under the faces of a file, in the file's order, in mm, as OpenCASCADE understands
 /// it. Trimming curves are not looked at; knots are mapped to 0..1 where they are not.

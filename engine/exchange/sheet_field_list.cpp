@@ -5,8 +5,7 @@
 
 #include "engine/core/error.h"
 
-namespace spia
-{
+namespace spia {
 
 std::vector<NamedField> forming_fields(const SheetFields& fields)
 {
@@ -34,8 +33,7 @@ void require_blank_of(const TriMesh& part, const Blank& blank)
                         blank.position.cols(), part.position.cols()));
     for (int v = 0; v < part.vertices(); ++v)
         if (!part.position.col(v).allFinite() || !blank.position.col(v).allFinite())
-            throw InputError(
-                fmt::format("vertex {} has a coordinate that is not a number; flatten the part again", v));
+            throw InputError(fmt::format("vertex {} has a coordinate that is not a number; flatten the part again", v));
     if (part.triangle.minCoeff() < 0 || part.triangle.maxCoeff() >= part.vertices())
         throw InputError("a face of the part names a vertex that is not there; read the part again");
 }
@@ -43,12 +41,11 @@ void require_blank_of(const TriMesh& part, const Blank& blank)
 void require_finite(const NamedField& field, int count, const char* per)
 {
     if (field.value->size() != count)
-        throw InputError(fmt::format("field {} has {} values for {} ({} each); flatten the part again",
-                                     field.name, field.value->size(), count, per));
+        throw InputError(fmt::format("field {} has {} values for {} ({} each); flatten the part again", field.name,
+                                     field.value->size(), count, per));
     for (int i = 0; i < count; ++i)
         if (!std::isfinite((*field.value)[i]))
-            throw InputError(
-                fmt::format("{} of {} {} is not a number; flatten the part again", field.name, per, i));
+            throw InputError(fmt::format("{} of {} {} is not a number; flatten the part again", field.name, per, i));
 }
 
 void require_fields(const SheetFields& fields, int count, const char* per)
@@ -57,12 +54,10 @@ void require_fields(const SheetFields& fields, int count, const char* per)
         require_finite(field, count, per);
     for (const NamedField& field : stress_fields(fields))
         require_finite(field, count, per);
-    if (fields.direction_major.cols() != count || fields.necking.size() != count ||
-        !fields.direction_major.allFinite())
-        throw InputError(
-            fmt::format("direction_major or necking does not have {} finite values (one per {}); "
-                        "flatten the part again",
-                        count, per));
+    if (fields.direction_major.cols() != count || fields.necking.size() != count || !fields.direction_major.allFinite())
+        throw InputError(fmt::format("direction_major or necking does not have {} finite values (one per {}); "
+                                     "flatten the part again",
+                                     count, per));
 }
 
 } // namespace spia

@@ -6,8 +6,7 @@
 #include "engine/forming/blank.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 /// A scalar by the name it has in files, e.g. "thinning". Borrows the values.
 struct NamedField {

@@ -6,8 +6,7 @@
 
 /// A small font of straight strokes, so that pictures need no font file. It has the digits, a to z, and of
 /// the rest what our pictures say.
-namespace spia::stroke_font
-{
+namespace spia::stroke_font {
 
 constexpr double capital_height = 6; ///< in units of the grid on which the letters are drawn
 

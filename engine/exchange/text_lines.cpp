@@ -7,10 +7,8 @@
 
 #include "engine/core/error.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 constexpr std::string_view blank = " \t\r\v\f";
 
@@ -69,8 +67,8 @@ double TextLines::number_or_nan(size_t i) const
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end == word.data() + word.size() && problem == std::errc())
         return value;
-    const bool underflow = problem == std::errc::result_out_of_range &&
-                           word.find_first_of("eE") != word.npos && word[word.find_first_of("eE") + 1] == '-';
+    const bool underflow = problem == std::errc::result_out_of_range && word.find_first_of("eE") != word.npos &&
+                           word[word.find_first_of("eE") + 1] == '-';
     return underflow ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -86,9 +84,6 @@ int TextLines::integer(size_t i) const
     return value;
 }
 
-void TextLines::fail(std::string_view what) const
-{
-    throw InputError(fmt::format("line {}: {}", line_, what));
-}
+void TextLines::fail(std::string_view what) const { throw InputError(fmt::format("line {}: {}", line_, what)); }
 
 } // namespace spia

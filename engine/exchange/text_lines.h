@@ -2,12 +2,10 @@
 #include <string_view>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// The lines of a text, cut into words; says where it is when something is wrong.
-class TextLines
-{
+class TextLines {
 public:
     /// @param comment  the rest of a line from this character on is ignored; 0: there are no comments
     /// @param joined   a backslash at the end joins a line with the next

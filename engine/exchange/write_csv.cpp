@@ -6,8 +6,7 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/sheet_field_list.h"
 
-namespace spia
-{
+namespace spia {
 
 void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                       const SheetFields& node_fields)
@@ -22,8 +21,8 @@ void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, co
     content += '\n';
     auto end = std::back_inserter(content);
     for (int v = 0; v < part.vertices(); ++v) {
-        fmt::format_to(end, "{},{},{},{},{},{}", v, part.position(0, v), part.position(1, v),
-                       part.position(2, v), blank.position(0, v), blank.position(1, v));
+        fmt::format_to(end, "{},{},{},{},{},{}", v, part.position(0, v), part.position(1, v), part.position(2, v),
+                       blank.position(0, v), blank.position(1, v));
         for (const NamedField& field : fields)
             fmt::format_to(end, ",{}", (*field.value)[v]);
         content += '\n';
@@ -37,8 +36,7 @@ void write_outline_csv(const std::filesystem::path& path, const std::vector<Outl
     std::string content = "loop,index,x,y\n";
     for (size_t loop = 0; loop < loops.size(); ++loop)
         for (Eigen::Index i = 0; i < loops[loop].cols(); ++i)
-            fmt::format_to(std::back_inserter(content), "{},{},{},{}\n", loop, i, loops[loop](0, i),
-                           loops[loop](1, i));
+            fmt::format_to(std::back_inserter(content), "{},{},{},{}\n", loop, i, loops[loop](0, i), loops[loop](1, i));
     write_atomically(path, content);
 }
 

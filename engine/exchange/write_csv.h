@@ -3,8 +3,7 @@
 
 #include "engine/exchange/blank_outline.h"
 
-namespace spia
-{
+namespace spia {
 
 /// vertex,x,y,z,blank_x,blank_y,thickness,thinning,strain_major,strain_minor,strain_equivalent - one row per
 /// vertex in the order of the input. Each number has the fewest digits that read back as the same double.

@@ -5,15 +5,12 @@
 
 #include "engine/exchange/atomic_file.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 /// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those
 /// of the fixed objects are below 0x100.
-class DxfText
-{
+class DxfText {
 public:
     DxfText& operator()(int code, const char* value) { return line(code, value); }
     DxfText& operator()(int code, int value) { return line(code, value); }
@@ -28,11 +25,9 @@ public:
     {
         (*this)(0, "TABLE")(2, name).handle(5, table).handle(330, 0)(100, "AcDbSymbolTable")(70, entries);
     }
-    DxfText& entry(const char* type, const char* subclass, int own, int table, const char* name,
-                   int flags = 0)
+    DxfText& entry(const char* type, const char* subclass, int own, int table, const char* name, int flags = 0)
     {
-        (*this)(0, type).handle(5, own).handle(330, table)(100, "AcDbSymbolTableRecord")(100, subclass)(2,
-                                                                                                        name);
+        (*this)(0, type).handle(5, own).handle(330, table)(100, "AcDbSymbolTableRecord")(100, subclass)(2, name);
         return (*this)(70, flags);
     }
     void end_table() { (*this)(0, "ENDTAB"); }
@@ -116,8 +111,7 @@ void write_tables(DxfText& dxf, const Extent& extent)
         .point(12, centre)(40, 1.1 * std::max(size.y(), size.x() / 1.5))(41, 1.5);
     dxf.end_table();
     dxf.begin_table("LTYPE", ltypes, 3);
-    for (const auto& [own, name] :
-         {std::pair{by_block, "ByBlock"}, {by_layer, "ByLayer"}, {continuous, "Continuous"}})
+    for (const auto& [own, name] : {std::pair{by_block, "ByBlock"}, {by_layer, "ByLayer"}, {continuous, "Continuous"}})
         dxf.entry("LTYPE", "AcDbLinetypeTableRecord", own, ltypes, name)(3, "")(72, 65)(73, 0)(40, 0.0);
     dxf.end_table();
     dxf.begin_table("LAYER", layers, 3);
@@ -138,9 +132,7 @@ void write_tables(DxfText& dxf, const Extent& extent)
     dxf.end_table();
     dxf.begin_table("DIMSTYLE", dimstyles, 1);
     dxf(100, "AcDbDimStyleTable");
-    dxf(0, "DIMSTYLE")
-        .handle(105, standard_dimstyle)
-        .handle(330, dimstyles); // the one entry whose handle has code 105
+    dxf(0, "DIMSTYLE").handle(105, standard_dimstyle).handle(330, dimstyles); // the one entry whose handle has code 105
     dxf(100, "AcDbSymbolTableRecord")(100, "AcDbDimStyleTableRecord")(2, "Standard")(70, 0);
     dxf.end_table();
     dxf.begin_table("BLOCK_RECORD", block_records, 2);
@@ -155,9 +147,8 @@ void write_tables(DxfText& dxf, const Extent& extent)
 void write_blocks(DxfText& dxf)
 {
     dxf.begin_section("BLOCKS");
-    for (const auto& [record, begin, end, name] :
-         {std::tuple{model_space, model_block, model_end, "*Model_Space"},
-          {paper_space, paper_block, paper_end, "*Paper_Space"}}) {
+    for (const auto& [record, begin, end, name] : {std::tuple{model_space, model_block, model_end, "*Model_Space"},
+                                                   {paper_space, paper_block, paper_end, "*Paper_Space"}}) {
         dxf(0, "BLOCK")
             .handle(5, begin)
             .handle(330, record)(100, "AcDbEntity")(8, "0")(100, "AcDbBlockBegin")(2, name)(70, 0);
@@ -187,9 +178,7 @@ void write_objects(DxfText& dxf)
         .handle(5, root_dictionary)
         .handle(330, 0)(100, "AcDbDictionary")(281, 1)(3, "ACAD_GROUP")
         .handle(350, group_dictionary);
-    dxf(0, "DICTIONARY")
-        .handle(5, group_dictionary)
-        .handle(330, root_dictionary)(100, "AcDbDictionary")(281, 1);
+    dxf(0, "DICTIONARY").handle(5, group_dictionary).handle(330, root_dictionary)(100, "AcDbDictionary")(281, 1);
     dxf.end_section();
 }
 

@@ -3,8 +3,7 @@
 
 #include "engine/exchange/blank_outline.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Writes a DXF file (AutoCAD 2000, AC1015, units mm): each loop a closed LWPOLYLINE, the first on layer
 /// OUTLINE, the others on layer HOLES. Numbers have 17 digits.

@@ -18,10 +18,8 @@
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/topology.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
@@ -36,8 +34,7 @@ Value numbers(std::initializer_list<double> values)
 }
 
 /// The one buffer and the accessors into it.
-class GltfBuffer
-{
+class GltfBuffer {
 public:
     explicit GltfBuffer(tinygltf::Model& model) : model_(model) { model_.buffers.resize(1); }
 
@@ -91,8 +88,8 @@ Eigen::MatrixXf unit(const Eigen::Matrix3Xd& normals)
 {
     Eigen::MatrixXf result(3, normals.cols());
     for (int v = 0; v < normals.cols(); ++v)
-        result.col(v) = (normals.col(v).norm() > 0.5 ? normals.col(v).normalized() : Eigen::Vector3d(0, 0, 1))
-                            .cast<float>();
+        result.col(v) =
+            (normals.col(v).norm() > 0.5 ? normals.col(v).normalized() : Eigen::Vector3d(0, 0, 1)).cast<float>();
     return result;
 }
 
@@ -114,12 +111,10 @@ int material(tinygltf::Model& model, const std::string& name, const Eigen::Vecto
     return int(model.materials.size()) - 1;
 }
 
-class SceneWriter
-{
+class SceneWriter {
 public:
     explicit SceneWriter(const ExportScene& scene)
-        : scene_(scene), range_(colour_range(scene.fields->thinning)),
-          centre_(whole_centre(scene.part->position))
+        : scene_(scene), range_(colour_range(scene.fields->thinning)), centre_(whole_centre(scene.part->position))
     {
     }
 
@@ -150,9 +145,8 @@ private:
         model_.asset.generator = program_name();
         Value::Object extras = colour_extras();
         extras["part"] = Value(scene_.name);
-        extras["units"] =
-            Value(std::string("vertices and thickness in mm below the root node, which scales to metres; "
-                              "thinning and logarithmic strains without unit"));
+        extras["units"] = Value(std::string("vertices and thickness in mm below the root node, which scales to metres; "
+                                            "thinning and logarithmic strains without unit"));
         model_.asset.extras = Value(extras);
         tinygltf::Node root;
         root.name = scene_.name.empty() ? "chain" : scene_.name;
@@ -178,8 +172,7 @@ private:
         model_.meshes.push_back(std::move(mesh));
     }
 
-    static tinygltf::Primitive primitive(int mode, int indices, std::map<std::string, int> attributes,
-                                         int material)
+    static tinygltf::Primitive primitive(int mode, int indices, std::map<std::string, int> attributes, int material)
     {
         tinygltf::Primitive result;
         result.mode = mode;
@@ -230,11 +223,9 @@ private:
         attributes["NORMAL"] = buffer_.vertices(up);
         mesh.name = "blank";
         mesh.primitives = {primitive(TINYGLTF_MODE_TRIANGLES, faces, attributes, sheet)};
-        const Eigen::Vector3d low = part.position.rowwise().minCoeff(),
-                              high = part.position.rowwise().maxCoeff();
+        const Eigen::Vector3d low = part.position.rowwise().minCoeff(), high = part.position.rowwise().maxCoeff();
         const double gap = 0.1 * (high - low).norm();
-        const Eigen::Vector3d place(high.x() + gap + (origin.x() - flat.row(0).minCoeff()), centre_.y(),
-                                    low.z());
+        const Eigen::Vector3d place(high.x() + gap + (origin.x() - flat.row(0).minCoeff()), centre_.y(), low.z());
         add_node(mesh, place, Value(Value::Object{{"blank_origin_mm", numbers({origin.x(), origin.y()})}}));
     }
 
@@ -246,19 +237,17 @@ private:
         tinygltf::Mesh mesh;
         mesh.name = "quad_mesh";
         mesh.extras = Value(Value::Object{{"columns", Value(grid.columns)}, {"rows", Value(grid.rows)}});
-        mesh.primitives = {
-            primitive(TINYGLTF_MODE_TRIANGLES, buffer_.indices(mesh_of_cells.triangle),
-                      {{"POSITION", position}, {"NORMAL", normal}},
-                      material(model_, "quads", {0.86, 0.87, 0.88})),
-            primitive(TINYGLTF_MODE_LINE, buffer_.indices(net_lines(grid.columns + 1, grid.rows + 1)),
-                      {{"POSITION", position}}, material(model_, "quad edges", {0.12, 0.2, 0.32}))};
+        mesh.primitives = {primitive(TINYGLTF_MODE_TRIANGLES, buffer_.indices(mesh_of_cells.triangle),
+                                     {{"POSITION", position}, {"NORMAL", normal}},
+                                     material(model_, "quads", {0.86, 0.87, 0.88})),
+                           primitive(TINYGLTF_MODE_LINE, buffer_.indices(net_lines(grid.columns + 1, grid.rows + 1)),
+                                     {{"POSITION", position}}, material(model_, "quad edges", {0.12, 0.2, 0.32}))};
         add_node(mesh, centre_);
     }
 
     void add_surface(const TriMesh& surface)
     {
-        const Eigen::Matrix3Xd normal =
-            scene_.surface_normal ? *scene_.surface_normal : vertex_normals(surface);
+        const Eigen::Matrix3Xd normal = scene_.surface_normal ? *scene_.surface_normal : vertex_normals(surface);
         tinygltf::Mesh mesh;
         mesh.name = "surface";
         mesh.primitives = {
@@ -299,8 +288,7 @@ void write_gltf(const std::filesystem::path& path, const ExportScene& scene)
     std::ostringstream stream;
     const bool binary = path.extension() != ".gltf";
     if (!writer.WriteGltfSceneToStream(&model, stream, !binary, binary))
-        throw ExchangeError(
-            fmt::format("cannot write {}: tinygltf makes no file of the scene", path.string()));
+        throw ExchangeError(fmt::format("cannot write {}: tinygltf makes no file of the scene", path.string()));
     write_atomically(path, stream.view());
 }
 

@@ -3,8 +3,7 @@
 
 #include "engine/exchange/export_scene.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Writes the scene as glTF 2.0: one binary file for .glb, else JSON with the buffer inside (.gltf).
 ///

@@ -21,15 +21,10 @@
 #include "engine/exchange/occt_surface.h"
 #include "engine/exchange/provenance.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
-Handle(TCollection_HAsciiString) text(const std::string& value)
-{
-    return new TCollection_HAsciiString(value.c_str());
-}
+Handle(TCollection_HAsciiString) text(const std::string& value) { return new TCollection_HAsciiString(value.c_str()); }
 
 /// IGES text is printable ASCII in lines of fixed length; anything else becomes a question mark.
 Handle(TCollection_HAsciiString) ascii(std::string value)
@@ -70,11 +65,10 @@ Handle(IGESGeom_BSplineSurface) entity_128(const NurbsSurface& surface)
     const bool polynomial = (surface.weight.array() == surface.weight[0]).all();
 
     Handle(IGESGeom_BSplineSurface) entity = new IGESGeom_BSplineSurface;
-    entity->Init(last_u, last_v, surface.degree_u, surface.degree_v, closed_u, closed_v, polynomial, false,
-                 false, knots_from_minus_degree(surface.knots_u, surface.degree_u),
-                 knots_from_minus_degree(surface.knots_v, surface.degree_v), weights, poles,
-                 surface.knots_u.front(), surface.knots_u.back(), surface.knots_v.front(),
-                 surface.knots_v.back());
+    entity->Init(last_u, last_v, surface.degree_u, surface.degree_v, closed_u, closed_v, polynomial, false, false,
+                 knots_from_minus_degree(surface.knots_u, surface.degree_u),
+                 knots_from_minus_degree(surface.knots_v, surface.degree_v), weights, poles, surface.knots_u.front(),
+                 surface.knots_u.back(), surface.knots_v.front(), surface.knots_v.back());
     return entity;
 }
 
@@ -86,8 +80,8 @@ double largest_coordinate(std::span<const NurbsSurface> surfaces)
     return result;
 }
 
-void fill_header(const Handle(IGESData_IGESModel) & model, const std::string& file_name,
-                 const std::string& part_name, double largest)
+void fill_header(const Handle(IGESData_IGESModel) & model, const std::string& file_name, const std::string& part_name,
+                 double largest)
 {
     IGESData_GlobalSection header = model->GlobalSection();
     const std::string date = time_stamp("%Y%m%d.%H%M%S");
@@ -128,8 +122,7 @@ std::string iges_text(std::span<const NurbsSurface> surfaces, const std::string&
 
 } // namespace
 
-void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces,
-                const std::string& part_name)
+void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name)
 {
     if (surfaces.empty())
         throw InputError(fmt::format("there is no surface to write to {}", path.string()));
@@ -139,8 +132,8 @@ void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface>
     try {
         content = iges_text(surfaces, path.filename().string(), part_name);
     } catch (const Standard_Failure& failure) {
-        throw ExchangeError(fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(),
-                                        failure.GetMessageString()));
+        throw ExchangeError(
+            fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(), failure.GetMessageString()));
     }
     write_atomically(path, content);
 }

@@ -5,8 +5,7 @@
 
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Writes an IGES 5.3 file in mm: one plain entity 128 per surface, in the order given. Every number has 17
 /// digits, so poles, weights and knots come back bit for bit; lines keep to 80 columns. The header names this

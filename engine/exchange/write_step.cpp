@@ -25,18 +25,12 @@
 #include "engine/exchange/occt_surface.h"
 #include "engine/exchange/provenance.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
-constexpr double resolution =
-    1e-6; // mm; the file's uncertainty, and how close borders of one patch must be to be one
+constexpr double resolution = 1e-6; // mm; the file's uncertainty, and how close borders of one patch must be to be one
 
-Handle(TCollection_HAsciiString) text(const std::string& value)
-{
-    return new TCollection_HAsciiString(value.c_str());
-}
+Handle(TCollection_HAsciiString) text(const std::string& value) { return new TCollection_HAsciiString(value.c_str()); }
 
 Handle(Interface_HArray1OfHAsciiString) one_text(const std::string& value)
 {
@@ -63,8 +57,7 @@ TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces)
     return sewing.SewedShape();
 }
 
-void fill_header(const Handle(StepData_StepModel) & model, const std::string& file_name,
-                 const std::string& part_name)
+void fill_header(const Handle(StepData_StepModel) & model, const std::string& file_name, const std::string& part_name)
 {
     APIHeaderSection_MakeHeader header(model);
     header.SetName(text(file_name));
@@ -105,14 +98,12 @@ std::string with_encoded_names(const std::string& utf8)
         }
         unsigned code = length ? static_cast<unsigned char>(utf8[at]) & (0x7fu >> length) : 0;
         int used = 1;
-        for (; used < length && at + size_t(used) < utf8.size() && (utf8[at + size_t(used)] & 0xc0) == 0x80;
-             ++used)
+        for (; used < length && at + size_t(used) < utf8.size() && (utf8[at + size_t(used)] & 0xc0) == 0x80; ++used)
             code = code << 6 | (static_cast<unsigned char>(utf8[at + size_t(used)]) & 0x3fu);
         if (length == 0 || used < length)
             result += '?';
         else
-            result += code > 0xffff ? fmt::format("\\X4\\{:08X}\\X0\\", code)
-                                    : fmt::format("\\X2\\{:04X}\\X0\\", code);
+            result += code > 0xffff ? fmt::format("\\X4\\{:08X}\\X0\\", code) : fmt::format("\\X2\\{:04X}\\X0\\", code);
         at += size_t(used);
     }
     return result;
@@ -149,8 +140,7 @@ std::string step_text(std::span<const NurbsSurface> surfaces, const std::string&
 
 } // namespace
 
-void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces,
-                const std::string& part_name)
+void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name)
 {
     if (surfaces.empty())
         throw InputError(fmt::format("there is no surface to write to {}", path.string()));
@@ -160,8 +150,8 @@ void write_step(const std::filesystem::path& path, std::span<const NurbsSurface>
     try {
         content = step_text(surfaces, path.filename().string(), part_name);
     } catch (const Standard_Failure& failure) {
-        throw ExchangeError(fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(),
-                                        failure.GetMessageString()));
+        throw ExchangeError(
+            fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(), failure.GetMessageString()));
     }
     write_atomically(path, content);
 }

@@ -5,8 +5,7 @@
 
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Writes a STEP file (AP242, mm): one product of the given name, its shape an open shell of untrimmed
 /// B-spline faces; patches that meet are sewn and share their edges. Numbers have 17 digits. The header names

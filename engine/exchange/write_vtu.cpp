@@ -8,10 +8,8 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file says LittleEndian");
 
@@ -20,20 +18,11 @@ std::string escaped(const std::string& text)
     std::string result;
     for (const char c : text)
         switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '>': result += "&gt;"; break;
+        case '"': result += "&quot;"; break;
+        default: result += c;
         }
     return result;
 }
@@ -55,22 +44,10 @@ std::string base64(const std::string& bytes)
 }
 
 template <class Number> constexpr const char* vtk_type();
-template <> constexpr const char* vtk_type<double>()
-{
-    return "Float64";
-}
-template <> constexpr const char* vtk_type<int32_t>()
-{
-    return "Int32";
-}
-template <> constexpr const char* vtk_type<int64_t>()
-{
-    return "Int64";
-}
-template <> constexpr const char* vtk_type<uint8_t>()
-{
-    return "UInt8";
-}
+template <> constexpr const char* vtk_type<double>() { return "Float64"; }
+template <> constexpr const char* vtk_type<int32_t>() { return "Int32"; }
+template <> constexpr const char* vtk_type<int64_t>() { return "Int64"; }
+template <> constexpr const char* vtk_type<uint8_t>() { return "UInt8"; }
 
 /// Column after column, preceded by its length in bytes.
 template <class Matrix> std::string array(const std::string& name, const Matrix& values, int components = 1)
@@ -111,16 +88,14 @@ std::string cells(const TriMesh& part)
     Eigen::Matrix<int64_t, Dynamic, 1> offset(count);
     for (int f = 0; f < count; ++f)
         offset[f] = 3 * int64_t(f + 1);
-    const Eigen::Matrix<uint8_t, Dynamic, 1> type =
-        Eigen::Matrix<uint8_t, Dynamic, 1>::Constant(count, vtk_triangle);
+    const Eigen::Matrix<uint8_t, Dynamic, 1> type = Eigen::Matrix<uint8_t, Dynamic, 1>::Constant(count, vtk_triangle);
     return array("connectivity", part.triangle) + array("offsets", offset) + array("types", type);
 }
 
 } // namespace
 
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
-               const SheetFields& face_fields, const SheetFields& node_fields,
-               std::span<const NamedField> extra)
+               const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra)
 {
     require_blank_of(part, blank);
     require_fields(face_fields, part.triangles(), "face");
@@ -131,16 +106,15 @@ void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Bla
         point_data += array(field.name, *field.value);
     }
     write_atomically(
-        path,
-        fmt::format("<?xml version=\"1.0\"?>\n<!-- {} : lengths mm, stresses MPa, strains logarithmic -->\n"
-                    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                    "header_type=\"UInt64\">\n"
-                    "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-                    "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
-                    "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
-                    "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-                    program_name(), part.vertices(), part.triangles(), point_data, sheet_fields(face_fields),
-                    array("Points", part.position, 3), cells(part)));
+        path, fmt::format("<?xml version=\"1.0\"?>\n<!-- {} : lengths mm, stresses MPa, strains logarithmic -->\n"
+                          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                          "header_type=\"UInt64\">\n"
+                          "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+                          "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
+                          "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
+                          "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+                          program_name(), part.vertices(), part.triangles(), point_data, sheet_fields(face_fields),
+                          array("Points", part.position, 3), cells(part)));
 }
 
 } // namespace spia

@@ -4,8 +4,7 @@
 
 #include "engine/exchange/sheet_field_list.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Writes the part as a VTK XML unstructured grid for ParaView, binary, every number in full. Point data: the
 /// node fields, blank_x and blank_y, displacement_to_blank ("Warp By Vector" with factor 1 shows the blank in
@@ -14,7 +13,6 @@ namespace spia
 /// @throws InputError if the fields do not match the part or are not finite; ExchangeError if the file cannot
 /// be written
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
-               const SheetFields& face_fields, const SheetFields& node_fields,
-               std::span<const NamedField> extra = {});
+               const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {});
 
 } // namespace spia

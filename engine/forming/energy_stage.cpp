@@ -31,9 +31,7 @@ double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X,
         const auto x = corners(X, triangle.col(f)), d = corners(direction, triangle.col(f));
         const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
         const Eigen::Vector2d dp = d.col(1) - d.col(0), dq = d.col(2) - d.col(0);
-        const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-            return a[0] * b[1] - a[1] * b[0];
-        };
+        const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; };
         // Smallest positive root of a t^2 + b t + c, c > 0 twice the present area.
         const double a = cross(dp, dq), b = cross(dp, q) + cross(p, dq), c = cross(p, q);
         const double discriminant = b * b - 4 * a * c;

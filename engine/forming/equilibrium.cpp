@@ -96,8 +96,8 @@ public:
             const Eigen::Matrix2d tau = membrane_force(law_, h0_, G, share_).force;
             const Eigen::Matrix2d pull_back = (1 - share_) * G.inverse().transpose();
             for (int a = 0; a < 3; ++a)
-                force[size_t(f)].col(a) =
-                    -e.area * ((share_ * frames_.to_node[size_t(f)][size_t(a)] + pull_back) * (tau * e.gradient.col(a)));
+                force[size_t(f)].col(a) = -e.area * ((share_ * frames_.to_node[size_t(f)][size_t(a)] + pull_back) *
+                                                     (tau * e.gradient.col(a)));
         });
         Eigen::VectorXd R = Eigen::VectorXd::Zero(2 * X.cols());
         for (int f = 0; f < part_.triangles(); ++f)
@@ -192,8 +192,7 @@ private:
             return out;
         const Eigen::Vector3d n = normal_.col(v);
         const Eigen::Matrix3d to_tangent = Eigen::Matrix3d::Identity() - n * n.transpose();
-        const Eigen::Vector3d slip =
-            to_tangent * (part_.position.col(v) - friction_.origin - friction_.plane * X);
+        const Eigen::Vector3d slip = to_tangent * (part_.position.col(v) - friction_.origin - friction_.plane * X);
         const double length = std::sqrt(slip.squaredNorm() + friction_.full_slip * friction_.full_slip);
         const Eigen::Matrix3d change =
             (Eigen::Matrix3d::Identity() - slip * slip.transpose() / (length * length)) / length;
@@ -320,8 +319,8 @@ private:
         };
         system_.definite_tangent(X, preconditioner_);
         if (cholesky_.factor(preconditioner_)) {
-            const GmresResult solved =
-                gmres(A, [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); }, -R, tolerance, most_iterations);
+            const GmresResult solved = gmres(
+                A, [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); }, -R, tolerance, most_iterations);
             // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
             if (solved.relative_residual <= (relative_residual > 1e-3 ? 0.3 : tolerance))
                 return solved.x;
@@ -331,7 +330,9 @@ private:
         preconditioner_.add_to_diagonal(1, spring_);
         preconditioner_.add_to_diagonal(preconditioner_.size() - 1, spring_);
         const Lu lu(preconditioner_);
-        return gmres(A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations).x;
+        return gmres(
+                   A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations)
+            .x;
     }
 
     /// Steps within which the residual must have halved.

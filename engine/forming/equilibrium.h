@@ -21,8 +21,8 @@ struct EquilibriumResult {
     Eigen::Matrix2Xd position;
     Ended ended = Ended::too_many_steps;
     std::vector<NewtonStep> steps;
-    double residual = 0;           ///< relative, at position
-    Eigen::Vector3d resultant;     ///< the three multipliers: N, N, N mm; what real friction would have to take
+    double residual = 0;       ///< relative, at position
+    Eigen::Vector3d resultant; ///< the three multipliers: N, N, N mm; what real friction would have to take
 };
 
 /// Solves the principle of virtual work on the formed part (eqs. 16-23): at each node the membrane forces h sigma of the

@@ -60,8 +60,8 @@ double largest_strain(const TriMesh& part, const std::vector<Element>& element, 
 
 /// Turns and moves the blank so that it lies, area by area, as near as it can under the part seen along the stamping
 /// direction. [Kabsch 1976 in the plane]
-void place_under_part(const TriMesh& part, const std::vector<Element>& element, const Eigen::Matrix<double, 3, 2>& plane,
-                      Eigen::Matrix2Xd& X)
+void place_under_part(const TriMesh& part, const std::vector<Element>& element,
+                      const Eigen::Matrix<double, 3, 2>& plane, Eigen::Matrix2Xd& X)
 {
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
     for (int f = 0; f < part.triangles(); ++f)
@@ -121,12 +121,12 @@ constexpr double near_enough = 1e-3, exact = 1e-6;
 std::string reason(const EnergyResult& energy, const EquilibriumResult& equilibrium)
 {
     switch (equilibrium.ended) {
-    case Ended::converged:
-        return "converged";
+    case Ended::converged: return "converged";
     case Ended::stalled:
-        return fmt::format("the virtual-work system stalled at a residual of {:.1e} after {} steps; the blank is the one "
-                           "of least energy with the thickness held",
-                           equilibrium.residual, equilibrium.steps.size());
+        return fmt::format(
+            "the virtual-work system stalled at a residual of {:.1e} after {} steps; the blank is the one "
+            "of least energy with the thickness held",
+            equilibrium.residual, equilibrium.steps.size());
     default:
         return fmt::format("the virtual-work system was not solved within {} steps (residual {:.1e}); the blank is the "
                            "one of least energy with the thickness held{}",
@@ -181,9 +181,9 @@ SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element
     const MembraneLaw law(options.material, options.curve);
     const int faces = part.triangles();
     SheetFields out;
-    for (Eigen::VectorXd* field : {&out.thickness, &out.thinning, &out.strain_major, &out.strain_minor,
-                                   &out.strain_equivalent, &out.stress_major, &out.stress_minor,
-                                   &out.stress_equivalent})
+    for (Eigen::VectorXd* field :
+         {&out.thickness, &out.thinning, &out.strain_major, &out.strain_minor, &out.strain_equivalent,
+          &out.stress_major, &out.stress_minor, &out.stress_equivalent})
         field->resize(faces);
     out.direction_major.resize(3, faces);
     out.necking.resize(faces);
@@ -242,8 +242,8 @@ FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const 
     InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky);
     result.report.start = guess.method;
 
-    EnergyResult energy = energy_stage(part, element, options, std::move(guess.position), near_enough, matrix,
-                                       cholesky, progress.part(0.1, 0.6));
+    EnergyResult energy = energy_stage(part, element, options, std::move(guess.position), near_enough, matrix, cholesky,
+                                       progress.part(0.1, 0.6));
     result.report.energy = std::move(energy.steps);
     place_under_part(part, element, plane, energy.position);
 

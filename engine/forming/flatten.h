@@ -13,36 +13,36 @@ namespace spia {
 
 struct FlattenOptions {
     Material material;
-    double thickness = 1;                          ///< mm, of the flat sheet
-    std::optional<Eigen::Vector3d> direction;      ///< stamping direction; chosen automatically if not given
-    Eigen::VectorXd friction;                      ///< #F, MPa: tangential traction against the slip; empty: none
-    StressCurve::Options curve;                    ///< where the hardening curve is trusted and how it goes on
+    double thickness = 1;                     ///< mm, of the flat sheet
+    std::optional<Eigen::Vector3d> direction; ///< stamping direction; chosen automatically if not given
+    Eigen::VectorXd friction;                 ///< #F, MPa: tangential traction against the slip; empty: none
+    StressCurve::Options curve;               ///< where the hardening curve is trusted and how it goes on
     int most_energy_steps = 200;
     int most_newton_steps = 60;
-    double tolerance = 1e-9;                       ///< on |R| relative to the nodal forces at the yield stress
+    double tolerance = 1e-9; ///< on |R| relative to the nodal forces at the yield stress
 };
 
 /// How the solution came about.
 struct SolveReport {
-    bool converged = false;          ///< the virtual-work system holds to the tolerance
-    std::string reason;              ///< why the iteration ended, in words
+    bool converged = false; ///< the virtual-work system holds to the tolerance
+    std::string reason;     ///< why the iteration ended, in words
     StartMethod start;
-    std::vector<NewtonStep> energy;  ///< steps of the energy stage (all continuation levels in a row)
-    std::vector<NewtonStep> newton;  ///< steps of the virtual-work stage
-    double residual = 0;             ///< |R| relative to the nodal forces at the yield stress
+    std::vector<NewtonStep> energy; ///< steps of the energy stage (all continuation levels in a row)
+    std::vector<NewtonStep> newton; ///< steps of the virtual-work stage
+    double residual = 0;            ///< |R| relative to the nodal forces at the yield stress
     Eigen::Vector3d resultant = Eigen::Vector3d::Zero(); ///< multipliers of the rigid motion: N, N, N mm
     double seconds = 0;
 };
 
 struct FlattenResult {
     Blank blank;
-    SheetFields face;        ///< one entry per face
-    SheetFields node;        ///< one entry per vertex
+    SheetFields face; ///< one entry per face
+    SheetFields node; ///< one entry per vertex
     StampingDirection stamping;
     SolveReport report;
-    int necking_triangles = 0;  ///< faces beyond the trusted strain: extrapolated, where the part tears
-    int flipped_triangles = 0;  ///< always 0; counted anew from the result
-    double volume_error = 0;    ///< largest |h A - h0 A0| / (h0 A0) over the faces
+    int necking_triangles = 0; ///< faces beyond the trusted strain: extrapolated, where the part tears
+    int flipped_triangles = 0; ///< always 0; counted anew from the result
+    double volume_error = 0;   ///< largest |h A - h0 A0| / (h0 A0) over the faces
 };
 
 /// Finds the flat blank that one forming step turns into the part.

@@ -34,8 +34,8 @@ FlowStress evaluate(const HardeningTable& table, double strain)
     const auto& x = table.strain;
     const auto& y = table.stress_MPa;
     const size_t last = x.size() - 2;
-    const size_t piece =
-        std::min(last, size_t(std::max<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), strain) - x.begin() - 1, 0)));
+    const size_t piece = std::min(
+        last, size_t(std::max<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), strain) - x.begin() - 1, 0)));
     const auto slope = [&](size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
     const double at_zero = y[0] - slope(0) * x[0];
     double work = piece == 0 ? 0 : 0.5 * (at_zero + y[0]) * x[0];

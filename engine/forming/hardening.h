@@ -34,10 +34,10 @@ FlowStress flow_stress(const Hardening& law, double strain);
 class StressCurve {
 public:
     struct Options {
-        double trusted_strain = 0.5;       ///< eps_c: beyond it the curve is an extrapolation
-        double continuation_rate = 2.0;    ///< kappa in exp(kappa (eps - eps_c))
-        double continuation_width = 0.25;  ///< strain over which the slope passes from the law's to kappa sigma
-        double yield_smoothing = 0.3;      ///< the elastic-plastic kink is rounded over [1 - s, 1 + s] times its strain
+        double trusted_strain = 0.5;      ///< eps_c: beyond it the curve is an extrapolation
+        double continuation_rate = 2.0;   ///< kappa in exp(kappa (eps - eps_c))
+        double continuation_width = 0.25; ///< strain over which the slope passes from the law's to kappa sigma
+        double yield_smoothing = 0.3;     ///< the elastic-plastic kink is rounded over [1 - s, 1 + s] times its strain
     };
 
     StressCurve(const Hardening& law, double young_MPa, const Options& options);
@@ -45,7 +45,7 @@ public:
     /// @param strain equivalent strain >= 0
     FlowStress operator()(double strain) const;
 
-    double yield_strain() const { return yield_; }   ///< where Hooke's line meets the law
+    double yield_strain() const { return yield_; }          ///< where Hooke's line meets the law
     double yield_stress() const { return young_ * yield_; } ///< MPa
     double trusted_strain() const { return trusted_; }
 

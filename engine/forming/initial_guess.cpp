@@ -94,7 +94,8 @@ Eigen::Matrix2Xd harmonic(const TriMesh& part)
             const int a = part.triangle(k, f), b = part.triangle((k + 1) % 3, f), c = part.triangle((k + 2) % 3, f);
             const Eigen::Vector3d ab = part.position.col(b) - part.position.col(a);
             const Eigen::Vector3d ac = part.position.col(c) - part.position.col(a);
-            const double half = 0.5 * std::atan2(ab.cross(ac).norm(), ab.dot(ac)); // tan(alpha/2) of the mean value weight
+            const double half =
+                0.5 * std::atan2(ab.cross(ac).norm(), ab.dot(ac)); // tan(alpha/2) of the mean value weight
             weight.emplace_back(a, b, std::tan(half) / ab.norm());
             weight.emplace_back(a, c, std::tan(half) / ac.norm());
         }

@@ -126,12 +126,12 @@ Material read_material(const std::filesystem::path& file)
 {
     std::ifstream stream(file);
     if (!stream)
-        throw InputError(fmt::format("cannot open the material file {}; `spia materials` lists the built-in grades",
-                                     file.string()));
+        throw InputError(
+            fmt::format("cannot open the material file {}; `spia materials` lists the built-in grades", file.string()));
     const Json json = Json::parse(stream, nullptr, false);
     if (!json.is_object())
-        throw InputError(fmt::format("{} is no JSON object; see assets/materials/README.md for the form",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{} is no JSON object; see assets/materials/README.md for the form", file.string()));
     const Reader in(json, file.string());
     Material material;
     material.name = in.text("name");

@@ -28,11 +28,11 @@ Material read_material(const std::filesystem::path& file);
 /// Principal stresses and everything Newton needs of the membrane law at given principal logarithmic strains.
 struct PlaneStress {
     double equivalent_strain;
-    double equivalent_stress;   ///< MPa
-    Eigen::Vector2d stress;     ///< MPa, principal, Cauchy
-    Eigen::Matrix2d tangent;    ///< MPa, d stress_k / d eps_l, symmetric
-    double deviatoric;          ///< MPa, (stress_1 - stress_2) / (eps_1 - eps_2)
-    double work;                ///< MPa, integral of sigma_eq d eps_eq
+    double equivalent_stress; ///< MPa
+    Eigen::Vector2d stress;   ///< MPa, principal, Cauchy
+    Eigen::Matrix2d tangent;  ///< MPa, d stress_k / d eps_l, symmetric
+    double deviatoric;        ///< MPa, (stress_1 - stress_2) / (eps_1 - eps_2)
+    double work;              ///< MPa, integral of sigma_eq d eps_eq
 };
 
 /// Hill 1948 with normal anisotropy, plane stress, incompressible, total (Hencky) theory:

@@ -9,10 +9,8 @@
 
 #include "engine/core/error.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -82,10 +80,10 @@ bool looks_like_path(const fs::path& path)
             }
         }
     }
-    throw InputError(fmt::format(
-        "there is no material and no file \"{}\"; did you mean {} ({})? Known are {}; a path to a file of "
-        "your own works too, see assets/materials/README.md for the form",
-        wanted, files[closest].stem().string(), materials[closest].name, known));
+    throw InputError(
+        fmt::format("there is no material and no file \"{}\"; did you mean {} ({})? Known are {}; a path to a file of "
+                    "your own works too, see assets/materials/README.md for the form",
+                    wanted, files[closest].stem().string(), materials[closest].name, known));
 }
 
 } // namespace
@@ -100,8 +98,7 @@ std::vector<fs::path> material_files(const fs::path& folder)
             files.push_back(entry->path());
     }
     if (error)
-        throw InputError(
-            fmt::format("cannot read the folder of materials {}: {}", folder.string(), error.message()));
+        throw InputError(fmt::format("cannot read the folder of materials {}: {}", folder.string(), error.message()));
     if (files.empty())
         throw InputError(fmt::format("the folder of materials {} holds no *.json", folder.string()));
     std::sort(files.begin(), files.end());

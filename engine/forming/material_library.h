@@ -5,8 +5,7 @@
 
 #include "engine/forming/material.h"
 
-namespace spia
-{
+namespace spia {
 
 /// The grades of a folder: its files *.json, sorted by name, so that their order is the same everywhere.
 /// @throws InputError if the folder cannot be read or holds no grade

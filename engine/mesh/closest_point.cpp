@@ -10,11 +10,9 @@
 
 #include "engine/core/error.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 using Box = Eigen::AlignedBox<double, 3>;
 
@@ -33,14 +31,12 @@ void require_usable(const TriMesh& mesh)
         for (int k = 0; k < 3; ++k) {
             const int v = mesh.triangle(k, f);
             if (v < 0 || v >= mesh.vertices())
-                throw InputError(
-                    fmt::format("face {} names vertex {}, but there are {} vertices; mend the mesh there", f,
-                                v, mesh.vertices()));
+                throw InputError(fmt::format("face {} names vertex {}, but there are {} vertices; mend the mesh there",
+                                             f, v, mesh.vertices()));
             if (!mesh.position.col(v).allFinite())
-                throw InputError(
-                    fmt::format("vertex {} of face {} has a coordinate that is not a number; mend the "
-                                "mesh there",
-                                v, f));
+                throw InputError(fmt::format("vertex {} of face {} has a coordinate that is not a number; mend the "
+                                             "mesh there",
+                                             v, f));
         }
 }
 
@@ -50,8 +46,7 @@ Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen
 {
     // Inside the prism over the triangle it is the foot of the perpendicular: all three areas it spans with
     // the edges are on the inner side. Else it is on one of the edges.
-    const Eigen::Vector3d edge_1 = triangle.col(1) - triangle.col(0),
-                          edge_2 = triangle.col(2) - triangle.col(0);
+    const Eigen::Vector3d edge_1 = triangle.col(1) - triangle.col(0), edge_2 = triangle.col(2) - triangle.col(0);
     const Eigen::Vector3d normal = edge_1.cross(edge_2);
     Eigen::Vector3d inner;
     for (int k = 0; k < 3; ++k) {
@@ -189,8 +184,7 @@ ClosestPoint ClosestPointSearch::nearest(const Eigen::Vector3d& point, double wi
                 }
                 break;
             }
-            Waiting near = {here.node + 1,
-                            tree_->node[size_t(here.node) + 1].box.squaredExteriorDistance(point)};
+            Waiting near = {here.node + 1, tree_->node[size_t(here.node) + 1].box.squaredExteriorDistance(point)};
             Waiting far = {node.second, tree_->node[size_t(node.second)].box.squaredExteriorDistance(point)};
             if (far.squared < near.squared)
                 std::swap(near, far);

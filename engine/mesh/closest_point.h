@@ -4,12 +4,11 @@
 
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 /// The place of a mesh that is nearest to a point.
 struct ClosestPoint {
-    int face = -1; ///< of several equally near ones, always the same one; -1 if none is within reach
+    int face = -1;               ///< of several equally near ones, always the same one; -1 if none is within reach
     Eigen::Vector3d barycentric; ///< weights of the face's three vertices, >= 0, sum 1
     Eigen::Vector3d position;    ///< mm
     double distance = std::numeric_limits<double>::infinity(); ///< mm
@@ -17,8 +16,7 @@ struct ClosestPoint {
 
 /// Finds the nearest place of a mesh for many points; the search structure is built once. Searching from
 /// several threads at a time is safe.
-class ClosestPointSearch
-{
+class ClosestPointSearch {
 public:
     /// Copies what it needs of the mesh. Faces without area count as the segment or point that is left of
     /// them.
@@ -31,8 +29,7 @@ public:
     ClosestPointSearch& operator=(ClosestPointSearch&&) noexcept;
 
     /// @param within  mm; nothing farther away is looked for
-    ClosestPoint nearest(const Eigen::Vector3d& point,
-                         double within = std::numeric_limits<double>::infinity()) const;
+    ClosestPoint nearest(const Eigen::Vector3d& point, double within = std::numeric_limits<double>::infinity()) const;
 
 private:
     struct Tree;

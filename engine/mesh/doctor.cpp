@@ -11,10 +11,8 @@
 #include "engine/mesh/flat_triangles.h"
 #include "engine/mesh/surface_triangles.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using Eigen::Vector3d;
 
@@ -43,12 +41,11 @@ void check_coordinates(const PolygonSoup& soup, DoctorReport& report)
     if (bad.count == 0)
         return;
     const Vector3d& p = soup.position[size_t(bad.first)];
-    report.add(
-        Fault::bad_coordinate, Severity::fatal, bad.count, bad.first,
-        fmt::format("{} a coordinate that is no number or beyond {} mm (first: vertex {} at {}, {}, {})",
-                    counted(bad.count, "vertex has", "vertices have"), beyond_any_part, bad.first, p.x(),
-                    p.y(), p.z()),
-        "write the file anew and check the unit of length");
+    report.add(Fault::bad_coordinate, Severity::fatal, bad.count, bad.first,
+               fmt::format("{} a coordinate that is no number or beyond {} mm (first: vertex {} at {}, {}, {})",
+                           counted(bad.count, "vertex has", "vertices have"), beyond_any_part, bad.first, p.x(), p.y(),
+                           p.z()),
+               "write the file anew and check the unit of length");
 }
 
 void check_indices(const PolygonSoup& soup, DoctorReport& report)
@@ -63,11 +60,10 @@ void check_indices(const PolygonSoup& soup, DoctorReport& report)
                 break;
             }
     if (bad.count > 0)
-        report.add(
-            Fault::bad_index, Severity::fatal, bad.count, bad.first,
-            fmt::format("{} a vertex that does not exist (first: face {}, vertex {} where there are {})",
-                        counted(bad.count, "face names", "faces name"), bad.first, wrong, soup.vertices()),
-            "the file is damaged or cut off: write it anew");
+        report.add(Fault::bad_index, Severity::fatal, bad.count, bad.first,
+                   fmt::format("{} a vertex that does not exist (first: face {}, vertex {} where there are {})",
+                               counted(bad.count, "face names", "faces name"), bad.first, wrong, soup.vertices()),
+                   "the file is damaged or cut off: write it anew");
 }
 
 bool readable(const PolygonSoup& soup, DoctorReport& report)
@@ -129,21 +125,19 @@ void check_edges(Surface& s, DoctorReport& report)
     for_each_edge(uses, [&](size_t begin, size_t end) {
         if (end - begin <= 2)
             return;
-        if (crowded++ == 0 ||
-            uses[begin].face < first.face) // the uses of an edge are in the order of the faces
+        if (crowded++ == 0 || uses[begin].face < first.face) // the uses of an edge are in the order of the faces
             first = uses[begin];
         most = std::max(most, int(end - begin));
     });
     s.two_faces_per_edge = crowded == 0;
     if (crowded > 0)
-        report.add(
-            Fault::crowded_edge, Severity::fatal, crowded, s.number[size_t(first.face)],
-            fmt::format("{} to three or more faces, up to {} (first: the edge between the vertices {} and "
-                        "{}, at face "
-                        "{})",
-                        counted(crowded, "edge belongs", "edges belong"), most, first.low, first.high,
-                        s.number[size_t(first.face)]),
-            "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part");
+        report.add(Fault::crowded_edge, Severity::fatal, crowded, s.number[size_t(first.face)],
+                   fmt::format("{} to three or more faces, up to {} (first: the edge between the vertices {} and "
+                               "{}, at face "
+                               "{})",
+                               counted(crowded, "edge belongs", "edges belong"), most, first.low, first.high,
+                               s.number[size_t(first.face)]),
+                   "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part");
 }
 
 /// A neighbour over an edge of two faces.
@@ -225,9 +219,8 @@ void orient(Surface& s, DoctorReport& report)
     if (turns.count > 0)
         report.add(
             Fault::flipped_face, Severity::repaired, turns.count, turns.first,
-            fmt::format(
-                "{} turned against the others (first: face {}); turned over, the larger area kept its side",
-                counted(turns.count, "triangle was", "triangles were"), turns.first),
+            fmt::format("{} turned against the others (first: face {}); turned over, the larger area kept its side",
+                        counted(turns.count, "triangle was", "triangles were"), turns.first),
             "");
 }
 
@@ -259,18 +252,17 @@ void mend_flat_triangles(Surface& s, const Tally& dropped, DoctorReport& report)
                    fmt::format("{} no area (first: face {}): {} gone by joining two vertices at one place, "
                                "{} by turning the "
                                "longest edge, {} left out at the boundary or where the edge had other faces",
-                               counted(mended, "triangle had", "triangles had"), first, repair.joined,
-                               repair.flipped, repair.dropped + dropped.count),
+                               counted(mended, "triangle had", "triangles had"), first, repair.joined, repair.flipped,
+                               repair.dropped + dropped.count),
                    "");
     if (!repair.left.empty()) {
         const Triangle& t = s.triangle[size_t(repair.left[0])];
         const int number = s.number[size_t(repair.left[0])];
         report.add(
             Fault::flat_face, Severity::fatal, int(repair.left.size()), number,
-            fmt::format(
-                "{} no area and cannot be taken out without tearing the surface (first: face {} with the "
-                "vertices {}, {}, {})",
-                counted(int(repair.left.size()), "triangle has", "triangles have"), number, t[0], t[1], t[2]),
+            fmt::format("{} no area and cannot be taken out without tearing the surface (first: face {} with the "
+                        "vertices {}, {}, {})",
+                        counted(int(repair.left.size()), "triangle has", "triangles have"), number, t[0], t[1], t[2]),
             "mesh the part anew there");
     }
     remove(s, repair.removed);
@@ -279,8 +271,7 @@ void mend_flat_triangles(Surface& s, const Tally& dropped, DoctorReport& report)
 // ---- the surface as a whole ----
 
 /// Union of numbered things; the representative of a set is its smallest member.
-class Sets
-{
+class Sets {
 public:
     explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
     int root(int i)
@@ -349,10 +340,9 @@ void separate_fans(Surface& s, DoctorReport& report)
     if (touching.count > 0)
         report.add(
             Fault::touching_fans, Severity::repaired, touching.count, touching.first,
-            fmt::format(
-                "at {} parts of the sheet touched without a common edge (first: vertex {}); separated by "
-                "doubling the vertex",
-                counted(touching.count, "vertex", "vertices"), touching.first),
+            fmt::format("at {} parts of the sheet touched without a common edge (first: vertex {}); separated by "
+                        "doubling the vertex",
+                        counted(touching.count, "vertex", "vertices"), touching.first),
             "if they should hang together there, give them a common edge");
 }
 
@@ -383,8 +373,7 @@ Examination number_vertices(const Surface& s, DoctorReport report)
     for (size_t v = 0; v < s.home.size(); ++v)
         if (used[v])
             order.push_back(int(v));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return s.home[size_t(a)] < s.home[size_t(b)]; });
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return s.home[size_t(a)] < s.home[size_t(b)]; });
 
     Examination result;
     std::vector<int> new_number(s.home.size(), -1);
@@ -410,8 +399,7 @@ void count_pieces(const Surface& s, DoctorReport& report)
     for (const int piece : s.piece)
         ++size[size_t(piece)];
     const int largest = int(std::max_element(size.begin(), size.end()) - size.begin());
-    const auto other =
-        std::find_if(s.piece.begin(), s.piece.end(), [&](int piece) { return piece != largest; });
+    const auto other = std::find_if(s.piece.begin(), s.piece.end(), [&](int piece) { return piece != largest; });
     std::erase(size, 0);
     report.components = int(size.size());
     if (report.components < 2)
@@ -423,12 +411,11 @@ void count_pieces(const Surface& s, DoctorReport& report)
         sizes += fmt::format("{}{}", i > 0 ? ", " : "", size[i]);
     const Finding* coincident = report.find(Fault::coincident_vertex);
     const bool unjoined = coincident && coincident->severity == Severity::note;
-    report.add(
-        Fault::several_components, Severity::fatal, report.components, first,
-        fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
-                    report.components, sizes, size.size() > 5 ? ", ..." : "", first),
-        unjoined ? "read the file with --weld if the pieces touch; otherwise save each as a file of its own"
-                 : "save each piece as a file of its own");
+    report.add(Fault::several_components, Severity::fatal, report.components, first,
+               fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
+                           report.components, sizes, size.size() > 5 ? ", ..." : "", first),
+               unjoined ? "read the file with --weld if the pieces touch; otherwise save each as a file of its own"
+                        : "save each piece as a file of its own");
 }
 
 /// Edges of the surface, and boundary loops of each piece.
@@ -450,8 +437,7 @@ Outline outline(const Surface& s, int pieces)
         if (end - begin > 1)
             return;
         sets.join(uses[begin].low, uses[begin].high);
-        piece_of[size_t(uses[begin].low)] = piece_of[size_t(uses[begin].high)] =
-            s.piece[size_t(uses[begin].face)];
+        piece_of[size_t(uses[begin].low)] = piece_of[size_t(uses[begin].high)] = s.piece[size_t(uses[begin].face)];
     });
     result.loops.assign(size_t(pieces), 0);
     for (size_t v = 0; v < piece_of.size(); ++v)
@@ -486,13 +472,11 @@ void check_topology(const Surface& s, int vertices, DoctorReport& report)
             closed.add(s.number[f]);
         }
     if (closed.count > 0)
-        report.add(
-            Fault::closed_surface, Severity::fatal, closed.count, closed.first,
-            report.components == 1
-                ? std::string("the surface is closed, it has no boundary")
-                : fmt::format("{} closed, without a boundary (first: the one of face {})",
-                              counted(closed.count, "piece is", "pieces are"), closed.first),
-            "a sheet is given by one of its skins: delete the other side and the faces across the thickness");
+        report.add(Fault::closed_surface, Severity::fatal, closed.count, closed.first,
+                   report.components == 1 ? std::string("the surface is closed, it has no boundary")
+                                          : fmt::format("{} closed, without a boundary (first: the one of face {})",
+                                                        counted(closed.count, "piece is", "pieces are"), closed.first),
+                   "a sheet is given by one of its skins: delete the other side and the faces across the thickness");
     if (report.genus.value_or(0) > 0)
         report.add(Fault::handle, Severity::fatal, *report.genus, -1,
                    fmt::format("the surface has {} (genus {}), like that of a cup: it cannot be laid flat",
@@ -525,12 +509,11 @@ void note_slivers(const Surface& s, double angle_deg, DoctorReport& report)
             slivers.add(s.number[f]);
     }
     if (slivers.count > 0)
-        report.add(
-            Fault::sliver, Severity::note, slivers.count, slivers.first,
-            fmt::format("{} an angle below {:.3g} degrees (first: face {}); the smallest is {:.3g} degrees",
-                        counted(slivers.count, "triangle has", "triangles have"), angle_deg, slivers.first,
-                        least * 180 / std::numbers::pi),
-            "strains there mean little; a more even mesh is better");
+        report.add(Fault::sliver, Severity::note, slivers.count, slivers.first,
+                   fmt::format("{} an angle below {:.3g} degrees (first: face {}); the smallest is {:.3g} degrees",
+                               counted(slivers.count, "triangle has", "triangles have"), angle_deg, slivers.first,
+                               least * 180 / std::numbers::pi),
+                   "strains there mean little; a more even mesh is better");
 }
 
 } // namespace
@@ -538,42 +521,24 @@ void note_slivers(const Surface& s, double angle_deg, DoctorReport& report)
 std::string_view name(Fault fault)
 {
     switch (fault) {
-    case Fault::nothing_there:
-        return "no faces";
-    case Fault::bad_index:
-        return "missing vertex";
-    case Fault::bad_coordinate:
-        return "bad coordinate";
-    case Fault::coincident_vertex:
-        return "coincident vertices";
-    case Fault::repeated_corner:
-        return "repeated corner";
-    case Fault::duplicate_face:
-        return "duplicate face";
-    case Fault::polygon:
-        return "polygon";
-    case Fault::crossing_polygon:
-        return "crossing polygon";
-    case Fault::flat_face:
-        return "face without area";
-    case Fault::crowded_edge:
-        return "non-manifold edge";
-    case Fault::flipped_face:
-        return "flipped orientation";
-    case Fault::one_sided:
-        return "one-sided surface";
-    case Fault::stray_vertex:
-        return "stray vertex";
-    case Fault::touching_fans:
-        return "non-manifold vertex";
-    case Fault::several_components:
-        return "several components";
-    case Fault::closed_surface:
-        return "closed surface";
-    case Fault::handle:
-        return "handle";
-    case Fault::sliver:
-        return "sliver";
+    case Fault::nothing_there: return "no faces";
+    case Fault::bad_index: return "missing vertex";
+    case Fault::bad_coordinate: return "bad coordinate";
+    case Fault::coincident_vertex: return "coincident vertices";
+    case Fault::repeated_corner: return "repeated corner";
+    case Fault::duplicate_face: return "duplicate face";
+    case Fault::polygon: return "polygon";
+    case Fault::crossing_polygon: return "crossing polygon";
+    case Fault::flat_face: return "face without area";
+    case Fault::crowded_edge: return "non-manifold edge";
+    case Fault::flipped_face: return "flipped orientation";
+    case Fault::one_sided: return "one-sided surface";
+    case Fault::stray_vertex: return "stray vertex";
+    case Fault::touching_fans: return "non-manifold vertex";
+    case Fault::several_components: return "several components";
+    case Fault::closed_surface: return "closed surface";
+    case Fault::handle: return "handle";
+    case Fault::sliver: return "sliver";
     }
     return "";
 }
@@ -591,8 +556,7 @@ const Finding* DoctorReport::find(Fault fault) const
     return found == findings.end() ? nullptr : &*found;
 }
 
-void DoctorReport::add(Fault fault, Severity severity, int count, int first, std::string text,
-                       std::string advice)
+void DoctorReport::add(Fault fault, Severity severity, int count, int first, std::string text, std::string advice)
 {
     findings.push_back({fault, severity, count, first, std::move(text), std::move(advice)});
 }

@@ -8,8 +8,7 @@
 #include "engine/mesh/soup.h"
 #include "engine/mesh/tri_mesh.h"
 
-namespace spia
-{
+namespace spia {
 
 /// What can be wrong with a mesh as a file gives it; in brackets what `first` of a finding counts.
 enum class Fault {
@@ -41,8 +40,8 @@ struct Finding {
     Fault fault;
     Severity severity;
     int count;
-    int first;        ///< face or vertex (see Fault) as in the file, counted from 0; -1 if none can be named
-    std::string text; ///< what was found and, if repaired, what was done
+    int first;          ///< face or vertex (see Fault) as in the file, counted from 0; -1 if none can be named
+    std::string text;   ///< what was found and, if repaired, what was done
     std::string advice; ///< what to do about it; empty if nothing has to be done
 };
 
@@ -61,7 +60,7 @@ struct DoctorReport {
 };
 
 struct DoctorOptions {
-    bool weld = false; ///< join vertices at one place; right for files that repeat a vertex in each face
+    bool weld = false;            ///< join vertices at one place; right for files that repeat a vertex in each face
     double weld_tolerance = 1e-6; ///< of the diagonal: gaps closed at open edges; 0: equal coordinates only
     double sliver_angle_deg = 1;  ///< a triangle with a smaller angle is noted
 };
@@ -78,8 +77,7 @@ struct Examination {
 /// Makes a triangle mesh of a polygon soup: joins, splits, turns and removes what can be repaired without
 /// changing the sheet, and reports every change and every fault that is left. Vertices and faces keep the
 /// order of the file. Never throws for what the soup contains (only Cancelled).
-Examination examine(const PolygonSoup& soup, const DoctorOptions& options = {},
-                    const Progress& progress = {});
+Examination examine(const PolygonSoup& soup, const DoctorOptions& options = {}, const Progress& progress = {});
 
 /// @throws InputError with the first three fatal findings and what to do about them
 void require_healthy(const DoctorReport& report);

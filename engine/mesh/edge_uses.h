@@ -4,8 +4,7 @@
 #include <tuple>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 using Triangle = std::array<int, 3>;
 

@@ -18,10 +18,7 @@ namespace {
 
 constexpr double largest_cotangent = 1e3; // of a sliver: keeps one bad triangle from ruling the equations
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double loop_area(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane)
 {
@@ -56,8 +53,8 @@ void require_disk(const FilledMesh& filled)
             components += find(v) == v;
         }
     if (components != 1)
-        throw InputError(fmt::format(
-            "the part has {} pieces that do not hang together; weld them or take one of them", components));
+        throw InputError(
+            fmt::format("the part has {} pieces that do not hang together; weld them or take one of them", components));
     const int boundary_edges = int(filled.outline.size());
     const int edges = (3 * mesh.triangles() + boundary_edges) / 2;
     const int euler = vertices - edges + mesh.triangles();

@@ -4,21 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using Eigen::Vector3d;
 
-bool has(const Triangle& t, int v)
-{
-    return t[0] == v || t[1] == v || t[2] == v;
-}
+bool has(const Triangle& t, int v) { return t[0] == v || t[1] == v || t[2] == v; }
 
 /// The triangles around each vertex, kept up to date while triangles change.
-class Surgery
-{
+class Surgery {
 public:
     Surgery(std::vector<Triangle>& triangles, const std::vector<Vector3d>& position)
         : triangles_(triangles), position_(position), around_(position.size())
@@ -34,8 +28,7 @@ public:
     /// So many triangles at one corner are no sheet; searching among them takes their number squared.
     bool crowded(int f)
     {
-        return std::any_of(tri(f).begin(), tri(f).end(),
-                           [&](int v) { return around_[size_t(v)].size() > 200; });
+        return std::any_of(tri(f).begin(), tri(f).end(), [&](int v) { return around_[size_t(v)].size() > 200; });
     }
 
     /// Joins the ends of the shortest edge if they lie at one place.
@@ -166,8 +159,7 @@ private:
             return false;
         const std::vector<int> near_a = neighbours(a), near_b = neighbours(b);
         std::vector<int> common;
-        std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(),
-                              std::back_inserter(common));
+        std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(common));
         const bool faces_left = around_[size_t(a)].size() + around_[size_t(b)].size() > 2 * sharing.size();
         return faces_left && common.size() == sharing.size();
     }
@@ -229,13 +221,11 @@ private:
 bool is_flat(const Triangle& t, const std::vector<Eigen::Vector3d>& position)
 {
     const Vector3d &a = position[size_t(t[0])], &b = position[size_t(t[1])], &c = position[size_t(t[2])];
-    const double longest =
-        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     return !((b - a).cross(c - a).norm() > flat_height * longest * longest);
 }
 
-FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles,
-                                 const std::vector<Eigen::Vector3d>& position)
+FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& position)
 {
     std::vector<int> flat;
     for (size_t f = 0; f < triangles.size(); ++f)

@@ -4,8 +4,7 @@
 
 #include "engine/mesh/edge_uses.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Triangles without area are lower than this part of their longest edge. Single precision moves a corner by
 /// 6e-8 of its coordinate, so a lower triangle in such a file says nothing about the sheet.
@@ -24,7 +23,6 @@ struct FlatRepair {
 
 /// Removes triangles without area where the surface keeps its shape and stays a surface (no edge gets a third
 /// face, no vertex a second fan). Expects edges with at most two triangles, consistently oriented.
-FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles,
-                                 const std::vector<Eigen::Vector3d>& position);
+FlatRepair repair_flat_triangles(std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& position);
 
 } // namespace spia

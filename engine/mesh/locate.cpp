@@ -17,10 +17,7 @@ using Entry = std::pair<Box, int>;
 
 constexpr double relative_tolerance = 1e-10;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The nearest point of the segment a b, as the weight of b.
 double nearest_on_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
@@ -97,10 +94,7 @@ PlanarLocator::~PlanarLocator() = default;
 PlanarLocator::PlanarLocator(PlanarLocator&&) noexcept = default;
 PlanarLocator& PlanarLocator::operator=(PlanarLocator&&) noexcept = default;
 
-double PlanarLocator::tolerance() const
-{
-    return tree_->tolerance;
-}
+double PlanarLocator::tolerance() const { return tree_->tolerance; }
 
 MeshPoint PlanarLocator::nearest(const Eigen::Vector2d& point) const
 {

@@ -13,19 +13,12 @@ namespace {
 using Point = Eigen::Vector2d;
 using Triangle = std::array<int, 3>;
 
-constexpr double growth = 1.25; // of the spacing from one ring of points to the next
-constexpr double flip_tolerance =
-    1e-10; // sine of what the angles against an edge exceed pi: keeps flips from cycling
+constexpr double growth = 1.25;          // of the spacing from one ring of points to the next
+constexpr double flip_tolerance = 1e-10; // sine of what the angles against an edge exceed pi: keeps flips from cycling
 constexpr int most_passes = 60;
 
-double cross(const Point& a, const Point& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-double doubled_area(const Point& a, const Point& b, const Point& c)
-{
-    return cross(b - a, c - a);
-}
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+double doubled_area(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
 
 /// Doubled area over the squared longest edge: 0.87 for an equilateral triangle, 0 or less for a flat or
 /// turned one.
@@ -96,8 +89,7 @@ private:
             return;
         for (int k = next_[next_[i]]; k != previous_[i]; k = next_[k]) {
             const Point p = point(k);
-            const bool covered =
-                doubled_area(a, b, p) >= 0 && doubled_area(b, c, p) >= 0 && doubled_area(c, a, p) >= 0;
+            const bool covered = doubled_area(a, b, p) >= 0 && doubled_area(b, c, p) >= 0 && doubled_area(c, a, p) >= 0;
             if (covered && p != a && p != b && p != c) {
                 quality_[i] = 0;
                 return;

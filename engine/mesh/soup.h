@@ -3,8 +3,7 @@
 #include <span>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// Polygons as a file gives them: nothing has been checked, joined, split or turned yet.
 struct PolygonSoup {
@@ -16,8 +15,7 @@ struct PolygonSoup {
     int polygons() const { return int(first.size()) - 1; }
     std::span<const int> polygon(int p) const
     {
-        return std::span(corner).subspan(size_t(first[size_t(p)]),
-                                         size_t(first[size_t(p) + 1] - first[size_t(p)]));
+        return std::span(corner).subspan(size_t(first[size_t(p)]), size_t(first[size_t(p) + 1] - first[size_t(p)]));
     }
     void add_polygon(std::span<const int> corners)
     {

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 using Triangles = std::vector<std::array<int, 3>>;
@@ -51,8 +49,7 @@ double quality(const Vector2d& a, const Vector2d& b, const Vector2d& c)
     return edge[1] > 0 ? doubled_area(a, b, c) / (edge[1] * edge[2]) : 0;
 }
 
-constexpr double flat =
-    1e-9; // sine of an angle that counts as zero; far above rounding, far below a usable triangle
+constexpr double flat = 1e-9; // sine of an angle that counts as zero; far above rounding, far below a usable triangle
 
 Triangles split_quad(std::span<const Vector3d> corners, const std::vector<Vector2d>& p)
 {
@@ -100,8 +97,7 @@ Triangles clip_ears(const std::vector<Vector2d>& p)
 
     Triangles triangles;
     while (rest.size() > 3) {
-        const size_t n = rest.size(),
-                     i = size_t(std::max_element(value.begin(), value.end()) - value.begin());
+        const size_t n = rest.size(), i = size_t(std::max_element(value.begin(), value.end()) - value.begin());
         if (!(value[i] > flat))
             return {};
         triangles.push_back({rest[(i + n - 1) % n], rest[i], rest[(i + 1) % n]});

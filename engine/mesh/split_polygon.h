@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// Splits one polygon into n - 2 triangles without new points; the triangles have its orientation.
 /// A quad takes its shorter diagonal unless that one folds it over; a longer polygon loses, one after the

@@ -8,10 +8,8 @@
 #include "engine/mesh/split_polygon.h"
 #include "engine/mesh/weld.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 /// Polygons that went through the first repairs.
 struct Polygons {
@@ -60,8 +58,7 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
     return themselves;
 }
 
-Polygons without_repeated_corners(const PolygonSoup& soup, const std::vector<int>& same_as,
-                                  DoctorReport& report)
+Polygons without_repeated_corners(const PolygonSoup& soup, const std::vector<int>& same_as, DoctorReport& report)
 {
     Polygons kept;
     Tally repeated, twisted;
@@ -87,10 +84,9 @@ Polygons without_repeated_corners(const PolygonSoup& soup, const std::vector<int
     if (repeated.count > 0)
         report.add(
             Fault::repeated_corner, Severity::repaired, repeated.count, repeated.first,
-            fmt::format(
-                "{} one vertex at neighbouring corners or fewer than three corners (first: face {}); those "
-                "with three different corners were kept without the repetition, the others left out",
-                counted(repeated.count, "face has", "faces have"), repeated.first),
+            fmt::format("{} one vertex at neighbouring corners or fewer than three corners (first: face {}); those "
+                        "with three different corners were kept without the repetition, the others left out",
+                        counted(repeated.count, "face has", "faces have"), repeated.first),
             "");
     if (twisted.count > 0)
         report.add(Fault::repeated_corner, Severity::fatal, twisted.count, twisted.first,
@@ -139,8 +135,8 @@ Polygons without_duplicates(const Polygons& polygons, DoctorReport& report)
     return kept;
 }
 
-SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector3d>& position,
-                       DoctorReport& report, const Progress& progress)
+SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector3d>& position, DoctorReport& report,
+                       const Progress& progress)
 {
     constexpr size_t most_corners = 1000; // splitting takes time with the square of it
     SurfaceTriangles result;
@@ -173,8 +169,7 @@ SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector
     if (crossing.count > 0)
         report.add(Fault::crossing_polygon, Severity::fatal, crossing.count, crossing.first,
                    fmt::format("{} or more than {} corners (first: face {})",
-                               counted(crossing.count, "face crosses itself or has",
-                                       "faces cross themselves or have"),
+                               counted(crossing.count, "face crosses itself or has", "faces cross themselves or have"),
                                most_corners, crossing.first),
                    "split such faces into triangles where they were made");
     return result;
@@ -187,8 +182,8 @@ std::string counted(int n, std::string_view one, std::string_view many)
     return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options,
-                                   DoctorReport& report, const Progress& progress)
+SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report,
+                                   const Progress& progress)
 {
     progress.checkpoint(0, "joining vertices");
     const std::vector<int> same_as = join_vertices(soup, options, report);

@@ -7,8 +7,7 @@
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/edge_uses.h"
 
-namespace spia
-{
+namespace spia {
 
 /// The triangles a soup's polygons were split into. Vertices keep their numbers in the soup.
 struct SurfaceTriangles {
@@ -18,8 +17,8 @@ struct SurfaceTriangles {
 
 /// Joins vertices if asked to, removes repeated corners and duplicates, and splits what has more than three
 /// corners; every change is added to the report. Expects indices in range and finite coordinates.
-SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options,
-                                   DoctorReport& report, const Progress& progress);
+SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report,
+                                   const Progress& progress);
 
 /// Counts faults of one kind and remembers the first.
 struct Tally {

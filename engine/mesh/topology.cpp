@@ -17,8 +17,8 @@ HalfedgeMesh halfedges(const TriMesh& mesh)
         result.add_vertex({mesh.position(0, v), mesh.position(1, v), mesh.position(2, v)});
     for (int f = 0; f < mesh.triangles(); ++f) {
         const auto t = mesh.triangle.col(f);
-        const auto face = result.add_face(OpenMesh::VertexHandle(t[0]), OpenMesh::VertexHandle(t[1]),
-                                          OpenMesh::VertexHandle(t[2]));
+        const auto face =
+            result.add_face(OpenMesh::VertexHandle(t[0]), OpenMesh::VertexHandle(t[1]), OpenMesh::VertexHandle(t[2]));
         if (!face.is_valid())
             throw InputError(fmt::format(
                 "face {} (vertices {}, {}, {}) shares an edge with two others or is turned against its neighbours; "
@@ -54,8 +54,7 @@ std::vector<std::vector<int>> boundary_loops(const TriMesh& mesh)
             sum += (mesh.position.col(loop[(i + 1) % loop.size()]) - mesh.position.col(loop[i])).norm();
         return sum;
     };
-    std::stable_sort(loops.begin(), loops.end(),
-                     [&](const auto& a, const auto& b) { return length(a) > length(b); });
+    std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return length(a) > length(b); });
     return loops;
 }
 

@@ -9,10 +9,8 @@
 #include <tuple>
 #include <unordered_map>
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using Eigen::Vector3d;
 
@@ -25,8 +23,7 @@ std::vector<int> join_equal(const std::vector<Vector3d>& position)
         const Vector3d &p = position[size_t(a)], &q = position[size_t(b)];
         return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
     };
-    std::sort(order.begin(), order.end(),
-              [&](int a, int b) { return before(a, b) || (!before(b, a) && a < b); });
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return before(a, b) || (!before(b, a) && a < b); });
     std::vector<int> same_as(position.size());
     for (size_t i = 0; i < order.size(); ++i) {
         const bool joins = i > 0 && position[size_t(order[i])] == position[size_t(order[i - 1])];
@@ -59,8 +56,7 @@ std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& 
 
 /// A grid of cubes of one tolerance: whatever is closer than that lies in the same cube or one of its 26
 /// neighbours.
-class NearGrid
-{
+class NearGrid {
 public:
     explicit NearGrid(double cell) : cell_(cell) {}
 
@@ -128,9 +124,8 @@ std::vector<Gap> gaps(const std::vector<Vector3d>& position, const std::vector<i
         result.insert(result.end(), here.begin(), here.begin() + long(std::min(most, here.size())));
         grid.add(int(i), p);
     }
-    std::sort(result.begin(), result.end(), [](const Gap& g, const Gap& h) {
-        return std::tie(g.width, g.a, g.b) < std::tie(h.width, h.a, h.b);
-    });
+    std::sort(result.begin(), result.end(),
+              [](const Gap& g, const Gap& h) { return std::tie(g.width, g.a, g.b) < std::tie(h.width, h.a, h.b); });
     return result;
 }
 
@@ -171,8 +166,7 @@ void close_gaps(const PolygonSoup& soup, double tolerance, Weld& result)
         return i;
     };
     for (const Gap& gap : gaps(soup.position, open, tolerance)) {
-        const size_t a = size_t(std::min(root(gap.a), root(gap.b))),
-                     b = size_t(std::max(root(gap.a), root(gap.b)));
+        const size_t a = size_t(std::min(root(gap.a), root(gap.b))), b = size_t(std::max(root(gap.a), root(gap.b)));
         if (a == b || have_common(at[a], at[b]))
             continue;
         std::vector<int> both;

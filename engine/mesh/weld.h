@@ -3,13 +3,12 @@
 
 #include "engine/mesh/soup.h"
 
-namespace spia
-{
+namespace spia {
 
 /// Which vertices are one and the same point.
 struct Weld {
     std::vector<int>
-        same_as; ///< #V, the first vertex of its place; same_as[v] <= v and same_as[same_as[v]] == same_as[v]
+        same_as;       ///< #V, the first vertex of its place; same_as[v] <= v and same_as[same_as[v]] == same_as[v]
     int exact = 0;     ///< vertices joined because all three coordinates are equal
     int near = 0;      ///< vertices joined across a gap
     double widest = 0; ///< mm, the widest gap that was closed

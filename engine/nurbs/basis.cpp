@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 using Row = std::array<double, max_degree + 1>;
 
@@ -46,8 +44,7 @@ int find_span(const std::vector<double>& knots, int degree, double u)
     const auto from = knots.begin() + degree, to = knots.end() - degree - 1;
     assert(from < to && *from < *to);
     // At the end of the domain, and beyond, the half-open rule would give a span of no length.
-    const auto after =
-        u >= *to ? std::lower_bound(from, to, *to) : std::upper_bound(from, to, std::max(u, *from));
+    const auto after = u >= *to ? std::lower_bound(from, to, *to) : std::upper_bound(from, to, std::max(u, *from));
     return int(after - knots.begin()) - 1;
 }
 

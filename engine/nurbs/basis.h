@@ -2,8 +2,7 @@
 #include <array>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// The highest degree that is evaluated; what others read from files we have not seen go beyond 7.
 constexpr int max_degree = 9;

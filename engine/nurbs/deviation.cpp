@@ -15,33 +15,27 @@
 #include "engine/nurbs/project.h"
 #include "engine/nurbs/tessellate.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 void require_in_range(const NurbsSurface& surface, const TriMesh& mesh, const DeviationOptions& options)
 {
     if (options.part_faces == 0 || options.part_faces > mesh.triangles())
-        throw InputError(
-            fmt::format("{} of the mesh's {} faces cannot be the part's; give their number, or -1 for all",
-                        options.part_faces, mesh.triangles()));
+        throw InputError(fmt::format("{} of the mesh's {} faces cannot be the part's; give their number, or -1 for all",
+                                     options.part_faces, mesh.triangles()));
     const auto inside = [](const std::vector<double>& parameters, const std::vector<double>& knots) {
         return std::is_sorted(parameters.begin(), parameters.end()) &&
-               (parameters.empty() ||
-                (parameters.front() >= knots.front() && parameters.back() <= knots.back()));
+               (parameters.empty() || (parameters.front() >= knots.front() && parameters.back() <= knots.back()));
     };
     if (!inside(options.data_u, surface.knots_u) || !inside(options.data_v, surface.knots_v) ||
         options.data_u.empty() != options.data_v.empty())
-        throw InputError(
-            "the parameters of the data must rise within the surface's domain, along u and along v; give "
-            "those that came with the interpolated surface");
+        throw InputError("the parameters of the data must rise within the surface's domain, along u and along v; give "
+                         "those that came with the interpolated surface");
 }
 
 /// Runs body(i) for 0 <= i < count on the available threads, with a checkpoint now and then.
-template <class Body>
-void for_each_sample(int count, const Progress& progress, std::string_view step, const Body& body)
+template <class Body> void for_each_sample(int count, const Progress& progress, std::string_view step, const Body& body)
 {
     constexpr int at_a_time = 65536;
     for (int from = 0; from < count; from += std::min(at_a_time, count - from)) {
@@ -114,13 +108,13 @@ std::vector<double> shares(const std::vector<double>& parameters)
 /// The distances of the surface at u x v from the mesh.
 DeviationStatistics measure_surface(const NurbsSurface& surface, const std::vector<double>& u,
                                     const std::vector<double>& v, const std::vector<double>& share_u,
-                                    const std::vector<double>& share_v, const ClosestPointSearch& mesh,
-                                    int part_faces, const Progress& progress)
+                                    const std::vector<double>& share_v, const ClosestPointSearch& mesh, int part_faces,
+                                    const Progress& progress)
 {
     const int columns = int(u.size());
     if (double(columns) * double(v.size()) > std::numeric_limits<int>::max())
-        throw InputError(fmt::format("{} x {} samples of the surface are too many; ask for fewer per span",
-                                     columns, v.size()));
+        throw InputError(
+            fmt::format("{} x {} samples of the surface are too many; ask for fewer per span", columns, v.size()));
     const int count = columns * int(v.size());
     const auto at = [&](int i) { return evaluate(surface, u[size_t(i % columns)], v[size_t(i / columns)]); };
     Samples samples(count);
@@ -224,27 +218,25 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
 {
     require_in_range(surface, mesh, options);
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
-    const std::vector<double> u =
-        sample_parameters(surface.knots_u, surface.degree_u, options.samples_per_span);
-    const std::vector<double> v =
-        sample_parameters(surface.knots_v, surface.degree_v, options.samples_per_span);
+    const std::vector<double> u = sample_parameters(surface.knots_u, surface.degree_u, options.samples_per_span);
+    const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, options.samples_per_span);
     const ClosestPointSearch search(mesh);
 
     Deviation result;
     result.surface_to_mesh =
         measure_surface(surface, u, v, shares(u), shares(v), search, part_faces, progress.part(0, 0.3));
     if (!options.data_u.empty())
-        result.between_data = measure_surface(surface, middles(options.data_u), middles(options.data_v),
-                                              lengths(options.data_u), lengths(options.data_v), search,
-                                              part_faces, progress.part(0.3, 0.35));
+        result.between_data =
+            measure_surface(surface, middles(options.data_u), middles(options.data_v), lengths(options.data_u),
+                            lengths(options.data_v), search, part_faces, progress.part(0.3, 0.35));
 
     progress.checkpoint(0.35, "preparing the surface");
     const SurfaceProjection projection(surface, start_samples_per_span(surface, options.samples_per_span));
     MeshSamples places = sample_mesh(mesh, part_faces);
     const Eigen::Matrix3Xd normal = vertex_normals(mesh);
     result.at_vertex.resize(mesh.vertices());
-    for_each_sample(int(places.position.cols()), progress.part(0.4, 1),
-                    "measuring from the mesh to the surface", [&](int i) {
+    for_each_sample(int(places.position.cols()), progress.part(0.4, 1), "measuring from the mesh to the surface",
+                    [&](int i) {
                         const Eigen::Vector3d point = places.position.col(i);
                         const SurfaceFoot foot = projection.nearest(point);
                         places.samples.distance[size_t(i)] = foot.distance;

@@ -6,12 +6,10 @@
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 struct DeviationOptions {
-    int samples_per_span =
-        4; ///< of the surface, in each direction; the borders of the spans are always sampled
+    int samples_per_span = 4; ///< of the surface, in each direction; the borders of the spans are always sampled
     /// The part's faces are the mesh's first ones, faces after them fill its holes: what the surface does
     /// there is no deviation. -1: all faces are the part's.
     int part_faces = -1;
@@ -36,9 +34,8 @@ struct DeviationStatistics {
 /// How far a surface and the mesh it stands for are from each other.
 struct Deviation {
     DeviationStatistics surface_to_mesh; ///< samples of the surface to the nearest place of the mesh
-    DeviationStatistics
-        mesh_to_surface; ///< the part's vertices, edge and face midpoints to the nearest of the surface
-    DeviationStatistics between_data; ///< the surface in the middle between the data, to the mesh
+    DeviationStatistics mesh_to_surface; ///< the part's vertices, edge and face midpoints to the nearest of the surface
+    DeviationStatistics between_data;    ///< the surface in the middle between the data, to the mesh
     /// Per vertex of the mesh, those of filled holes too: distance to the surface, mm; positive where the
     /// surface runs on the outer side of the part.
     Eigen::VectorXd at_vertex;

@@ -6,8 +6,7 @@
 
 #include "engine/nurbs/basis.h"
 
-namespace spia
-{
+namespace spia {
 
 Eigen::Vector3d SurfacePoint::normal() const
 {

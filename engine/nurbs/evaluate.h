@@ -1,8 +1,7 @@
 #pragma once
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// A surface and its derivatives at one place. Parameters have no unit: every vector is in mm.
 struct SurfacePoint {

@@ -8,28 +8,24 @@
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 void require_usable(const QuadGrid& grid)
 {
     if (grid.columns < 1 || grid.rows < 1)
-        throw InputError(fmt::format("a grid of {} x {} cells has no surface; ask for at least 1 x 1",
-                                     grid.columns, grid.rows));
-    if (grid.position.cols() != grid.nodes())
         throw InputError(
-            fmt::format("the grid of {} x {} cells needs {} nodes but has {}; fill and lift it again",
-                        grid.columns, grid.rows, grid.nodes(), grid.position.cols()));
+            fmt::format("a grid of {} x {} cells has no surface; ask for at least 1 x 1", grid.columns, grid.rows));
+    if (grid.position.cols() != grid.nodes())
+        throw InputError(fmt::format("the grid of {} x {} cells needs {} nodes but has {}; fill and lift it again",
+                                     grid.columns, grid.rows, grid.nodes(), grid.position.cols()));
     for (int j = 0; j <= grid.rows; ++j)
         for (int i = 0; i <= grid.columns; ++i)
             if (!grid.position.col(grid.node(i, j)).allFinite())
-                throw InputError(
-                    fmt::format("node ({}, {}) of the grid has a coordinate that is not a number; lift "
-                                "the grid again",
-                                i, j));
+                throw InputError(fmt::format("node ({}, {}) of the grid has a coordinate that is not a number; lift "
+                                             "the grid again",
+                                             i, j));
 }
 
 /// The grid with columns and rows exchanged.
@@ -51,20 +47,16 @@ struct MeanParameters {
 double interval(const Eigen::Vector3d& a, const Eigen::Vector3d& b, InterpolateOptions::Parameters kind)
 {
     switch (kind) {
-    case InterpolateOptions::Parameters::chord:
-        return (b - a).norm();
-    case InterpolateOptions::Parameters::centripetal:
-        return std::sqrt((b - a).norm());
-    case InterpolateOptions::Parameters::uniform:
-        break;
+    case InterpolateOptions::Parameters::chord: return (b - a).norm();
+    case InterpolateOptions::Parameters::centripetal: return std::sqrt((b - a).norm());
+    case InterpolateOptions::Parameters::uniform: break;
     }
     return 1;
 }
 
 /// Parameters along u: each row of points divides [0, 1] by the lengths of its intervals, and the rows' mean
 /// is taken.
-MeanParameters mean_parameters(const Eigen::Matrix3Xd& points, int count_u,
-                               InterpolateOptions::Parameters kind)
+MeanParameters mean_parameters(const Eigen::Matrix3Xd& points, int count_u, InterpolateOptions::Parameters kind)
 {
     const int intervals = count_u - 1, rows = int(points.cols()) / count_u;
     Eigen::MatrixXd length(intervals, rows);
@@ -120,8 +112,7 @@ std::vector<double> knots_at_parameters(const std::vector<double>& parameters)
 }
 
 /// One direction of the interpolation: curves through points at fixed parameters.
-class CurveSolver
-{
+class CurveSolver {
 public:
     CurveSolver(const std::vector<double>& parameters, InterpolateOptions::Ends ends)
         : natural_(ends == InterpolateOptions::Ends::natural), points_(int(parameters.size()))
@@ -162,8 +153,7 @@ public:
     Eigen::Matrix3Xd solve(const Eigen::Matrix3Xd& points, int width) const
     {
         const Eigen::Map<const Eigen::MatrixXd> rows(points.data(), 3 * width, points_);
-        Eigen::MatrixXd right =
-            Eigen::MatrixXd::Zero(count, 3 * width); // one column per curve and coordinate
+        Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3 * width); // one column per curve and coordinate
         for (int j = 0; j < points_; ++j)
             right.row(row_of_point(j)) = rows.col(j).transpose();
         const Eigen::MatrixXd solution = lu_.solve(right);
@@ -192,8 +182,7 @@ private:
 
 } // namespace
 
-InterpolateResult interpolate(const QuadGrid& lifted, const InterpolateOptions& options,
-                              const Progress& progress)
+InterpolateResult interpolate(const QuadGrid& lifted, const InterpolateOptions& options, const Progress& progress)
 {
     require_usable(lifted);
     const int nodes_u = lifted.columns + 1, nodes_v = lifted.rows + 1;

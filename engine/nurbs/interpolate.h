@@ -5,8 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 struct InterpolateOptions {
     /// What the degrees of freedom beyond the data are used for.
@@ -34,9 +33,8 @@ struct InterpolateOptions {
 };
 
 struct InterpolateResult {
-    NurbsSurface surface; ///< all weights 1
-    std::vector<double>
-        u; ///< columns + 1 parameters rising from 0 to 1: node (i, j) of the grid is S(u[i], v[j])
+    NurbsSurface surface;  ///< all weights 1
+    std::vector<double> u; ///< columns + 1 parameters rising from 0 to 1: node (i, j) of the grid is S(u[i], v[j])
     std::vector<double> v; ///< rows + 1 parameters
     /// Neighbouring columns (rows) of nodes that coincide, or nearly so: their parameters were held apart so
     /// that the surface exists, but it stands still between them and has no normal there. 0 for a good grid.

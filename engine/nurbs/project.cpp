@@ -8,11 +8,9 @@
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/tessellate.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 /// The rectangle of the parameters.
 struct Domain {

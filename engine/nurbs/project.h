@@ -2,8 +2,7 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// The place of a surface that is nearest to a point.
 struct SurfaceFoot {
@@ -13,8 +12,7 @@ struct SurfaceFoot {
 };
 
 /// Projects many points on one surface. Searching from several threads at a time is safe.
-class SurfaceProjection
-{
+class SurfaceProjection {
 public:
     /// @param samples_per_span  where Newton's method starts: at the nearest place of this tessellation. Two
     /// sheets of

@@ -8,14 +8,12 @@
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
 
-namespace spia
-{
+namespace spia {
 
 std::vector<double> sample_parameters(const std::vector<double>& knots, int degree, int samples_per_span)
 {
     if (samples_per_span < 1)
-        throw InputError(
-            fmt::format("{} samples per span show nothing; ask for 1 or more", samples_per_span));
+        throw InputError(fmt::format("{} samples per span show nothing; ask for 1 or more", samples_per_span));
     const std::vector<double> border = span_borders(knots, degree);
     std::vector<double> result;
     for (size_t s = 0; s + 1 < border.size(); ++s)
@@ -31,9 +29,8 @@ Tessellation tessellate(const NurbsSurface& surface, int samples_per_span, const
     const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, samples_per_span);
     const int columns = int(u.size()) - 1, rows = int(v.size()) - 1;
     if (2.0 * columns * rows > std::numeric_limits<int>::max() / 3)
-        throw InputError(
-            fmt::format("{} x {} cells are too many triangles; ask for fewer samples per span than {}",
-                        columns, rows, samples_per_span));
+        throw InputError(fmt::format("{} x {} cells are too many triangles; ask for fewer samples per span than {}",
+                                     columns, rows, samples_per_span));
 
     progress.checkpoint(0, "tessellating the surface");
     Tessellation result;

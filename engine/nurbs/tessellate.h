@@ -3,15 +3,13 @@
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/surface.h"
 
-namespace spia
-{
+namespace spia {
 
 /// A surface as triangles, counter-clockwise in the (u, v) plane.
 struct Tessellation {
     TriMesh mesh;
-    Eigen::Matrix2Xd uv; ///< 2 by #V, parameters of the vertices
-    Eigen::Matrix3Xd
-        normal; ///< 3 by #V, unit, S_u x S_v; on a collapsed side its limit
+    Eigen::Matrix2Xd uv;     ///< 2 by #V, parameters of the vertices
+    Eigen::Matrix3Xd normal; ///< 3 by #V, unit, S_u x S_v; on a collapsed side its limit
 };
 
 /// Samples every span evenly, its borders included; two triangles per cell. Along a side collapsed to a

@@ -31,8 +31,8 @@ std::vector<std::filesystem::path> write_outputs(const Session& session, const s
         throw InputError("there is nothing to write yet: run the chain to its end first");
     for (const std::string& format : formats)
         if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
-            throw InputError(fmt::format("the format \"{}\" is not known; known are {}", format,
-                                         fmt::join(output_formats(), ", ")));
+            throw InputError(
+                fmt::format("the format \"{}\" is not known; known are {}", format, fmt::join(output_formats(), ", ")));
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     if (failed)
@@ -43,8 +43,9 @@ std::vector<std::filesystem::path> write_outputs(const Session& session, const s
     const NurbsSurface& surface = session.surface->result.surface;
     const std::string name = session.file.stem().string();
     const Tessellation tessellation = tessellate(surface, 3);
-    const ExportScene scene{name,          &part, &flat.blank, &flat.node, &session.lifted->lifted, &tessellation.mesh,
-                            &tessellation.normal, &surface};
+    const ExportScene scene{
+        name,    &part, &flat.blank, &flat.node, &session.lifted->lifted, &tessellation.mesh, &tessellation.normal,
+        &surface};
 
     std::vector<std::filesystem::path> files;
     const auto file = [&](const std::string& file_name) -> const std::filesystem::path& {

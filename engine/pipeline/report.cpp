@@ -161,9 +161,10 @@ std::vector<std::string> shortcomings(const Session& session)
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
         if (const int n = crossings(boundary_loops(session.part->mesh), flat.blank.position))
-            list.push_back(fmt::format("the outline of the blank crosses itself at {} places: the flat sheet would overlap; "
-                                       "cut the part or unfold it in steps",
-                                       n));
+            list.push_back(
+                fmt::format("the outline of the blank crosses itself at {} places: the flat sheet would overlap; "
+                            "cut the part or unfold it in steps",
+                            n));
     }
     if (session.grid && session.grid->result.quality.folded_cells > 0)
         list.push_back(fmt::format("{} cells of the grid are folded; choose other corners or the harmonic method",
@@ -225,7 +226,8 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
     optional("genus", part.doctor.genus);
     optional("euler_characteristic", part.doctor.euler_characteristic);
     if (part.doctor.healthy()) {
-        const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(), high = part.mesh.position.rowwise().maxCoeff();
+        const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(),
+                              high = part.mesh.position.rowwise().maxCoeff();
         json["triangles"] = part.mesh.triangles();
         json["area_mm2"] = area(part.mesh);
         json["bounding_box_mm"] = {low[0], low[1], low[2], high[0], high[1], high[2]};

@@ -16,9 +16,10 @@ std::array<int, 4> corners_in_mesh(const PartFile& part, const std::array<int, 4
     for (size_t k = 0; k < 4; ++k) {
         const auto found = std::find(part.source_vertex.begin(), part.source_vertex.end(), in_file[k]);
         if (found == part.source_vertex.end())
-            throw InputError(fmt::format("corner {} is not a vertex of the part (they count from 0 in the file's order); "
-                                         "choose four vertices of the outer boundary",
-                                         in_file[k]));
+            throw InputError(
+                fmt::format("corner {} is not a vertex of the part (they count from 0 in the file's order); "
+                            "choose four vertices of the outer boundary",
+                            in_file[k]));
         result[k] = int(found - part.source_vertex.begin());
     }
     return result;
@@ -31,8 +32,7 @@ void read(Session& session, const Progress& progress)
 
 void solve(Session& session, const Progress& progress)
 {
-    session.blank =
-        std::make_shared<FlattenResult>(flatten(session.part->mesh, session.options.flatten, progress));
+    session.blank = std::make_shared<FlattenResult>(flatten(session.part->mesh, session.options.flatten, progress));
 }
 
 void grid(Session& session, const Progress& progress)
@@ -54,14 +54,12 @@ void lift_grid(Session& session, const Progress& progress)
 
 void fit(Session& session, const Progress& progress)
 {
-    InterpolateResult result =
-        interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
+    InterpolateResult result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
     DeviationOptions options;
     options.part_faces = session.grid->result.filled->part_triangles;
     options.data_u = result.u;
     options.data_v = result.v;
-    Deviation measured =
-        deviation(result.surface, session.grid->result.filled->mesh, options, progress.part(0.3, 1));
+    Deviation measured = deviation(result.surface, session.grid->result.filled->mesh, options, progress.part(0.3, 1));
     session.surface = std::make_shared<SurfaceStage>(SurfaceStage{std::move(result), std::move(measured)});
 }
 
@@ -103,9 +101,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
             session.seconds.erase(later);
 
     switch (stage) {
-    case Stage::read:
-        read(session, progress);
-        break;
+    case Stage::read: read(session, progress); break;
     case Stage::solve:
         require(session.part != nullptr, "read a part");
         solve(session, progress);

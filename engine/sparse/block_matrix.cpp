@@ -65,10 +65,7 @@ void BlockMatrix::assemble(const std::vector<Matrix6d>& element)
             }
 }
 
-void BlockMatrix::add_to_diagonal(int unknown, double value)
-{
-    value_[size_t(entry(unknown, unknown))] += value;
-}
+void BlockMatrix::add_to_diagonal(int unknown, double value) { value_[size_t(entry(unknown, unknown))] += value; }
 
 void BlockMatrix::add_to_diagonal(int vertex, const Eigen::Matrix2d& block)
 {

@@ -23,7 +23,8 @@ Lu::Lu(const BlockMatrix& matrix) : state_(new State{matrix, {}, nullptr})
     const int* row = s.matrix.row().data();
     const double* value = s.matrix.value().data();
     void* symbolic = nullptr;
-    int status = umfpack_di_symbolic(s.matrix.size(), s.matrix.size(), start, row, value, &symbolic, s.control, nullptr);
+    int status =
+        umfpack_di_symbolic(s.matrix.size(), s.matrix.size(), start, row, value, &symbolic, s.control, nullptr);
     if (status == UMFPACK_OK)
         status = umfpack_di_numeric(start, row, value, symbolic, &s.numeric, s.control, nullptr);
     umfpack_di_free_symbolic(&symbolic);

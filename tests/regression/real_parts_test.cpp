@@ -17,10 +17,10 @@ struct RealPart {
     LengthUnit unit;
     int triangles;
     size_t loops;
-    bool converged;          ///< false: scans and folded shapes that no press could form; the energy's blank is given
-    double thinning_max;     ///< over the faces
+    bool converged;            ///< false: scans and folded shapes that no press could form; the energy's blank is given
+    double thinning_max;       ///< over the faces
     double thinning_tolerance; ///< 0.01 where the solve converged: the figure is a solution, not a path; else wide
-    double deviation_rms_mm; ///< at the automatic grid; may get smaller freely
+    double deviation_rms_mm;   ///< at the automatic grid; may get smaller freely
 };
 
 std::ostream& operator<<(std::ostream& out, const RealPart& part) { return out << part.file; }

@@ -119,8 +119,8 @@ DevelopablePart cone_sector(const ConeSector& shape)
     const int rows = std::max(1, int(std::lround((double(shape.triangles) / columns - 1) / 2)));
     const auto generator = [&](int c) {
         const double azimuth = sector * (columns - c) / columns;
-        return Eigen::Vector3d(std::sin(half_angle) * std::cos(azimuth),
-                               std::sin(half_angle) * std::sin(azimuth), -std::cos(half_angle));
+        return Eigen::Vector3d(std::sin(half_angle) * std::cos(azimuth), std::sin(half_angle) * std::sin(azimuth),
+                               -std::cos(half_angle));
     };
     const double strip_angle = 2 * std::asin((generator(1) - generator(0)).norm() / 2);
     return strips(columns, rows, [&](int c, double t, auto x, auto flat) {
@@ -146,15 +146,13 @@ DevelopablePart lipped_channel(const LippedChannel& shape)
 DevelopablePart perforated_channel(const PerforatedChannel& shape)
 {
     const Profile profile = profile_of(shape.channel);
-    const auto middle = [&](int piece) {
-        return (profile.pieces()[piece].from + profile.pieces()[piece].to) / 2;
-    };
+    const auto middle = [&](int piece) { return (profile.pieces()[piece].from + profile.pieces()[piece].to) / 2; };
     std::vector<Circle> holes;
     for (int i = 0; i < shape.holes_per_row; ++i)
         for (int piece : {4, 6, 3}) // top, right wall, left upper bend
-            holes.push_back({{middle(piece),
-                              shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row},
-                             shape.hole_radius});
+            holes.push_back(
+                {{middle(piece), shape.channel.length * (i + (piece == 3 ? 0.35 : 0.6)) / shape.holes_per_row},
+                 shape.hole_radius});
     const Eigen::Vector2d size(profile.length(), shape.channel.length);
     ParametricMesh rolled = mesh_surface(
         perforated({0, 0}, size, holes),

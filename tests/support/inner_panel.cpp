@@ -38,9 +38,9 @@ const std::vector<Bead> beads = {{{-190, -92}, {0, -92}},
 constexpr double bead_top = 3;                              // half width of the ridge
 
 const std::vector<Circle> embosses = {{{120, 62}, 20}, {{-223, -92}, 6}}; // their flat tops
-const std::vector<Circle> holes = {
-    {{120, 62}, 8},  {{70, 88}, 5},     {{170, 36}, 5},     {{225, -5}, 7},     {{-223, -40}, 5},
-    {{-223, 60}, 5}, {{284, 100}, 5.5}, {{284, -100}, 5.5}, {{-284, 100}, 5.5}, {{-284, -100}, 5.5}};
+const std::vector<Circle> holes = {{{120, 62}, 8},     {{70, 88}, 5},      {{170, 36}, 5},    {{225, -5}, 7},
+                                   {{-223, -40}, 5},   {{-223, 60}, 5},    {{284, 100}, 5.5}, {{284, -100}, 5.5},
+                                   {{-284, 100}, 5.5}, {{-284, -100}, 5.5}};
 
 /// The height of the sheet after everything has been pressed into it.
 class Relief {
@@ -87,11 +87,8 @@ ParametricMesh inner_panel(const InnerPanel& shape)
     const Relief relief(shape);
     const auto near_holes = edges_around(holes);
     return mesh_surface(
-        outline(), [&](const Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), relief(p)); },
-        shape.triangles,
-        [&](const Vector2d& p) {
-            return std::min(near_holes(p), window.corner / 2 + std::abs(window.distance(p)));
-        });
+        outline(), [&](const Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), relief(p)); }, shape.triangles,
+        [&](const Vector2d& p) { return std::min(near_holes(p), window.corner / 2 + std::abs(window.distance(p))); });
 }
 
 } // namespace spia::shapes

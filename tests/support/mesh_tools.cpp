@@ -35,10 +35,7 @@ TriMesh transformed(const TriMesh& mesh, const Eigen::Matrix3d& rotation, const 
     return {(rotation * mesh.position).colwise() + translation, mesh.triangle};
 }
 
-TriMesh scaled(const TriMesh& mesh, double factor)
-{
-    return {mesh.position * factor, mesh.triangle};
-}
+TriMesh scaled(const TriMesh& mesh, double factor) { return {mesh.position * factor, mesh.triangle}; }
 
 TriMesh mirrored(const TriMesh& mesh)
 {
@@ -69,8 +66,7 @@ Eigen::Matrix3d random_rotation(std::uint64_t seed)
     const double u = uniform(), a = 2 * std::numbers::pi * uniform(), b = 2 * std::numbers::pi * uniform();
     const double p = std::sqrt(1 - u),
                  q = std::sqrt(u); // Shoemake 1992: an even distribution of unit quaternions
-    return Eigen::Quaterniond(p * std::sin(a), p * std::cos(a), q * std::sin(b), q * std::cos(b))
-        .toRotationMatrix();
+    return Eigen::Quaterniond(p * std::sin(a), p * std::cos(a), q * std::sin(b), q * std::cos(b)).toRotationMatrix();
 }
 
 TriMesh joined(const TriMesh& a, const TriMesh& b)
@@ -94,15 +90,11 @@ Eigen::VectorXd edge_lengths(const TriMesh& mesh)
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     Eigen::VectorXd length(Eigen::Index(edges.size()));
     for (size_t e = 0; e < edges.size(); ++e)
-        length[Eigen::Index(e)] =
-            (mesh.position.col(edges[e].first) - mesh.position.col(edges[e].second)).norm();
+        length[Eigen::Index(e)] = (mesh.position.col(edges[e].first) - mesh.position.col(edges[e].second)).norm();
     return length;
 }
 
-double mean_edge(const TriMesh& mesh)
-{
-    return edge_lengths(mesh).mean();
-}
+double mean_edge(const TriMesh& mesh) { return edge_lengths(mesh).mean(); }
 
 Eigen::VectorXd least_angles(const TriMesh& mesh)
 {

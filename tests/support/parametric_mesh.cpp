@@ -39,8 +39,7 @@ double least_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 class Remesher {
 public:
     Remesher(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
-             const std::vector<Vector2d>& parameter, const Eigen::Matrix3Xi& triangle,
-             const std::vector<int>& corners)
+             const std::vector<Vector2d>& parameter, const Eigen::Matrix3Xi& triangle, const std::vector<int>& corners)
         : region_(region), surface_(surface), edge_(edge)
     {
         TriMesh start;
@@ -83,10 +82,7 @@ private:
         const Vector3d y = surface_(p);
         mesh_.set_point(v, {y.x(), y.y(), y.z()});
     }
-    double length(Halfedge h) const
-    {
-        return (x(mesh_.from_vertex_handle(h)) - x(mesh_.to_vertex_handle(h))).norm();
-    }
+    double length(Halfedge h) const { return (x(mesh_.from_vertex_handle(h)) - x(mesh_.to_vertex_handle(h))).norm(); }
     double wanted(Halfedge h) const
     {
         return edge_((uv(mesh_.from_vertex_handle(h)) + uv(mesh_.to_vertex_handle(h))) / 2);
@@ -116,8 +112,7 @@ bool Remesher::stays_upright(Vertex v, const Vector2d& p, Vertex ignored) const
         if (a == ignored || b == ignored)
             continue;
         const Vector2d pa = uv(a), pb = uv(b);
-        const double side =
-            std::max({(pa - p).squaredNorm(), (pb - p).squaredNorm(), (pa - pb).squaredNorm()});
+        const double side = std::max({(pa - p).squaredNorm(), (pb - p).squaredNorm(), (pa - pb).squaredNorm()});
         if (doubled_area(p, pa, pb) < thinnest * side)
             return false;
     }
@@ -348,10 +343,7 @@ void quarter(ParametricMesh& coarse, std::vector<Vector2d>& parameter)
 }
 
 /// The edge of an equilateral triangle.
-double edge_of(double area)
-{
-    return std::sqrt(4 / std::sqrt(3.0) * area);
-}
+double edge_of(double area) { return std::sqrt(4 / std::sqrt(3.0) * area); }
 
 /// The wanted edge length that lets even triangles add up to this number.
 /// @param parts  area and upper limit of the edge of every piece of the surface
@@ -368,8 +360,8 @@ double first_size(const std::vector<std::pair<double, double>>& parts, int trian
     return small;
 }
 
-Remesher start(const Region& region, const Surface& surface,
-               const std::function<double(const Vector2d&)>& edge, double spacing)
+Remesher start(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
+               double spacing)
 {
     // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go
     // as a whole.

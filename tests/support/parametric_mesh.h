@@ -20,8 +20,7 @@ struct ParametricMesh {
 /// @param surface    (u, v) -> point, mm; u and v are about mm on the surface, except on steep walls
 /// @param triangles  wanted number; the actual one is within a few per cent
 /// @param longest    (u, v) -> upper limit of the edge length there, mm, e.g. around small holes
-ParametricMesh mesh_surface(const Region& region,
-                            const std::function<Eigen::Vector3d(const Eigen::Vector2d&)>& surface,
+ParametricMesh mesh_surface(const Region& region, const std::function<Eigen::Vector3d(const Eigen::Vector2d&)>& surface,
                             int triangles, const std::function<double(const Eigen::Vector2d&)>& longest = {});
 
 } // namespace spia::shapes

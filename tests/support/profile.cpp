@@ -29,10 +29,7 @@ Profile& Profile::append(double length, double curvature)
     return *this;
 }
 
-Profile& Profile::straight(double length)
-{
-    return append(length, 0);
-}
+Profile& Profile::straight(double length) { return append(length, 0); }
 
 Profile& Profile::bend(double radius, double angle)
 {

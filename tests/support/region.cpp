@@ -136,8 +136,7 @@ void take_corners(PlaneMesh& mesh, const Region& region, double spacing)
 
 } // namespace
 
-double box_distance(const Vector2d& p, const Vector2d& centre, const Vector2d& half_size,
-                    double corner_radius)
+double box_distance(const Vector2d& p, const Vector2d& centre, const Vector2d& half_size, double corner_radius)
 {
     const Eigen::Array2d q = (p - centre).array().abs() - half_size.array() + corner_radius;
     return q.max(0).matrix().norm() + std::min(0.0, q.maxCoeff()) - corner_radius;

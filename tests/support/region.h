@@ -13,16 +13,14 @@ struct Region {
     std::function<double(const Eigen::Vector2d&)> distance;
     Eigen::Vector2d low, high;            ///< a box around it
     std::vector<Eigen::Vector2d> corners; ///< sharp turns of the boundary, where a vertex must lie
-    double smallest_feature =
-        1e30; ///< mm, radius of the smallest hole or rounding, width of the narrowest bridge
+    double smallest_feature = 1e30; ///< mm, radius of the smallest hole or rounding, width of the narrowest bridge
 };
 
 /// @name Signed distances, negative inside
 ///@{
 double box_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, const Eigen::Vector2d& half_size,
                     double corner_radius);
-double capsule_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                        double radius);
+double capsule_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius);
 /// The region where both are negative, the corners between them rounded.
 double rounded_intersection(double a, double b, double radius);
 ///@}
@@ -34,10 +32,7 @@ struct Circle {
     Eigen::Vector2d centre;
     double radius; ///< mm
 
-    double distance(const Eigen::Vector2d& p) const
-    {
-        return (p - centre).norm() - radius;
-    } ///< negative inside
+    double distance(const Eigen::Vector2d& p) const { return (p - centre).norm() - radius; } ///< negative inside
 };
 
 /// A rectangle with round holes.

@@ -19,10 +19,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radians(double degrees)
-{
-    return degrees * pi / 180;
-}
+constexpr double radians(double degrees) { return degrees * pi / 180; }
 
 /// A meridian of any kind: a point (r, z) for every arc length, and the arc lengths that must become rows of
 /// vertices.
@@ -67,8 +64,7 @@ AxisymmetricPart revolve(const Meridian& meridian, int triangles)
         rings.push_back(std::move(ring));
         arc_length.insert(arc_length.end(), row.points, row.s);
     }
-    AxisymmetricPart part{
-        stitch_rings(rings), Eigen::VectorXd::Map(arc_length.data(), arc_length.size()), {}};
+    AxisymmetricPart part{stitch_rings(rings), Eigen::VectorXd::Map(arc_length.data(), arc_length.size()), {}};
     for (int i = int(rings.back().cols()); i > 0; --i)
         part.rim.push_back(part.mesh.vertices() - i);
     return part;
@@ -135,10 +131,7 @@ Eigen::Matrix2Xd read_meridian(const std::filesystem::path& file)
     return Eigen::Matrix2Xd::Map(values.data(), 2, Eigen::Index(values.size() / 2));
 }
 
-double SharpCup::area() const
-{
-    return pi * radius * radius + 2 * pi * radius * height;
-}
+double SharpCup::area() const { return pi * radius * radius + 2 * pi * radius * height; }
 
 AxisymmetricPart sharp_cup(const SharpCup& shape)
 {
@@ -156,15 +149,9 @@ double Dome::area() const
     return cap + die + pi * flange_width * (2 * foot + flange_width);
 }
 
-AxisymmetricPart dome(const Dome& shape)
-{
-    return revolve(meridian_of(profile_of(shape)), shape.triangles);
-}
+AxisymmetricPart dome(const Dome& shape) { return revolve(meridian_of(profile_of(shape)), shape.triangles); }
 
-double SphereCap::area() const
-{
-    return 2 * pi * radius * radius * (1 - std::cos(radians(half_angle_deg)));
-}
+double SphereCap::area() const { return 2 * pi * radius * radius * (1 - std::cos(radians(half_angle_deg))); }
 
 AxisymmetricPart sphere_cap(const SphereCap& shape)
 {

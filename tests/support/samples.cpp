@@ -20,8 +20,7 @@ const std::vector<Sample>& samples()
         {"square-cup-draft", "the same with walls drafted by 1 degree", 5000,
          [](int n) { return square_cup({.draft_deg = 1, .triangles = n}); }},
         {"dome", "dome with a flange", 4000, [](int n) { return dome({.triangles = n}).mesh; }},
-        {"sharp-cup", "round cup with a sharp edge", 3000,
-         [](int n) { return sharp_cup({.triangles = n}).mesh; }},
+        {"sharp-cup", "round cup with a sharp edge", 3000, [](int n) { return sharp_cup({.triangles = n}).mesh; }},
         {"sphere-cap", "cap of a sphere", 2000, [](int n) { return sphere_cap({.triangles = n}).mesh; }},
         {"saddle", "saddle, curved the other way", 2000, [](int n) { return saddle({.triangles = n}); }},
         {"plate", "flat plate with two holes", 2000, [](int n) { return plate({.triangles = n}); }},
@@ -41,8 +40,7 @@ const std::vector<Sample>& samples()
         {"closed-sphere", "no boundary", 2000, [](int n) { return closed_sphere(50, n); }, false},
         {"torus", "no boundary, genus 1", 2000, [](int n) { return torus(60, 20, n); }, false},
         {"moebius-strip", "one side only", 2000, [](int n) { return moebius_strip(50, 20, n); }, false},
-        {"two-rectangles", "two components; always 96 triangles", 96, [](int) { return two_rectangles(); },
-         false},
+        {"two-rectangles", "two components; always 96 triangles", 96, [](int) { return two_rectangles(); }, false},
     };
     return list;
 }

@@ -89,9 +89,7 @@ TriMesh closed_sphere(double radius, int triangles)
             for (int sz : {1, -1})
                 for (int i = 0; i < n; ++i)
                     for (int j = 0; i + j < n; ++j) {
-                        const auto at = [&](int p, int q) {
-                            return vertex(sx * p, sy * q, sz * (n - p - q));
-                        };
+                        const auto at = [&](int p, int q) { return vertex(sx * p, sy * q, sz * (n - p - q)); };
                         const bool mirrored_octant = sx * sy * sz < 0;
                         const auto add = [&](int a, int b, int c) {
                             faces.emplace_back(a, mirrored_octant ? c : b, mirrored_octant ? b : c);
@@ -119,8 +117,7 @@ TriMesh torus(double radius, double tube_radius, int triangles)
             const double r = radius + tube_radius * std::cos(b);
             mesh.position.col(i + j * columns) << r * std::cos(a), r * std::sin(a), tube_radius * std::sin(b);
         }
-    mesh.triangle =
-        cells_in_two(columns, rows, [&](int i, int j) { return i % columns + j % rows * columns; });
+    mesh.triangle = cells_in_two(columns, rows, [&](int i, int j) { return i % columns + j % rows * columns; });
     return mesh;
 }
 
@@ -138,8 +135,8 @@ TriMesh moebius_strip(double radius, double width, int triangles)
             mesh.position.col(i + j * columns) << r * std::cos(a), r * std::sin(a), t * std::sin(a / 2);
         }
     // After one turn around, the strip arrives upside down.
-    mesh.triangle = cells_in_two(
-        columns, rows, [&](int i, int j) { return i < columns ? i + j * columns : (rows - j) * columns; });
+    mesh.triangle =
+        cells_in_two(columns, rows, [&](int i, int j) { return i < columns ? i + j * columns : (rows - j) * columns; });
     return mesh;
 }
 

@@ -46,14 +46,10 @@ struct Contour {
         } else
             p = {half - (t - half - arc), half_side};
         switch (int(turns) % 4) {
-        case 0:
-            return p;
-        case 1:
-            return {-p.y(), p.x()};
-        case 2:
-            return -p;
-        default:
-            return {p.y(), -p.x()};
+        case 0: return p;
+        case 1: return {-p.y(), p.x()};
+        case 2: return -p;
+        default: return {p.y(), -p.x()};
         }
     }
 };
@@ -94,8 +90,7 @@ double SquareCup::area() const
             // From the middle of the arc towards its centre of curvature, which lies left of the tangent if
             // curvature > 0.
             const double middle_heading = piece.heading + piece.curvature * length / 2;
-            const double towards_centre =
-                piece.curvature > 0 ? -std::sin(middle_heading) : std::sin(middle_heading);
+            const double towards_centre = piece.curvature > 0 ? -std::sin(middle_heading) : std::sin(middle_heading);
             centroid += towards_centre * radius * (1 - std::sin(half) / half);
         }
         total += length * (sides + 2 * pi * (corner_radius + centroid));
@@ -108,8 +103,7 @@ TriMesh square_cup(const SquareCup& shape)
     const Profile profile = profile_of(shape);
     const auto place = [&](double s) { return profile.at(s); };
     const auto circumference = [&](double distance) { return Contour(shape, distance).length(); };
-    const double edge =
-        std::sqrt(4 / std::sqrt(3.0) * shape.area() / shape.triangles); // of equilateral triangles
+    const double edge = std::sqrt(4 / std::sqrt(3.0) * shape.area() / shape.triangles); // of equilateral triangles
     const std::vector<double> rows = even_spacing(profile, edge * std::sqrt(3.0) / 2);
 
     std::vector<Eigen::Matrix3Xd> rings;

@@ -6,7 +6,7 @@ namespace spia::shapes {
 /// A square cup, bottom up, with a flange: a smooth profile swept along rounded squares. Its bottom is z = 0.
 /// Every vertex lies on the exact surface, rows of vertices along every line where a radius begins or ends.
 struct SquareCup {
-    double punch = 70; ///< mm, side of the square at which bottom and wall would meet without a radius
+    double punch = 70;         ///< mm, side of the square at which bottom and wall would meet without a radius
     double corner_radius = 10; ///< mm, of that square, seen from above
     double punch_radius = 8;   ///< mm, between bottom and wall
     double die_radius = 8;     ///< mm, between wall and flange

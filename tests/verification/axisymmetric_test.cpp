@@ -21,7 +21,8 @@ struct Reference {
 
     double at(const std::vector<double>& column, double where) const
     {
-        const size_t i = std::clamp<size_t>(size_t(std::upper_bound(s.begin(), s.end(), where) - s.begin()), 1, s.size() - 1);
+        const size_t i =
+            std::clamp<size_t>(size_t(std::upper_bound(s.begin(), s.end(), where) - s.begin()), 1, s.size() - 1);
         const double t = (where - s[i - 1]) / (s[i] - s[i - 1]);
         return column[i - 1] + t * (column[i] - column[i - 1]);
     }
@@ -65,9 +66,9 @@ Case read_case(const std::string& name)
 }
 
 struct Errors {
-    double h;             ///< mm, mean edge
-    double edge_radius;   ///< relative
-    double thinning;      ///< largest, away from the axis
+    double h;           ///< mm, mean edge
+    double edge_radius; ///< relative
+    double thinning;    ///< largest, away from the axis
     bool converged;
 };
 
@@ -97,9 +98,9 @@ Errors solve(const Case& c, int triangles)
     const double total = part.arc_length.maxCoeff(), near_axis = 0.1 * total;
     for (int v = 0; v < part.mesh.vertices(); ++v)
         if (const double s = part.arc_length[v]; s > near_axis && s < total - 2 * errors.h)
-            errors.thinning =
-                std::max(errors.thinning, std::abs(result.node.thickness[v] - c.reference.at(c.reference.thickness, s)) /
-                                              c.reference.sheet_thickness);
+            errors.thinning = std::max(errors.thinning,
+                                       std::abs(result.node.thickness[v] - c.reference.at(c.reference.thickness, s)) /
+                                           c.reference.sheet_thickness);
     return errors;
 }
 
@@ -118,7 +119,8 @@ TEST_P(Axisymmetric, ConvergesToTheOneDimensionalReference)
         ASSERT_TRUE(e.converged) << triangles;
         h.push_back(e.h);
         error.push_back(e.edge_radius);
-        std::printf("%s %d: h %.3f  radius %.2e  thinning %.4f\n", GetParam(), triangles, e.h, e.edge_radius, e.thinning);
+        std::printf("%s %d: h %.3f  radius %.2e  thinning %.4f\n", GetParam(), triangles, e.h, e.edge_radius,
+                    e.thinning);
         if (triangles == 40000) {
             EXPECT_LT(e.edge_radius, 2e-4);
             EXPECT_LT(e.thinning, 0.005);

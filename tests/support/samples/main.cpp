@@ -24,8 +24,7 @@ void write(const fs::path& file, const TriMesh& mesh)
 void list()
 {
     for (const shapes::Sample& sample : shapes::samples())
-        fmt::print("{:<20} {}{}\n", sample.name, sample.description,
-                   sample.is_sheet ? "" : " (to be refused)");
+        fmt::print("{:<20} {}{}\n", sample.name, sample.description, sample.is_sheet ? "" : " (to be refused)");
     fmt::print("{:<20} {}\n", "revolved", "around z from --meridian FILE, a CSV with columns r_mm,z_mm");
 }
 
@@ -34,16 +33,14 @@ void write_all(const fs::path& folder, const std::string& ending, int triangles)
     fs::create_directories(folder);
     for (const shapes::Sample& sample : shapes::samples())
         if (sample.is_sheet)
-            write(folder / (sample.name + "." + ending),
-                  sample.make(triangles > 0 ? triangles : sample.small));
+            write(folder / (sample.name + "." + ending), sample.make(triangles > 0 ? triangles : sample.small));
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Writes sample parts: sheet-metal shapes of any size, the same at every call.",
-                 "spia-samples");
+    CLI::App app("Writes sample parts: sheet-metal shapes of any size, the same at every call.", "spia-samples");
     std::string name, ending = "obj";
     fs::path out, all, meridian;
     int triangles = 0;

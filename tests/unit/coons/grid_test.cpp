@@ -87,10 +87,9 @@ TEST(CoonsGrid, OfARectangleIsUniformByEveryMethod)
         EXPECT_EQ(grid.route, method == GridMethod::harmonic ? GridRoute::harmonic : GridRoute::coons);
         for (int j = 0; j <= 9; ++j)
             for (int i = 0; i <= 12; ++i)
-                EXPECT_LT(
-                    (grid.planar.position.col(grid.planar.node(i, j)) - Eigen::Vector3d(2.5 * i, 20.0 / 9 * j, 0))
-                        .norm(),
-                    1e-12);
+                EXPECT_LT((grid.planar.position.col(grid.planar.node(i, j)) - Eigen::Vector3d(2.5 * i, 20.0 / 9 * j, 0))
+                              .norm(),
+                          1e-12);
         EXPECT_NEAR(grid.quality.min_scaled_jacobian, 1, 1e-12);
         expect_sound(grid, "rectangle");
     }
@@ -144,22 +143,21 @@ TEST(CoonsGrid, FoldsNoCellOnDifficultOutlines)
     Points spiky;
     for (int i = 0; i < 120; ++i)
         spiky.push_back(polar(10 * radius(random), 2 * pi * i / 120));
-    const std::vector<std::pair<const char*, Points>> cases = {
-        {"circle", circle(10, 200)},
-        {"L", l_shape(10, 3, 0.25)},
-        {"thin L", l_shape(10, 0.5, 0.1)},
-        {"U", u_shape(10, 2, 0.25)},
-        {"5-star", star(4, 10, 5, 0.3)},
-        {"8-star", star(3, 10, 8, 0.3)},
-        {"C", arc(10, 2, 1.6 * pi, 200, 8)},
-        {"annulus cut open", arc(10, 8, 1.97 * pi, 200, 20)},
-        {"thin annulus cut open", arc(10, 1, 1.99 * pi, 400, 8)},
-        {"spiral", spiral(3, 5, 2, 800, 8)},
-        {"saw", saw(10, 0.3, 50)},
-        {"deep saw", saw(10, 2, 30)},
-        {"slots and tabs", slotted(20, 10, 5, 0.2, 4, 0.2)},
-        {"many slots", slotted(20, 10, 20, 0.1, 3, 0.2)},
-        {"spikes", spiky}};
+    const std::vector<std::pair<const char*, Points>> cases = {{"circle", circle(10, 200)},
+                                                               {"L", l_shape(10, 3, 0.25)},
+                                                               {"thin L", l_shape(10, 0.5, 0.1)},
+                                                               {"U", u_shape(10, 2, 0.25)},
+                                                               {"5-star", star(4, 10, 5, 0.3)},
+                                                               {"8-star", star(3, 10, 8, 0.3)},
+                                                               {"C", arc(10, 2, 1.6 * pi, 200, 8)},
+                                                               {"annulus cut open", arc(10, 8, 1.97 * pi, 200, 20)},
+                                                               {"thin annulus cut open", arc(10, 1, 1.99 * pi, 400, 8)},
+                                                               {"spiral", spiral(3, 5, 2, 800, 8)},
+                                                               {"saw", saw(10, 0.3, 50)},
+                                                               {"deep saw", saw(10, 2, 30)},
+                                                               {"slots and tabs", slotted(20, 10, 5, 0.2, 4, 0.2)},
+                                                               {"many slots", slotted(20, 10, 20, 0.1, 3, 0.2)},
+                                                               {"spikes", spiky}};
     for (const auto& [name, outline] : cases) {
         const TriMesh flat = part(outline);
         ASSERT_GT(flat.triangles(), 0) << name;
@@ -218,9 +216,8 @@ TEST(CoonsGrid, ABlankThatOverlapsItselfIsFilledLayerByLayer)
         const QuadGrid lifted = lift(grid).lifted;
         for (int j = 0; j <= lifted.rows; ++j)
             for (int i = 0; i < lifted.columns; ++i)
-                EXPECT_LT(
-                    (lifted.position.col(lifted.node(i + 1, j)) - lifted.position.col(lifted.node(i, j))).norm(),
-                    0.5);
+                EXPECT_LT((lifted.position.col(lifted.node(i + 1, j)) - lifted.position.col(lifted.node(i, j))).norm(),
+                          0.5);
     }
 }
 

@@ -98,8 +98,7 @@ TEST(Lift, NodesInAHoleAreMarkedAndLieOnASmoothFill)
         for (int n = 0; n < grid.planar.nodes(); ++n) {
             const double x = grid.planar.position(0, n) - 1, y = grid.planar.position(1, n) - 1;
             const bool inside =
-                std::max(std::abs(x), std::abs(y))<0.4 - 1e-9, outside = std::max(std::abs(x), std::abs(y))> 0.4 +
-                1e-9;
+                std::max(std::abs(x), std::abs(y))<0.4 - 1e-9, outside = std::max(std::abs(x), std::abs(y))> 0.4 + 1e-9;
             if (inside || outside)
                 EXPECT_EQ(bool(lifted.on_fill[size_t(n)]), inside);
             EXPECT_EQ(bool(lifted.on_fill[size_t(n)]), lifted.place[size_t(n)].face >= part.triangles());

@@ -47,10 +47,7 @@ inline TriMesh part(const Points& outline)
     return result;
 }
 
-inline Blank as_blank(const TriMesh& part)
-{
-    return {part.position.topRows(2)};
-}
+inline Blank as_blank(const TriMesh& part) { return {part.position.topRows(2)}; }
 
 inline int nearest_vertex(const TriMesh& part, const Eigen::Vector2d& point)
 {
@@ -114,8 +111,7 @@ inline Points arc(double radius, double width, double angle, int n, int across)
 
 inline Points spiral(double windings, double pitch, double width, int n, int across)
 {
-    return band([=](double t) { return polar(pitch * (0.7 + windings * t), 2 * pi * windings * t); }, width, n,
-                across);
+    return band([=](double t) { return polar(pitch * (0.7 + windings * t), 2 * pi * windings * t); }, width, n, across);
 }
 
 /// A square with teeth on every side, as meshes of scans have them.

@@ -15,10 +15,7 @@
 /// Real parts, and a stand-in for their blanks.
 namespace spia::real_parts {
 
-inline std::filesystem::path folder()
-{
-    return std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/data/mesh";
-}
+inline std::filesystem::path folder() { return std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/data/mesh"; }
 
 /// Reads what the files of the folder need of OFF and OBJ, and no more. Polygons become fans.
 inline TriMesh read(const std::string& name)

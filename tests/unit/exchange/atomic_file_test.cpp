@@ -8,14 +8,11 @@
 #include "engine/core/error.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 /// As long as it lives, no file may grow beyond a few bytes: a full disk that needs no disk.
-class TinyDisk
-{
+class TinyDisk {
 public:
     explicit TinyDisk(rlim_t bytes)
     {

@@ -11,10 +11,8 @@
 #include "tests/unit/exchange/sample_surface.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 /// Equal bit for bit, not just nearly.
 void expect_same(const NurbsSurface& read, const NurbsSurface& written)
@@ -72,9 +70,7 @@ struct Format {
     std::vector<NurbsSurface> (*read)(const std::filesystem::path&);
 };
 
-class CadFile : public ::testing::TestWithParam<Format>
-{
-};
+class CadFile : public ::testing::TestWithParam<Format> {};
 
 INSTANTIATE_TEST_SUITE_P(Formats, CadFile,
                          ::testing::Values(Format{"iges", write_iges, read_iges_surfaces},
@@ -185,8 +181,7 @@ TEST(CadFiles, FourThreadsThatWriteAndReadBothFormatsDoNotDisturbEachOther)
         threads.emplace_back([&, t] {
             const NurbsSurface surface = samples::curved_surface(100.0 * double(t + 1), t % 2);
             for (int run = 0; run < runs; ++run) {
-                const auto iges = folder / (std::to_string(t) + ".igs"),
-                           step = folder / (std::to_string(t) + ".step");
+                const auto iges = folder / (std::to_string(t) + ".igs"), step = folder / (std::to_string(t) + ".step");
                 write_iges(iges, surface);
                 write_step(step, surface);
                 good[t] += read_iges_surfaces(iges).at(0).control == surface.control &&

@@ -12,10 +12,8 @@
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 tinygltf::Model read(const std::filesystem::path& path)
 {
@@ -52,15 +50,13 @@ template <class Number> Eigen::Matrix<Number, -1, -1> values(const tinygltf::Mod
     return Eigen::Map<const Eigen::Matrix<Number, -1, -1>>(first, rows, Eigen::Index(accessor.count));
 }
 
-Eigen::MatrixXf attribute(const tinygltf::Model& model, const std::string& mesh_name,
-                          const std::string& attribute)
+Eigen::MatrixXf attribute(const tinygltf::Model& model, const std::string& mesh_name, const std::string& attribute)
 {
     return values<float>(model, mesh(model, mesh_name).primitives.at(0).attributes.at(attribute));
 }
 
 /// Where a vertex of a node stands in the file's metres, Y up.
-Eigen::Vector3d in_metres(const tinygltf::Model& model, const tinygltf::Node& child,
-                          const Eigen::Vector3f& vertex)
+Eigen::Vector3d in_metres(const tinygltf::Model& model, const tinygltf::Node& child, const Eigen::Vector3f& vertex)
 {
     const tinygltf::Node& root = model.nodes.at(size_t(model.scenes.at(0).nodes.at(0)));
     const Eigen::Quaterniond turn(root.rotation[3], root.rotation[0], root.rotation[1], root.rotation[2]);
@@ -70,9 +66,7 @@ Eigen::Vector3d in_metres(const tinygltf::Model& model, const tinygltf::Node& ch
 
 } // namespace
 
-class Gltf : public ::testing::TestWithParam<const char*>
-{
-};
+class Gltf : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Formats, Gltf, ::testing::Values("chain.glb", "chain.gltf"),
                          [](const auto& name) { return std::string(name.param).substr(6); });
 
@@ -82,12 +76,11 @@ TEST_P(Gltf, FieldsOnPartAndBlankAreTheNodeFieldsInFloat)
     const samples::Chain chain = samples::chain();
     write_gltf(folder / GetParam(), chain.scene());
     const tinygltf::Model model = read(folder / GetParam());
-    const std::map<std::string, const Eigen::VectorXd*> expected{
-        {"_THICKNESS", &chain.node.thickness},
-        {"_THINNING", &chain.node.thinning},
-        {"_STRAIN_MAJOR", &chain.node.strain_major},
-        {"_STRAIN_MINOR", &chain.node.strain_minor},
-        {"_STRAIN_EQUIVALENT", &chain.node.strain_equivalent}};
+    const std::map<std::string, const Eigen::VectorXd*> expected{{"_THICKNESS", &chain.node.thickness},
+                                                                 {"_THINNING", &chain.node.thinning},
+                                                                 {"_STRAIN_MAJOR", &chain.node.strain_major},
+                                                                 {"_STRAIN_MINOR", &chain.node.strain_minor},
+                                                                 {"_STRAIN_EQUIVALENT", &chain.node.strain_equivalent}};
     for (const char* name : {"part", "blank"})
         for (const auto& [field, value] : expected)
             EXPECT_EQ(attribute(model, name, field), value->cast<float>().transpose()) << name << field;
@@ -95,8 +88,7 @@ TEST_P(Gltf, FieldsOnPartAndBlankAreTheNodeFieldsInFloat)
         const auto& primitive = mesh(model, name).primitives.at(0);
         const auto faces = values<unsigned>(model, primitive.indices);
         ASSERT_EQ(faces.size(), chain.part.triangle.size());
-        EXPECT_TRUE(std::equal(faces.data(), faces.data() + faces.size(), chain.part.triangle.data()))
-            << name;
+        EXPECT_TRUE(std::equal(faces.data(), faces.data() + faces.size(), chain.part.triangle.data())) << name;
     }
 }
 
@@ -127,10 +119,8 @@ TEST_P(Gltf, EveryShapeStandsWhereItIsInMetresWithYUp)
     const tinygltf::Node& blank = node(model, "blank");
     const auto origin = blank.extras.Get("blank_origin_mm");
     for (int v = 0; v < flat.cols(); ++v) {
-        EXPECT_NEAR(flat(0, v) + origin.Get(0).GetNumberAsDouble(), chain.blank.position(0, v),
-                    250 * 0x1p-23);
-        EXPECT_NEAR(flat(1, v) + origin.Get(1).GetNumberAsDouble(), chain.blank.position(1, v),
-                    250 * 0x1p-23);
+        EXPECT_NEAR(flat(0, v) + origin.Get(0).GetNumberAsDouble(), chain.blank.position(0, v), 250 * 0x1p-23);
+        EXPECT_NEAR(flat(1, v) + origin.Get(1).GetNumberAsDouble(), chain.blank.position(1, v), 250 * 0x1p-23);
     }
     EXPECT_GT(flat.row(0).minCoeff() + blank.translation[0], chain.part.position.row(0).maxCoeff() + 10);
     EXPECT_NEAR(blank.translation[2], chain.part.position.row(2).minCoeff(), 1e-9);
@@ -151,8 +141,7 @@ TEST_P(Gltf, LinesAndTrianglesJoinTheRightNeighbours)
         EXPECT_EQ(std::abs(a % 9 - b % 9) + std::abs(a / 9 - b / 9), 1); // neighbours in a net of 9 x 7
     }
     ASSERT_EQ(mesh(model, "quad_mesh").primitives.size(), 2u);
-    EXPECT_EQ(model.accessors[size_t(mesh(model, "quad_mesh").primitives[0].indices)].count,
-              size_t(3 * 2 * 8 * 6));
+    EXPECT_EQ(model.accessors[size_t(mesh(model, "quad_mesh").primitives[0].indices)].count, size_t(3 * 2 * 8 * 6));
     EXPECT_EQ(mesh(model, "quad_mesh").extras.Get("columns").GetNumberAsInt(), 8);
 }
 
@@ -194,8 +183,7 @@ TEST_P(Gltf, BoundsAreExactAndNormalsHaveUnitLength)
         }
     }
     for (const char* name : {"part", "blank", "quad_mesh", "surface"})
-        EXPECT_LT((attribute(model, name, "NORMAL").colwise().norm().array() - 1).abs().maxCoeff(), 1e-6)
-            << name;
+        EXPECT_LT((attribute(model, name, "NORMAL").colwise().norm().array() - 1).abs().maxCoeff(), 1e-6) << name;
 }
 
 TEST_P(Gltf, SameSceneGivesTheSameBytesAndNothingOnStdout)

@@ -17,10 +17,8 @@
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 struct Image {
     int width = 0, height = 0;
@@ -46,8 +44,8 @@ Image decoded(const std::string& png)
 {
     Image image;
     int channels = 0;
-    unsigned char* bytes = stbi_load_from_memory(reinterpret_cast<const unsigned char*>(png.data()),
-                                                 int(png.size()), &image.width, &image.height, &channels, 3);
+    unsigned char* bytes = stbi_load_from_memory(reinterpret_cast<const unsigned char*>(png.data()), int(png.size()),
+                                                 &image.width, &image.height, &channels, 3);
     EXPECT_NE(bytes, nullptr);
     if (bytes)
         image.bytes.assign(bytes, bytes + 3 * image.width * image.height);
@@ -166,8 +164,7 @@ TEST(Picture, BlankHasItsAreaAndTheColoursOfItsThinning)
     int darker = 0; // contour lines on a row across the blank
     for (int x = left + 4; x < right - 4; ++x) {
         const double sum = image.colour(x, top + 60).sum();
-        darker += sum < image.colour(x - 3, top + 60).sum() - 0.1 &&
-                  sum < image.colour(x + 3, top + 60).sum() - 0.1;
+        darker += sum < image.colour(x - 3, top + 60).sum() - 0.1 && sum < image.colour(x + 3, top + 60).sum() - 0.1;
     }
     EXPECT_GE(darker, 9);
 }

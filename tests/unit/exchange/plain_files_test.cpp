@@ -12,10 +12,8 @@
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 std::vector<std::string> split(const std::string& text, char separator)
 {
@@ -34,8 +32,7 @@ template <class Number> std::vector<Number> decoded(const std::string& base64)
     for (const char c : base64) {
         if (c == '=')
             break;
-        const auto digit =
-            std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
+        const auto digit = std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
         EXPECT_NE(digit, std::string::npos);
         bits = bits << 6 | unsigned(digit);
         if ((held += 6) >= 8)
@@ -73,8 +70,7 @@ std::map<std::string, VtuArray> arrays_of(const std::string& file, const std::st
             for (std::sregex_iterator a(attributes.begin(), attributes.end(), pair); a != end; ++a)
                 attribute[(*a)[1]] = (*a)[2];
             EXPECT_EQ(attribute["format"], "binary");
-            result[attribute["Name"]] = {attribute["type"], (*it)[4],
-                                         std::stoi(attribute["NumberOfComponents"])};
+            result[attribute["Name"]] = {attribute["type"], (*it)[4], std::stoi(attribute["NumberOfComponents"])};
         }
         open.push_back((*it)[2]);
     }
@@ -83,13 +79,12 @@ std::map<std::string, VtuArray> arrays_of(const std::string& file, const std::st
 }
 
 template <class Matrix>
-void expect_array(const std::map<std::string, VtuArray>& arrays, const std::string& name,
-                  const Matrix& expected, int components = 1)
+void expect_array(const std::map<std::string, VtuArray>& arrays, const std::string& name, const Matrix& expected,
+                  int components = 1)
 {
     ASSERT_TRUE(arrays.count(name)) << name;
     EXPECT_EQ(arrays.at(name).components, components) << name;
-    EXPECT_EQ(arrays.at(name).type, (std::is_same_v<typename Matrix::Scalar, double> ? "Float64" : "Int32"))
-        << name;
+    EXPECT_EQ(arrays.at(name).type, (std::is_same_v<typename Matrix::Scalar, double> ? "Float64" : "Int32")) << name;
     const auto read = decoded<typename Matrix::Scalar>(arrays.at(name).base64);
     ASSERT_EQ(Eigen::Index(read.size()), expected.size()) << name;
     EXPECT_TRUE(std::equal(read.begin(), read.end(), expected.data())) << name;
@@ -154,17 +149,13 @@ std::vector<Polyline> polylines(const std::vector<DxfPair>& pairs)
 }
 
 /// Each writer of this file on the sample, by name.
-std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>>
-all_writers(const samples::Chain& chain)
+std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>> all_writers(
+    const samples::Chain& chain)
 {
-    return {
-        {"part.vtu",
-         [&](const auto& path) { write_vtu(path, chain.part, chain.blank, chain.face, chain.node); }},
-        {"outline.dxf", [&](const auto& path) { write_dxf(path, blank_outline(chain.part, chain.blank)); }},
-        {"outline.csv",
-         [&](const auto& path) { write_outline_csv(path, blank_outline(chain.part, chain.blank)); }},
-        {"fields.csv",
-         [&](const auto& path) { write_fields_csv(path, chain.part, chain.blank, chain.node); }}};
+    return {{"part.vtu", [&](const auto& path) { write_vtu(path, chain.part, chain.blank, chain.face, chain.node); }},
+            {"outline.dxf", [&](const auto& path) { write_dxf(path, blank_outline(chain.part, chain.blank)); }},
+            {"outline.csv", [&](const auto& path) { write_outline_csv(path, blank_outline(chain.part, chain.blank)); }},
+            {"fields.csv", [&](const auto& path) { write_fields_csv(path, chain.part, chain.blank, chain.node); }}};
 }
 
 } // namespace
@@ -193,10 +184,8 @@ TEST(Vtu, EveryNumberComesBackBitForBit)
     for (size_t f = 0; f < offsets.size(); ++f)
         EXPECT_EQ(offsets[f], int64_t(3 * (f + 1)));
     EXPECT_EQ(types, std::vector<uint8_t>(offsets.size(), 5)); // 5 is VTK's triangle
-    EXPECT_NE(file.find("NumberOfPoints=\"" + std::to_string(chain.part.vertices()) + "\""),
-              std::string::npos);
-    EXPECT_NE(file.find("NumberOfCells=\"" + std::to_string(chain.part.triangles()) + "\""),
-              std::string::npos);
+    EXPECT_NE(file.find("NumberOfPoints=\"" + std::to_string(chain.part.vertices()) + "\""), std::string::npos);
+    EXPECT_NE(file.find("NumberOfCells=\"" + std::to_string(chain.part.triangles()) + "\""), std::string::npos);
 }
 
 TEST(Vtu, WarpingByTheDisplacementGivesTheBlank)
@@ -204,14 +193,12 @@ TEST(Vtu, WarpingByTheDisplacementGivesTheBlank)
     const ScratchFolder folder;
     const samples::Chain chain = samples::chain();
     write_vtu(folder / "x.vtu", chain.part, chain.blank, chain.face, chain.node);
-    const auto warp = decoded<double>(
-        arrays_of(content_of(folder / "x.vtu"), "PointData").at("displacement_to_blank").base64);
+    const auto warp =
+        decoded<double>(arrays_of(content_of(folder / "x.vtu"), "PointData").at("displacement_to_blank").base64);
     for (int v = 0; v < chain.part.vertices(); ++v) {
         const Eigen::Vector3d warped =
             chain.part.position.col(v) + Eigen::Map<const Eigen::Vector3d>(&warp[size_t(3 * v)]);
-        EXPECT_LT(
-            (warped - Eigen::Vector3d(chain.blank.position(0, v), chain.blank.position(1, v), 0)).norm(),
-            1e-11);
+        EXPECT_LT((warped - Eigen::Vector3d(chain.blank.position(0, v), chain.blank.position(1, v), 0)).norm(), 1e-11);
     }
 }
 
@@ -300,8 +287,7 @@ TEST(FieldsCsv, RowsFollowTheVerticesAndReadAsTheSameDoubles)
     const samples::Chain chain = samples::chain();
     write_fields_csv(folder / "x.csv", chain.part, chain.blank, chain.node);
     const auto rows = split(content_of(folder / "x.csv"), '\n');
-    EXPECT_EQ(rows[0],
-              "vertex,x,y,z,blank_x,blank_y,thickness,thinning,strain_major,strain_minor,strain_equivalent");
+    EXPECT_EQ(rows[0], "vertex,x,y,z,blank_x,blank_y,thickness,thinning,strain_major,strain_minor,strain_equivalent");
     ASSERT_EQ(rows.size(), size_t(chain.part.vertices()) + 1);
     for (int v = 0; v < chain.part.vertices(); ++v) {
         const auto cell = split(rows[size_t(v) + 1], ',');

@@ -17,17 +17,14 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 namespace fs = std::filesystem;
 
 const fs::path data_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data";
 
-class ReadPart : public testing::Test
-{
+class ReadPart : public testing::Test {
 protected:
     fs::path write(const std::string& name, const std::string& content)
     {
@@ -82,11 +79,9 @@ std::string off_text(const TriMesh& mesh)
 {
     std::string text = fmt::format("COFF # with colours\n{} {} 0\n\n", mesh.vertices(), mesh.triangles());
     for (int v = 0; v < mesh.vertices(); ++v)
-        text += fmt::format("{} {} {} 255 0 0 255\n", mesh.position(0, v), mesh.position(1, v),
-                            mesh.position(2, v));
+        text += fmt::format("{} {} {} 255 0 0 255\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
     for (int f = 0; f < mesh.triangles(); ++f)
-        text += fmt::format("3 {} {} {} 0.5 0.5 0.5\n", mesh.triangle(0, f), mesh.triangle(1, f),
-                            mesh.triangle(2, f));
+        text += fmt::format("3 {} {} {} 0.5 0.5 0.5\n", mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f));
     return text;
 }
 
@@ -94,30 +89,29 @@ std::string off_text(const TriMesh& mesh)
 /// them.
 std::string ply_text(const TriMesh& mesh)
 {
-    std::string text = fmt::format(
-        "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex {}\r\nproperty float nx\r\n"
-        "property double x\r\nproperty double y\r\nproperty double z\r\nproperty float quality\r\nelement "
-        "face {}\r\n"
-        "property uchar red\r\nproperty list uint8 int32 vertex_indices\r\nproperty list uchar float "
-        "texcoord\r\n"
-        "element edge 1\r\nproperty int a\r\nend_header\r\n",
-        mesh.vertices(), mesh.triangles());
+    std::string text =
+        fmt::format("ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex {}\r\nproperty float nx\r\n"
+                    "property double x\r\nproperty double y\r\nproperty double z\r\nproperty float quality\r\nelement "
+                    "face {}\r\n"
+                    "property uchar red\r\nproperty list uint8 int32 vertex_indices\r\nproperty list uchar float "
+                    "texcoord\r\n"
+                    "element edge 1\r\nproperty int a\r\nend_header\r\n",
+                    mesh.vertices(), mesh.triangles());
     for (int v = 0; v < mesh.vertices(); ++v)
-        text +=
-            fmt::format("1 {} {} {} nan\r\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
+        text += fmt::format("1 {} {} {} nan\r\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
     for (int f = 0; f < mesh.triangles(); ++f)
-        text += fmt::format("7 3 {} {} {} 2 0.5 0.25\r\n", mesh.triangle(0, f), mesh.triangle(1, f),
-                            mesh.triangle(2, f));
+        text +=
+            fmt::format("7 3 {} {} {} 2 0.5 0.25\r\n", mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f));
     return text + "5\r\n";
 }
 
 std::string ply_binary(const TriMesh& mesh, bool big)
 {
-    std::string bytes = fmt::format(
-        "ply\nformat binary_{}_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
-        "property double z\nproperty uchar red\nelement face {}\nproperty list ushort uint vertex_index\n"
-        "end_header\n",
-        big ? "big" : "little", mesh.vertices(), mesh.triangles());
+    std::string bytes =
+        fmt::format("ply\nformat binary_{}_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
+                    "property double z\nproperty uchar red\nelement face {}\nproperty list ushort uint vertex_index\n"
+                    "end_header\n",
+                    big ? "big" : "little", mesh.vertices(), mesh.triangles());
     const auto put = [&](auto value) {
         std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
         if (big)
@@ -200,8 +194,7 @@ struct GltfStrip {
 
     explicit GltfStrip(const std::string& buffer_uri = "", const std::string& extra = "")
     {
-        for (const float value :
-             {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) // counter-clockwise
+        for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) // counter-clockwise
             append(binary, value);
         for (const uint16_t i : {0, 1, 2, 0, 2, 3})
             append(binary, i);
@@ -242,20 +235,17 @@ TEST_F(ReadPart, EveryTextFormatKeepsAllDigitsAndTheOrderOfTheFile)
 TEST_F(ReadPart, BothKindsOfStlAreWeldedInTheOrderOfTheirCorners)
 {
     const TriMesh mesh = bent_sheet();
-    for (const auto& [name, content] :
-         {std::pair{"text.stl", stl_text(mesh)}, {"binary.stl", stl_binary(mesh)}}) {
+    for (const auto& [name, content] : {std::pair{"text.stl", stl_text(mesh)}, {"binary.stl", stl_binary(mesh)}}) {
         const PartFile part = read(name, content);
         ASSERT_EQ(part.mesh.vertices(), mesh.vertices()) << name;
         for (int f = 0; f < mesh.triangles(); ++f)
             for (int k = 0; k < 3; ++k)
-                EXPECT_LT((part.mesh.position.col(part.mesh.triangle(k, f)) -
-                           mesh.position.col(mesh.triangle(k, f)))
-                              .norm(),
-                          3e-6)
+                EXPECT_LT(
+                    (part.mesh.position.col(part.mesh.triangle(k, f)) - mesh.position.col(mesh.triangle(k, f))).norm(),
+                    3e-6)
                     << name; // half a unit in the last place of 33 in single precision, per coordinate
         int seen = 0;
-        for (int i = 0; i < part.mesh.triangle.size();
-             ++i) { // a vertex is numbered when a corner first comes to it
+        for (int i = 0; i < part.mesh.triangle.size(); ++i) { // a vertex is numbered when a corner first comes to it
             EXPECT_LE(part.mesh.triangle(i % 3, i / 3), seen) << name;
             seen = std::max(seen, part.mesh.triangle(i % 3, i / 3) + 1);
         }
@@ -322,8 +312,7 @@ TEST_F(ReadPart, GltfNodesStripsAndMirrorsMakeOneSheetInMillimetres)
         EXPECT_EQ(part.doctor.boundary_loops, 1) << name;
         EXPECT_EQ(part.notes.size(), 2u) << name; // the lines that were skipped, and the unit
     }
-    EXPECT_NEAR(area(read("part.glb", glb(strip.json, strip.binary), {.unit = LengthUnit::mm}).mesh), 2,
-                1e-9);
+    EXPECT_NEAR(area(read("part.glb", glb(strip.json, strip.binary), {.unit = LengthUnit::mm}).mesh), 2, 1e-9);
 }
 
 TEST_F(ReadPart, GltfRefusesCompressionAndFilesElsewhere)
@@ -363,16 +352,13 @@ TEST_F(ReadPart, DamageIsRefusedWithItsPlace)
     expect_refused("f.obj", "v 0 0 1e200\n", "line 1");
     expect_refused("a.off", "OFF\n2000000000 2000000000 0\n0 0 0\n", "do not fit");
     expect_refused("b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "vertex 2 of 3");
-    expect_refused("c.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n# the face is missing\n",
-                   "face 0 of 1 is missing");
+    expect_refused("c.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n# the face is missing\n", "face 0 of 1 is missing");
     expect_refused("d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n", "vertex 3");
     expect_refused("e.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n4000000000 0 1 2\n", "line 6");
     expect_refused("f.off", "OFF BINARY\n", "binary OFF");
     expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "header does not end");
-    expect_refused("b.ply", "ply\nformat ascii 1.0\nproperty int x\nend_header\n",
-                   "before the first element");
-    expect_refused("c.ply",
-                   "ply\nformat ascii 1.0\nelement vertex 9000000\nproperty float x\nend_header\n0 0 0\n",
+    expect_refused("b.ply", "ply\nformat ascii 1.0\nproperty int x\nend_header\n", "before the first element");
+    expect_refused("c.ply", "ply\nformat ascii 1.0\nelement vertex 9000000\nproperty float x\nend_header\n0 0 0\n",
                    "announces");
     const TriMesh mesh = bent_sheet();
     const std::string ply = ply_binary(mesh, false), stl = stl_binary(mesh), text = stl_text(mesh);
@@ -399,24 +385,18 @@ TEST_F(ReadPart, SickPartIsReportedByExamineAndRefusedByRead)
     EXPECT_THROW(read_part(path), InputError);
 }
 
-namespace
-{
+namespace {
 
 struct KnownPart {
     const char* file;
     int vertices, faces, loops, components, flipped; ///< flipped: 0 none, 1 some
 };
 
-void PrintTo(const KnownPart& part, std::ostream* out)
-{
-    *out << part.file;
-}
+void PrintTo(const KnownPart& part, std::ostream* out) { *out << part.file; }
 
 } // namespace
 
-class RealPart : public testing::TestWithParam<KnownPart>
-{
-};
+class RealPart : public testing::TestWithParam<KnownPart> {};
 
 TEST_P(RealPart, HasTheTopologyItsOriginStates)
 {
@@ -438,30 +418,26 @@ TEST_P(RealPart, HasTheTopologyItsOriginStates)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, RealPart,
-                         testing::Values(KnownPart{"fe/fairing_front.obj", 22896, 44647, 8, 1, 1},
-                                         KnownPart{"fe/mudguard_front.obj", 3050, 5802, 1, 1, 0},
-                                         KnownPart{"fe/mudguard_front.ply", 3050, 5802, 1, 1, 0},
-                                         KnownPart{"fe/mudguard_front.stl", 3050, 5802, 1, 1, 0},
-                                         KnownPart{"mesh/face.obj", 25905, 51712, 1, 1, 0},
-                                         KnownPart{"mesh/camelhead.off", 11381, 22704, 1, 1, 0},
-                                         KnownPart{"mesh/lilium.obj", 3389, 6590, 1, 1, 0},
-                                         KnownPart{"mesh/camel_b.obj", 2032, 3576, 1, 1, 0},
-                                         KnownPart{"mesh/beetle.off", 19887, 38656, 11, 1, 0},
-                                         KnownPart{"mesh/halftunnel.off", 831, 784, 3, 1, 0},
-                                         KnownPart{"mesh/nefertiti.off", 299, 562, 1, 1, 0},
-                                         KnownPart{"mesh/three_peaks.off", 1907, 3671, 1, 1, 0},
-                                         KnownPart{"mesh/mask_cone.off", 1230, 2332, 2, 2, 0},
-                                         KnownPart{"mesh/cowhead.obj", 15049, 29999, 1, 1, 0},
-                                         KnownPart{"mesh/maze.obj", 6120, 9174, 1, 1, 0},
-                                         KnownPart{"mesh/inverted_triangles.obj", 12577, 24685, 6, 1, 1},
-                                         KnownPart{"mesh/terrain.stl", 1813, 3498, 1, 1, 0}),
-                         [](const auto& parameter) {
-                             std::string name = parameter.param.file;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Shared, RealPart,
+    testing::Values(
+        KnownPart{"fe/fairing_front.obj", 22896, 44647, 8, 1, 1},
+        KnownPart{"fe/mudguard_front.obj", 3050, 5802, 1, 1, 0},
+        KnownPart{"fe/mudguard_front.ply", 3050, 5802, 1, 1, 0},
+        KnownPart{"fe/mudguard_front.stl", 3050, 5802, 1, 1, 0}, KnownPart{"mesh/face.obj", 25905, 51712, 1, 1, 0},
+        KnownPart{"mesh/camelhead.off", 11381, 22704, 1, 1, 0}, KnownPart{"mesh/lilium.obj", 3389, 6590, 1, 1, 0},
+        KnownPart{"mesh/camel_b.obj", 2032, 3576, 1, 1, 0}, KnownPart{"mesh/beetle.off", 19887, 38656, 11, 1, 0},
+        KnownPart{"mesh/halftunnel.off", 831, 784, 3, 1, 0}, KnownPart{"mesh/nefertiti.off", 299, 562, 1, 1, 0},
+        KnownPart{"mesh/three_peaks.off", 1907, 3671, 1, 1, 0}, KnownPart{"mesh/mask_cone.off", 1230, 2332, 2, 2, 0},
+        KnownPart{"mesh/cowhead.obj", 15049, 29999, 1, 1, 0}, KnownPart{"mesh/maze.obj", 6120, 9174, 1, 1, 0},
+        KnownPart{"mesh/inverted_triangles.obj", 12577, 24685, 6, 1, 1},
+        KnownPart{"mesh/terrain.stl", 1813, 3498, 1, 1, 0}),
+    [](const auto& parameter) {
+        std::string name = parameter.param.file;
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+        return name;
+    });
 
 TEST_F(ReadPart, DamagedFilesOfEveryFormatEndInAPartOrAnInputError)
 {
@@ -506,24 +482,12 @@ TEST_F(ReadPart, DamagedFilesOfEveryFormatEndInAPartOrAnInputError)
             for (uint32_t changes = 1 + random() % 4; changes > 0 && !content.empty(); --changes) {
                 const size_t at = random() % content.size();
                 switch (random() % 6) {
-                case 0:
-                    content.resize(at);
-                    break;
-                case 1:
-                    content[at] = char(random());
-                    break;
-                case 2:
-                    content[at] = char(content[at] ^ (1 << random() % 8));
-                    break;
-                case 3:
-                    content.erase(at, random() % 40);
-                    break;
-                case 4:
-                    content.insert(at, spice[random() % spice.size()]);
-                    break;
-                case 5:
-                    content.insert(at, content.substr(random() % content.size(), random() % 60));
-                    break;
+                case 0: content.resize(at); break;
+                case 1: content[at] = char(random()); break;
+                case 2: content[at] = char(content[at] ^ (1 << random() % 8)); break;
+                case 3: content.erase(at, random() % 40); break;
+                case 4: content.insert(at, spice[random() % spice.size()]); break;
+                case 5: content.insert(at, content.substr(random() % content.size(), random() % 60)); break;
                 }
             }
             const fs::path path = write(name, content);

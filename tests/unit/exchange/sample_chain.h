@@ -4,8 +4,7 @@
 #include "engine/exchange/export_scene.h"
 #include "tests/unit/exchange/sample_surface.h"
 
-namespace spia::samples
-{
+namespace spia::samples {
 
 /// A curved sheet with a square hole, its blank and smooth fields: what the chain hands to the writers.
 struct Chain {
@@ -32,8 +31,7 @@ inline SheetFields smooth_fields(int count)
     f.stress_minor = 100 - 50 * x.array();
     f.stress_equivalent = 320 + 7 * x.array();
     f.direction_major = Eigen::Vector3d(0.6, 0.8, 0).replicate(1, count);
-    f.necking =
-        Eigen::VectorXi::LinSpaced(count, 0, count - 1).unaryExpr([](int i) { return int(i % 3 == 0); });
+    f.necking = Eigen::VectorXi::LinSpaced(count, 0, count - 1).unaryExpr([](int i) { return int(i % 3 == 0); });
     return f;
 }
 
@@ -44,8 +42,7 @@ inline Chain chain(int cells = 12, double size = 400)
     Chain c;
     const int rows = cells * 3 / 4, n = cells + 1;
     const auto lifted = [&](double x, double y) {
-        return Eigen::Vector3d(2000 + x, y,
-                               700 + 0.15 * size * std::sin(3 * x / size) * std::cos(4 * y / size));
+        return Eigen::Vector3d(2000 + x, y, 700 + 0.15 * size * std::sin(3 * x / size) * std::cos(4 * y / size));
     };
     c.part.position.resize(3, n * (rows + 1));
     c.blank.position.resize(2, n * (rows + 1));
@@ -80,8 +77,7 @@ inline Chain chain(int cells = 12, double size = 400)
     c.net = curved_surface(size, false, 9, 7);
     for (int j = 0; j <= 6; ++j)
         for (int i = 0; i <= 8; ++i)
-            c.net.control.col(c.net.index(i, j)) =
-                c.quads.position.col(c.quads.node(i, j)) + Eigen::Vector3d(0, 0, 5);
+            c.net.control.col(c.net.index(i, j)) = c.quads.position.col(c.quads.node(i, j)) + Eigen::Vector3d(0, 0, 5);
     return c;
 }
 

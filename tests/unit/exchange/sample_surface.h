@@ -3,8 +3,7 @@
 
 #include "engine/nurbs/surface.h"
 
-namespace spia::samples
-{
+namespace spia::samples {
 
 inline std::vector<double> uneven_clamped_knots(int degree, int count)
 {

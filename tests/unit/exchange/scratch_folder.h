@@ -7,19 +7,16 @@
 #include <unistd.h>
 #include <vector>
 
-namespace spia
-{
+namespace spia {
 
 /// A folder of its own for one test, gone afterwards.
-class ScratchFolder
-{
+class ScratchFolder {
 public:
     ScratchFolder()
     {
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        path_ =
-            std::filesystem::temp_directory_path() / (std::string("spia-") + test->test_suite_name() + "-" +
-                                                      test->name() + "-" + std::to_string(::getpid()));
+        path_ = std::filesystem::temp_directory_path() / (std::string("spia-") + test->test_suite_name() + "-" +
+                                                          test->name() + "-" + std::to_string(::getpid()));
         std::filesystem::create_directories(path_);
     }
     ScratchFolder(const ScratchFolder&) = delete;

@@ -63,8 +63,7 @@ TEST(Equilibrium, MovingTheBlankChangesNothing)
     const TriMesh part = wavy();
     const MembraneLaw law(mild_steel());
     const Eigen::Matrix2Xd X = strained(part);
-    const Eigen::Matrix2Xd moved =
-        (Eigen::Rotation2Dd(0.7).toRotationMatrix() * X).colwise() + Eigen::Vector2d(11, -4);
+    const Eigen::Matrix2Xd moved = (Eigen::Rotation2Dd(0.7).toRotationMatrix() * X).colwise() + Eigen::Vector2d(11, -4);
     const Eigen::VectorXd a = equilibrium_system(part, law, 0.8, {}, X, X).residual;
     const Eigen::VectorXd b = equilibrium_system(part, law, 0.8, {}, X, moved).residual;
     EXPECT_LT((a - b).norm(), 1e-10 * a.norm());

@@ -7,7 +7,9 @@ namespace spia {
 namespace {
 
 const std::vector<Hardening> laws = {
-    Swift{565.32, 0.007117, 0.2589}, Hollomon{530, 0.23}, Voce{130, 290, 12},
+    Swift{565.32, 0.007117, 0.2589},
+    Hollomon{530, 0.23},
+    Voce{130, 290, 12},
     HardeningTable{{0, 0.02, 0.1, 0.3, 0.8}, {200, 260, 330, 390, 430}},
 };
 

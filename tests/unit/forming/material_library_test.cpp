@@ -12,10 +12,8 @@
 #include "engine/core/error.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -32,10 +30,7 @@ std::vector<std::string> stems()
     return result;
 }
 
-Json json_of(const std::string& stem)
-{
-    return Json::parse(content_of(shipped / (stem + ".json")));
-}
+Json json_of(const std::string& stem) { return Json::parse(content_of(shipped / (stem + ".json"))); }
 
 /// The message of the InputError that an action ends with; a failed expectation and "" if it does not.
 std::string complaint(const std::function<void()>& action)
@@ -236,8 +231,7 @@ TEST(MaterialLibrary, FindsAGradeByStemAndByNameInAnyCase)
     const std::vector<Material> materials = read_materials(shipped);
     const std::vector<std::string> names = stems();
     const auto upper = [](std::string text) {
-        std::transform(text.begin(), text.end(), text.begin(),
-                       [](unsigned char c) { return std::toupper(c); });
+        std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
         return text;
     };
     for (size_t i = 0; i < names.size(); ++i) {
@@ -280,8 +274,7 @@ TEST(MaterialLibrary, AnUnknownNameIsMetWithTheKnownOnesAndTheClosest)
     for (const auto& [typed, closest] : meant) {
         const std::string name = typed;
         const std::string message = complaint([&] { find_material(name, shipped); });
-        EXPECT_THAT(message,
-                    AllOf(HasSubstr("\"" + typed + "\""), HasSubstr("did you mean " + closest + " (")));
+        EXPECT_THAT(message, AllOf(HasSubstr("\"" + typed + "\""), HasSubstr("did you mean " + closest + " (")));
         for (const std::string& stem : stems())
             EXPECT_THAT(message, HasSubstr(stem));
     }
@@ -303,8 +296,7 @@ TEST(MaterialLibrary, AFolderWithoutGradesIsAnError)
     const ScratchFolder folder;
     EXPECT_THAT(complaint([&] { read_materials(folder / ""); }), HasSubstr("holds no"));
     EXPECT_THAT(complaint([&] { read_materials(folder / "none"); }), HasSubstr((folder / "none").string()));
-    EXPECT_THAT(complaint([&] { find_material("dp600", folder / "none"); }),
-                HasSubstr("cannot read the folder"));
+    EXPECT_THAT(complaint([&] { find_material("dp600", folder / "none"); }), HasSubstr("cannot read the folder"));
 }
 
 TEST(MaterialLibrary, OneNameForTwoGradesIsAnError)
@@ -339,8 +331,7 @@ TEST(MaterialLibrary, AMalformedFileIsRefusedByFileAndKey)
     put(file, swift.dump());
     ASSERT_EQ(find_material(file.string(), shipped).name, "own");
 
-    const auto expect_refusals_of_numbers = [&](const Json& whole, const std::string& group,
-                                                const Json& bad_values) {
+    const auto expect_refusals_of_numbers = [&](const Json& whole, const std::string& group, const Json& bad_values) {
         for (const auto& [key, value] : (group.empty() ? whole : whole[group]).items()) {
             if (!value.is_number())
                 continue;

@@ -25,8 +25,16 @@ std::vector<Eigen::Matrix2d> states()
 {
     std::mt19937 random(7);
     std::vector<Eigen::Matrix2d> result;
-    for (auto [s1, s2] : {std::pair{1.0001, 0.9999}, {1.0009, 0.9995}, {1.0006, 1.0006}, {1.2, 0.9}, {0.8, 0.8},
-                          {1.1, 1.1}, {1.4, 0.62}, {1.3, 0.55}, {2.5, 0.3}, {0.5, 0.4}})
+    for (auto [s1, s2] : {std::pair{1.0001, 0.9999},
+                          {1.0009, 0.9995},
+                          {1.0006, 1.0006},
+                          {1.2, 0.9},
+                          {0.8, 0.8},
+                          {1.1, 1.1},
+                          {1.4, 0.62},
+                          {1.3, 0.55},
+                          {2.5, 0.3},
+                          {0.5, 0.4}})
         result.push_back(turned(s1, s2, random));
     return result;
 }
@@ -42,8 +50,7 @@ TEST(Membrane, EnergyGradientIsTheDerivativeOfTheEnergy)
             Eigen::Matrix2d up = G, down = G;
             up(k) += step;
             down(k) -= step;
-            const double difference =
-                (energy_density_value(law, up) - energy_density_value(law, down)) / (2 * step);
+            const double difference = (energy_density_value(law, up) - energy_density_value(law, down)) / (2 * step);
             const EnergyDensity density = energy_density(law, G);
             EXPECT_NEAR(density.gradient(k), difference, 1e-5 * (1 + density.gradient.norm())) << G;
             EXPECT_NEAR(density.value, energy_density_value(law, G), 1e-12 * (1 + density.value));

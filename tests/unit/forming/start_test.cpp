@@ -59,7 +59,8 @@ TEST(LargestStep, IsTheStepAtWhichTheTriangleCollapses)
 
 TEST(InitialGuess, IsAProjectionOnlyForShallowHeightFields)
 {
-    EXPECT_EQ(guess(shapes::sphere_cap({.half_angle_deg = 40, .triangles = 1000}).mesh).method, StartMethod::projection);
+    EXPECT_EQ(guess(shapes::sphere_cap({.half_angle_deg = 40, .triangles = 1000}).mesh).method,
+              StartMethod::projection);
     EXPECT_EQ(guess(shapes::lipped_channel({.triangles = 2000}).mesh).method, StartMethod::conformal);
 }
 

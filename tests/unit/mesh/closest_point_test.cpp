@@ -7,11 +7,9 @@
 #include "engine/core/error.h"
 #include "tests/support/shapes.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 std::mt19937 random_numbers(7);
 
@@ -23,8 +21,7 @@ Eigen::Vector3d random_point(double size)
 
 /// A place of a convex set is the nearest one to a point exactly if no corner of the set lies on the point's
 /// side of the plane through the place. How far the farthest corner is on the wrong side, mm.
-double on_the_wrong_side(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& place,
-                         const Eigen::Vector3d& point)
+double on_the_wrong_side(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& place, const Eigen::Vector3d& point)
 {
     const double distance = (point - place).norm();
     if (distance == 0)
@@ -66,10 +63,8 @@ TEST(ClosestPoint, NeedlesAndPointsAreNoTrap)
 {
     for (double thickness : {1e-3, 1e-6, 1e-7, 1e-8, 1e-10, 1e-14, 0.}) {
         Eigen::Matrix3d needle; // lies along (1, 2, 2), its third corner beside the middle
-        needle << Eigen::Vector3d(-5, -10, -10), Eigen::Vector3d(10, 20, 20),
-            Eigen::Vector3d(3, 6, 6 + thickness);
-        const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 2) / 3,
-                              aside = Eigen::Vector3d(2, -1, 0).normalized();
+        needle << Eigen::Vector3d(-5, -10, -10), Eigen::Vector3d(10, 20, 20), Eigen::Vector3d(3, 6, 6 + thickness);
+        const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 2) / 3, aside = Eigen::Vector3d(2, -1, 0).normalized();
         for (double along : {-20., -3., 2., 25., 40.})
             for (double off : {0., 1e-3, 5.}) {
                 const Eigen::Vector3d b = closest_on_triangle(needle, along * axis + off * aside);
@@ -86,8 +81,7 @@ TEST(ClosestPoint, NeedlesAndPointsAreNoTrap)
 
 TEST(ClosestPoint, SearchFindsWhatTryingAllFacesFinds)
 {
-    for (double size :
-         {1., 20., 150.}) { // from grains far from each other to triangles all through each other
+    for (double size : {1., 20., 150.}) { // from grains far from each other to triangles all through each other
         const TriMesh mesh = soup(700, size);
         const ClosestPointSearch search(mesh);
         for (int i = 0; i < 300; ++i) {
@@ -118,8 +112,7 @@ TEST(ClosestPoint, AboveAPlaneItIsTheFootAndBesideItTheEdge)
 TEST(ClosestPoint, OfEquallyNearFacesTheFirstIsFound)
 {
     TriMesh mesh = shapes::rectangle(8, 8, 8, 8);
-    mesh.triangle =
-        mesh.triangle.rowwise().reverse().eval(); // the first ones are not those of smallest coordinates
+    mesh.triangle = mesh.triangle.rowwise().reverse().eval(); // the first ones are not those of smallest coordinates
     const ClosestPointSearch search(mesh);
     for (int v = 0; v < mesh.vertices(); ++v) { // all faces around a vertex are equally near to it
         int first = mesh.triangles();

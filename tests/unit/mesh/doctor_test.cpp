@@ -12,10 +12,8 @@
 #include "engine/mesh/topology.h"
 #include "tests/support/shapes.h"
 
-namespace spia
-{
-namespace
-{
+namespace spia {
+namespace {
 
 using Eigen::Vector3d;
 using Faces = std::vector<std::vector<int>>;
@@ -79,8 +77,8 @@ PolygonSoup torus(int n, int m, int missing_quads)
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < m; ++j) {
             const double u = 2 * std::numbers::pi * i / n, v = 2 * std::numbers::pi * j / m;
-            soup.position.emplace_back((10 + 3 * std::cos(v)) * std::cos(u),
-                                       (10 + 3 * std::cos(v)) * std::sin(u), 3 * std::sin(v));
+            soup.position.emplace_back((10 + 3 * std::cos(v)) * std::cos(u), (10 + 3 * std::cos(v)) * std::sin(u),
+                                       3 * std::sin(v));
         }
     const auto at = [&](int i, int j) { return i % n * m + j % m; };
     for (int i = 0; i < n; ++i)
@@ -286,16 +284,14 @@ TEST(Doctor, ImpossibleNumbersAreRefusedWithTheirPlace)
     soup.corner[5] = -1;
     expect_refused(examine(soup), "face 1, vertex -1");
     expect_refused(examine({}), "no faces");
-    expect_refused(examine(soup_of({Vector3d(1, 2, 3), Vector3d(1, 2, 3), Vector3d(1, 2, 3)}, {{0, 1, 2}})),
-                   "no area");
+    expect_refused(examine(soup_of({Vector3d(1, 2, 3), Vector3d(1, 2, 3), Vector3d(1, 2, 3)}, {{0, 1, 2}})), "no area");
 }
 
 TEST(Doctor, RepeatedCornersShortenAFaceOrRemoveIt)
 {
     // A triangle written as a quad, an edge written as a triangle, and a face that goes through a vertex
     // twice.
-    PolygonSoup soup =
-        soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 2}, {0, 2, 3}, {0, 2, 0}});
+    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 2}, {0, 2, 3}, {0, 2, 0}});
     const Examination e = examine(soup);
     EXPECT_EQ(count(e, Fault::repeated_corner), 2);
     EXPECT_EQ(first(e, Fault::repeated_corner), 0);
@@ -308,18 +304,9 @@ TEST(Doctor, RepeatedCornersShortenAFaceOrRemoveIt)
 TEST(Doctor, NeedleWithTwoVerticesAtOnePlaceIsClosed)
 {
     // The row of vertices x = 1 of a 2 x 2 rectangle is doubled at its middle; two needles fill the slit.
-    const Examination e =
-        examine(soup_of({{0, 0, 0},
-                         {1, 0, 0},
-                         {2, 0, 0},
-                         {0, 1, 0},
-                         {1, 1, 0},
-                         {2, 1, 0},
-                         {0, 2, 0},
-                         {1, 2, 0},
-                         {2, 2, 0},
-                         {1, 1, 0}},
-                        {{0, 1, 4, 3}, {3, 4, 7, 6}, {1, 2, 5, 9}, {9, 5, 8, 7}, {1, 9, 4}, {4, 9, 7}}));
+    const Examination e = examine(soup_of(
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}, {1, 1, 0}},
+        {{0, 1, 4, 3}, {3, 4, 7, 6}, {1, 2, 5, 9}, {9, 5, 8, 7}, {1, 9, 4}, {4, 9, 7}}));
     EXPECT_EQ(count(e, Fault::flat_face), 2);
     EXPECT_EQ(first(e, Fault::flat_face), 4);
     EXPECT_EQ(e.mesh.vertices(), 9);
@@ -353,9 +340,8 @@ TEST(Doctor, CapIsTurnedIntoItsNeighbourAndABoundaryCapIsLeftOut)
 TEST(Doctor, FlatTriangleThatHoldsTheSurfaceTogetherIsFatal)
 {
     // The tips of two caps on one edge: turning it would only make other flat triangles.
-    const Examination e =
-        examine(soup_of({{0, 0, 0}, {3, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, -2, 0}},
-                        {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 4}, {0, 5, 3}, {3, 5, 1}}));
+    const Examination e = examine(soup_of({{0, 0, 0}, {3, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, -2, 0}},
+                                          {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 4}, {0, 5, 3}, {3, 5, 1}}));
     EXPECT_TRUE(fatal(e, Fault::flat_face));
     expect_refused(e, "face 0");
 }
@@ -437,8 +423,8 @@ TEST(SplitPolygon, QuadTakesItsShorterDiagonalUnlessThatFoldsItOver)
     ASSERT_EQ(split_polygon(dart).size(), 2u);
     for (const auto& t : split_polygon(dart))
         EXPECT_EQ(std::count(t.begin(), t.end(), 0) + std::count(t.begin(), t.end(), 2), 2);
-    EXPECT_TRUE(split_polygon(std::vector<Vector3d>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}})
-                    .empty()); // crosses itself
+    EXPECT_TRUE(
+        split_polygon(std::vector<Vector3d>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).empty()); // crosses itself
 }
 
 TEST(SplitPolygon, TrianglesOfAnyStarFillItOnceInAnyAttitude)
@@ -461,8 +447,8 @@ TEST(SplitPolygon, TrianglesOfAnyStarFillItOnceInAnyAttitude)
         Vector3d sum = Vector3d::Zero();
         double total = 0;
         for (const auto& t : triangles) {
-            const Vector3d a = (corners[size_t(t[1])] - corners[size_t(t[0])])
-                                   .cross(corners[size_t(t[2])] - corners[size_t(t[0])]);
+            const Vector3d a =
+                (corners[size_t(t[1])] - corners[size_t(t[0])]).cross(corners[size_t(t[2])] - corners[size_t(t[0])]);
             EXPECT_GT(a.dot(normal), 0);
             sum += a;
             total += a.dot(normal.normalized());
@@ -474,14 +460,11 @@ TEST(SplitPolygon, TrianglesOfAnyStarFillItOnceInAnyAttitude)
 
 TEST(SplitPolygon, CornersOnAStraightEdgeMakeNoFlatTriangle)
 {
-    const std::vector<Vector3d> square = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0},
-                                          {3, 1, 0}, {3, 3, 0}, {0, 3, 0}};
+    const std::vector<Vector3d> square = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {3, 3, 0}, {0, 3, 0}};
     const auto triangles = split_polygon(square);
     ASSERT_EQ(triangles.size(), 5u);
     for (const auto& t : triangles)
-        EXPECT_GT((square[size_t(t[1])] - square[size_t(t[0])])
-                      .cross(square[size_t(t[2])] - square[size_t(t[0])])
-                      .z(),
+        EXPECT_GT((square[size_t(t[1])] - square[size_t(t[0])]).cross(square[size_t(t[2])] - square[size_t(t[0])]).z(),
                   0.1);
 }
 

@@ -34,14 +34,8 @@ template <class Hole, class Height> TriMesh plate(int n, const Hole& hole, const
     return part;
 }
 
-double flat(double, double)
-{
-    return 0;
-}
-bool round_hole(double x, double y)
-{
-    return std::hypot(x, y) < 0.5;
-}
+double flat(double, double) { return 0; }
+bool round_hole(double x, double y) { return std::hypot(x, y) < 0.5; }
 
 double planar_area(const FilledMesh& filled)
 {
@@ -62,8 +56,7 @@ TEST(FillHoles, APlatePartStaysAPlaneAndKeepsItsVertices)
                 return two_holes ? std::abs(std::abs(x) - 0.5) < 0.25 && std::abs(y) < 0.6 : round_hole(x, y);
             },
             flat);
-        part.position.row(2) =
-            0.3 * part.position.row(0) - 0.7 * part.position.row(1); // in space the plane is tilted
+        part.position.row(2) = 0.3 * part.position.row(0) - 0.7 * part.position.row(1); // in space the plane is tilted
         const FilledMesh filled = fill_holes(part, part.position.topRows(2));
         EXPECT_EQ(filled.holes, two_holes ? 2 : 1);
         EXPECT_EQ(filled.fanned_holes, 0);
@@ -104,8 +97,7 @@ TEST(FillHoles, AHoleWhoseEdgeCrossesItselfIsClosedByAFan)
     TriMesh part = plate(
         10, [](double x, double y) { return std::abs(x) < 0.2 && std::abs(y) < 0.6; }, flat);
     Eigen::Matrix2Xd plane = part.position.topRows(2);
-    for (int v = 0; v < part.vertices();
-         ++v) // the two long edges of the hole change places, the blank overlaps there
+    for (int v = 0; v < part.vertices(); ++v) // the two long edges of the hole change places, the blank overlaps there
         if (std::abs(plane(0, v)) < 0.3 && std::abs(plane(1, v)) < 0.5)
             plane(0, v) *= -1;
     const FilledMesh filled = fill_holes(part, plane);
@@ -144,8 +136,7 @@ TEST(FillHoles, WhatIsNoDiskIsNamed)
     EXPECT_THROW(fill_holes(mirrored, mirrored.position.topRows(2)), InputError);
 
     TriMesh torus = shapes::rectangle(4, 4, 4, 4); // its sides glued, one cell taken out
-    torus.triangle =
-        torus.triangle.leftCols(30).unaryExpr([](int v) { return (v % 5) % 4 + (v / 5) % 4 * 5; }).eval();
+    torus.triangle = torus.triangle.leftCols(30).unaryExpr([](int v) { return (v % 5) % 4 + (v / 5) % 4 * 5; }).eval();
     Eigen::Matrix2Xd plane = torus.position.topRows(2);
     plane.row(0) *= -1; // the edge of the missing cell then runs counter-clockwise
     try {

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 /// Clamped, uneven, with a knot of full inner multiplicity for the lower degrees.
 std::vector<double> knots_of_degree(int degree)

@@ -10,11 +10,9 @@
 #include "tests/support/shapes.h"
 #include "tests/unit/nurbs/known_surfaces.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 /// A mesh inscribed in a sphere about the origin, up to `reach` (radians) left, right, below and above the x
 /// axis.
@@ -32,9 +30,8 @@ TriMesh inscribed(double radius, double reach, int cells)
 /// A flat square of 100 mm, z = height, as a surface through a grid of cells x cells.
 NurbsSurface flat(double height, int cells)
 {
-    return interpolate(
-               surfaces::grid(cells, cells,
-                              [&](double s, double t) { return Eigen::Vector3d(100 * s, 100 * t, height); }))
+    return interpolate(surfaces::grid(cells, cells,
+                                      [&](double s, double t) { return Eigen::Vector3d(100 * s, 100 * t, height); }))
         .surface;
 }
 
@@ -52,8 +49,7 @@ TEST(Deviation, MeshInscribedInASphereAgainstALargerSphere)
     for (int f = 0; f < mesh.triangles(); ++f) {
         const auto a = mesh.position.col(mesh.triangle(0, f)), b = mesh.position.col(mesh.triangle(1, f)),
                    c = mesh.position.col(mesh.triangle(2, f));
-        for (double size :
-             {((a + b + c) / 3).norm(), ((a + b) / 2).norm(), ((b + c) / 2).norm(), ((c + a) / 2).norm()})
+        for (double size : {((a + b + c) / 3).norm(), ((a + b) / 2).norm(), ((b + c) / 2).norm(), ((c + a) / 2).norm()})
             lowest = std::min(lowest, size);
     }
     EXPECT_NEAR(d.mesh_to_surface.max, radius + offset - lowest, 1e-9);
@@ -73,10 +69,9 @@ TEST(Deviation, LargerSphereAgainstAMeshInscribedInASphere)
     const double radius = 50, offset = 0.4;
     const int cells = 120;
     const double reach = 0.95; // corners of the patch project inside of the mesh
-    const Deviation d = deviation(surfaces::sphere_patch(radius + offset), inscribed(radius, reach, cells),
-                                  {.samples_per_span = 16});
-    const double half_diagonal =
-        radius * reach / cells * std::sqrt(2.); // of a cell: no place is farther from a vertex
+    const Deviation d =
+        deviation(surfaces::sphere_patch(radius + offset), inscribed(radius, reach, cells), {.samples_per_span = 16});
+    const double half_diagonal = radius * reach / cells * std::sqrt(2.); // of a cell: no place is farther from a vertex
     const double sag = half_diagonal * half_diagonal / (2 * radius);
     EXPECT_EQ(d.surface_to_mesh.samples, 17 * 17);
     EXPECT_GE(d.surface_to_mesh.max, offset);
@@ -106,8 +101,8 @@ TEST(Deviation, StatisticsWeighTheAreaAndNotTheSamples)
     EXPECT_NEAR(d.rms, std::sqrt(0.1 * 1 + 0.9 * 9), 1e-10);
     EXPECT_NEAR(d.p95, 3, 1e-10);
     EXPECT_NEAR(d.max, 3, 1e-10);
-    EXPECT_EQ(d.samples, mesh.vertices() + mesh.triangles() + (9 * 6 + 10 * 5 + 9 * 5) +
-                             (20 * 101 + 21 * 100 + 20 * 100));
+    EXPECT_EQ(d.samples,
+              mesh.vertices() + mesh.triangles() + (9 * 6 + 10 * 5 + 9 * 5) + (20 * 101 + 21 * 100 + 20 * 100));
 }
 
 TEST(Deviation, NinetyFivePercentOfTheAreaAreBelowP95)
@@ -190,9 +185,8 @@ TEST(Deviation, FilledHoleIsNoDeviation)
 
 TEST(Deviation, OneAndTwoThreadsGiveTheSameBits)
 {
-    const InterpolateResult result = interpolate(surfaces::grid(30, 30, [](double s, double t) {
-        return Eigen::Vector3d(100 * s, 60 * t, 5 * std::sin(9 * s) * (1 + t));
-    }));
+    const InterpolateResult result = interpolate(surfaces::grid(
+        30, 30, [](double s, double t) { return Eigen::Vector3d(100 * s, 60 * t, 5 * std::sin(9 * s) * (1 + t)); }));
     TriMesh mesh = shapes::rectangle(100, 60, 70, 50);
     for (int v = 0; v < mesh.vertices(); ++v)
         mesh.position(2, v) = std::sin(0.3 * mesh.position(0, v)) * std::cos(0.2 * mesh.position(1, v));
@@ -226,8 +220,7 @@ TEST(Deviation, OptionsOutOfRangeAreRefused)
 TEST(Deviation, CancelledWhenItsOwnerAsksForIt)
 {
     const auto cancel = std::make_shared<const std::atomic<bool>>(true);
-    EXPECT_THROW(deviation(flat(0, 4), shapes::rectangle(100, 100, 2, 2), {}, Progress(nullptr, cancel)),
-                 Cancelled);
+    EXPECT_THROW(deviation(flat(0, 4), shapes::rectangle(100, 100, 2, 2), {}, Progress(nullptr, cancel)), Cancelled);
 }
 
 } // namespace spia

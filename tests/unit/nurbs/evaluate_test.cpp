@@ -5,8 +5,7 @@
 
 #include "tests/unit/nurbs/known_surfaces.h"
 
-namespace spia
-{
+namespace spia {
 
 TEST(Evaluate, QuarterCylinderWithWeightsIsExactlyRound)
 {

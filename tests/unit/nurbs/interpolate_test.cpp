@@ -9,26 +9,20 @@
 #include "engine/nurbs/evaluate.h"
 #include "tests/unit/nurbs/known_surfaces.h"
 
-namespace spia
-{
+namespace spia {
 
-namespace
-{
+namespace {
 
 using Ends = InterpolateOptions::Ends;
 using Kind = InterpolateOptions::Parameters;
 
 /// A stamped sheet of 400 x 300 mm with a bulge and a twist, its nodes unevenly spaced; second derivatives do
 /// not vanish along the border.
-double height(double x, double y)
-{
-    return 40 * std::exp(-x / 250) * std::cos(y / 70 + 0.3) + 1e-3 * x * y;
-}
+double height(double x, double y) { return 40 * std::exp(-x / 250) * std::cos(y / 70 + 0.3) + 1e-3 * x * y; }
 
 Eigen::Vector3d sheet(double s, double t)
 {
-    const double x = 400 * (s + 0.05 * std::sin(6 * s) * (1 + t)),
-                 y = 300 * (t + 0.1 * t * t * (1 - 0.5 * s));
+    const double x = 400 * (s + 0.05 * std::sin(6 * s) * (1 + t)), y = 300 * (t + 0.1 * t * t * (1 - 0.5 * s));
     return {x, y, height(x, y)};
 }
 
@@ -58,10 +52,9 @@ double largest_miss(const QuadGrid& grid, const InterpolateResult& result)
     double miss = 0;
     for (int j = 0; j <= grid.rows; ++j)
         for (int i = 0; i <= grid.columns; ++i)
-            miss =
-                std::max(miss, (evaluate(result.surface, result.u[size_t(i)], result.v[size_t(j)]).position -
-                                grid.position.col(grid.node(i, j)))
-                                   .norm());
+            miss = std::max(miss, (evaluate(result.surface, result.u[size_t(i)], result.v[size_t(j)]).position -
+                                   grid.position.col(grid.node(i, j)))
+                                      .norm());
     return miss;
 }
 
@@ -108,16 +101,14 @@ TEST(Interpolate, FewNodesLowerTheDegreeAndTwoRowsMakeARuledSurface)
 TEST(Interpolate, BicubicSurfaceIsReproducedUpToTheBorder)
 {
     const auto cubic = [](double s, double t) {
-        return Eigen::Vector3d(300 * s + 40 * s * s * t - 25 * s * s * s,
-                               200 * t - 30 * t * t * t + 12 * s * t,
+        return Eigen::Vector3d(300 * s + 40 * s * s * t - 25 * s * s * s, 200 * t - 30 * t * t * t + 12 * s * t,
                                50 * s * s * s * t * t * t - 80 * s * s * t + 33 * t * t - 5 * s);
     };
     const NurbsSurface surface =
         interpolate(surfaces::grid(11, 8, cubic), {Ends::averaged_knots, Kind::uniform}).surface;
     for (int i = 0; i <= 50; ++i)
         for (int j = 0; j <= 50; ++j)
-            EXPECT_LT((evaluate(surface, i / 50., j / 50.).position - cubic(i / 50., j / 50.)).norm(),
-                      1e-12 * 300);
+            EXPECT_LT((evaluate(surface, i / 50., j / 50.).position - cubic(i / 50., j / 50.)).norm(), 1e-12 * 300);
 }
 
 TEST(Interpolate, AveragedKnotsHaveOrderFourUpToTheBorderAndNaturalEndsTwo)
@@ -164,8 +155,8 @@ TEST(Interpolate, ParametersFollowTheDistancesOfTheNodes)
 {
     // columns at x = 0, 1, 5, 14 on all rows; rows evenly spaced
     const double x[] = {0, 1, 5, 14};
-    const QuadGrid grid = surfaces::grid(
-        3, 2, [&](double s, double t) { return Eigen::Vector3d(x[std::lround(3 * s)], 20 * t, 0); });
+    const QuadGrid grid =
+        surfaces::grid(3, 2, [&](double s, double t) { return Eigen::Vector3d(x[std::lround(3 * s)], 20 * t, 0); });
     const std::vector<double> chord = interpolate(grid).u;
     const std::vector<double> centripetal = interpolate(grid, {Ends::averaged_knots, Kind::centripetal}).u;
     const std::vector<double> uniform = interpolate(grid, {Ends::averaged_knots, Kind::uniform}).u;
@@ -180,8 +171,8 @@ TEST(Interpolate, ParametersFollowTheDistancesOfTheNodes)
 TEST(Interpolate, KnotsAreMeansOfThreeParametersOrTheParametersThemselves)
 {
     const double x[] = {0, 1, 3, 7, 15, 20};
-    const QuadGrid grid = surfaces::grid(
-        5, 2, [&](double s, double t) { return Eigen::Vector3d(x[std::lround(5 * s)], 20 * t, 0); });
+    const QuadGrid grid =
+        surfaces::grid(5, 2, [&](double s, double t) { return Eigen::Vector3d(x[std::lround(5 * s)], 20 * t, 0); });
     const std::vector<double> averaged = {0, 0, 0, 0, 11. / 60, 25. / 60, 1, 1, 1, 1};
     const std::vector<double> natural = {0, 0, 0, 0, 0.05, 0.15, 0.35, 0.75, 1, 1, 1, 1};
     const NurbsSurface a = interpolate(grid).surface, n = interpolate(grid, {Ends::natural}).surface;
@@ -198,13 +189,11 @@ TEST(Interpolate, MovedGridGivesTheMovedSurface)
 {
     const QuadGrid grid = surfaces::grid(14, 9, sheet);
     QuadGrid moved = grid;
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const Eigen::Vector3d shift(100, -50, 30);
     moved.position = (2.5 * turn * grid.position).colwise() + shift;
     for (Ends ends : {Ends::averaged_knots, Ends::natural}) {
-        const NurbsSurface before = interpolate(grid, {ends}).surface,
-                           after = interpolate(moved, {ends}).surface;
+        const NurbsSurface before = interpolate(grid, {ends}).surface, after = interpolate(moved, {ends}).surface;
         const Eigen::Matrix3Xd expected = (2.5 * turn * before.control).colwise() + shift;
         EXPECT_LT((after.control - expected).cwiseAbs().maxCoeff(), 1e-10);
     }
@@ -224,9 +213,7 @@ TEST(Interpolate, ExchangedDirectionsGiveTheExchangedSurface)
     const NurbsSurface a = interpolate(grid).surface, b = interpolate(exchanged).surface;
     for (int i = 0; i <= 20; ++i)
         for (int j = 0; j <= 20; ++j)
-            EXPECT_LT(
-                (evaluate(a, i / 20., j / 20.).position - evaluate(b, j / 20., i / 20.).position).norm(),
-                1e-10);
+            EXPECT_LT((evaluate(a, i / 20., j / 20.).position - evaluate(b, j / 20., i / 20.).position).norm(), 1e-10);
 }
 
 TEST(Interpolate, SideCollapsedToAPointHasNoSayInTheParameters)

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-namespace spia::surfaces
-{
+namespace spia::surfaces {
 
 QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double s, double t)>& place)
 {
@@ -72,8 +71,7 @@ NurbsSurface crooked()
     for (int j = 0; j < 5; ++j)
         for (int i = 0; i < 7; ++i) {
             const int c = s.index(i, j);
-            s.control.col(c) << 10 * i + 2 * std::sin(3. * c), 12 * j + 2 * std::cos(5. * c),
-                8 * std::sin(2. * i + j);
+            s.control.col(c) << 10 * i + 2 * std::sin(3. * c), 12 * j + 2 * std::cos(5. * c), 8 * std::sin(2. * i + j);
             s.weight[c] = 1 + 0.5 * std::sin(7. * c);
         }
     return s;

@@ -5,8 +5,7 @@
 #include "engine/nurbs/surface.h"
 
 /// Surfaces with a known answer.
-namespace spia::surfaces
-{
+namespace spia::surfaces {
 
 /// A grid of columns x rows cells, its nodes on place(s, t), s and t even from 0 to 1.
 QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double s, double t)>& place);

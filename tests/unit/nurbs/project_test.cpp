@@ -8,20 +8,18 @@
 #include "engine/nurbs/tessellate.h"
 #include "tests/unit/nurbs/known_surfaces.h"
 
-namespace spia
-{
+namespace spia {
 
 TEST(SurfaceProjection, FootOnASphereIsOnTheLineThroughItsCentre)
 {
     const double radius = 50;
     const SurfaceProjection projection(surfaces::sphere_patch(radius), 4);
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> angle(-0.78, 0.78),
-        size(0.05, 3); // from near the centre to far outside
+    std::uniform_real_distribution<double> angle(-0.78, 0.78), size(0.05, 3); // from near the centre to far outside
     for (int i = 0; i < 2000; ++i) {
         const double azimuth = angle(random), latitude = angle(random);
-        const Eigen::Vector3d direction(std::cos(latitude) * std::cos(azimuth),
-                                        std::cos(latitude) * std::sin(azimuth), std::sin(latitude));
+        const Eigen::Vector3d direction(std::cos(latitude) * std::cos(azimuth), std::cos(latitude) * std::sin(azimuth),
+                                        std::sin(latitude));
         const Eigen::Vector3d point = size(random) * radius * direction;
         const SurfaceFoot foot = projection.nearest(point);
         EXPECT_NEAR(foot.distance, std::abs(point.norm() - radius), 1e-10);

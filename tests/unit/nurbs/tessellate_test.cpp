@@ -10,8 +10,7 @@
 #include "engine/nurbs/evaluate.h"
 #include "tests/unit/nurbs/known_surfaces.h"
 
-namespace spia
-{
+namespace spia {
 
 TEST(Tessellate, TrianglesLieInTheSurfaceAndLookTheWayOfItsNormals)
 {
@@ -22,8 +21,7 @@ TEST(Tessellate, TrianglesLieInTheSurfaceAndLookTheWayOfItsNormals)
     for (int i = 0; i < t.mesh.vertices(); ++i) {
         EXPECT_NEAR(t.mesh.position.col(i).norm(), radius, 1e-12);
         EXPECT_LT((t.normal.col(i) - t.mesh.position.col(i) / radius).norm(), 1e-13);
-        EXPECT_EQ(evaluate(surfaces::sphere_patch(radius), t.uv(0, i), t.uv(1, i)).position,
-                  t.mesh.position.col(i));
+        EXPECT_EQ(evaluate(surfaces::sphere_patch(radius), t.uv(0, i), t.uv(1, i)).position, t.mesh.position.col(i));
     }
     const Eigen::Matrix3Xd area = area_vectors(t.mesh);
     for (int f = 0; f < t.mesh.triangles(); ++f)

@@ -108,9 +108,7 @@ TEST(Gmres, ReachesTheToleranceItReports)
     const Assembled A = random_matrix(false);
     const Eigen::VectorXd b = some_vector(A.dense.cols());
     const auto apply = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(A.dense * x); };
-    const auto jacobi = [&](const Eigen::VectorXd& x) {
-        return Eigen::VectorXd(x.cwiseQuotient(A.dense.diagonal()));
-    };
+    const auto jacobi = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(x.cwiseQuotient(A.dense.diagonal())); };
     for (double tolerance : {1e-2, 1e-6, 1e-10}) {
         const GmresResult solved = gmres(apply, jacobi, b, tolerance, 40);
         const double true_residual = (A.dense * solved.x - b).norm() / b.norm();

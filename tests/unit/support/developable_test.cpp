@@ -45,15 +45,13 @@ TEST(Developable, QuarterCylinderUnrollsToItsArc)
 
 TEST(Developable, ConeSectorUnrollsToARingSector)
 {
-    const ConeSector shape{
-        .near = 60, .far = 140, .half_angle_deg = 30, .sector_deg = 180, .triangles = 40000};
+    const ConeSector shape{.near = 60, .far = 140, .half_angle_deg = 30, .sector_deg = 180, .triangles = 40000};
     const DevelopablePart part = cone_sector(shape);
     EXPECT_NEAR(area(part.mesh), (140 * 140 - 60 * 60) * pi / 4,
                 1.0); // unrolled angle: 180 sin 30 = 90 degrees
     EXPECT_NEAR(part.flat.colwise().norm().minCoeff(), 60, 1e-12);
     EXPECT_NEAR(part.flat.colwise().norm().maxCoeff(), 140, 1e-12);
-    EXPECT_LT((part.flat.colwise().norm() - part.mesh.position.colwise().norm()).cwiseAbs().maxCoeff(),
-              1e-12);
+    EXPECT_LT((part.flat.colwise().norm() - part.mesh.position.colwise().norm()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(Developable, ChannelsEndFlatAgain)
@@ -68,8 +66,7 @@ TEST(Developable, ChannelsEndFlatAgain)
     const Eigen::Matrix3Xd turned = area_vectors(lipped.mesh).colwise().normalized();
     EXPECT_LT(turned.row(2).minCoeff(), -0.99) << "the inner flanges look down";
     EXPECT_NEAR(lipped.flat.row(0).maxCoeff(), 60 + 2 * (40 + 12 + 8) + 6 * 6 * pi / 2, 0.5);
-    const Eigen::Vector3d size =
-        lipped.mesh.position.rowwise().maxCoeff() - lipped.mesh.position.rowwise().minCoeff();
+    const Eigen::Vector3d size = lipped.mesh.position.rowwise().maxCoeff() - lipped.mesh.position.rowwise().minCoeff();
     EXPECT_NEAR(size.x(), 60 + 2 * 6, 1e-9);
     EXPECT_NEAR(size.z(), 40 + 2 * 6, 1e-9);
 }
@@ -87,8 +84,7 @@ TEST(Developable, PerforatedChannelIsIsometricUpToTheChordError)
         flat.position.row(2).setZero();
         EXPECT_GT(least_upward(flat), 0) << "a flat triangle is turned over";
         const Eigen::ArrayXd in_plane = edge_lengths(flat);
-        EXPECT_TRUE((edge_lengths(part.mesh).array() <= in_plane + 1e-9).all())
-            << "a chord is longer than its arc";
+        EXPECT_TRUE((edge_lengths(part.mesh).array() <= in_plane + 1e-9).all()) << "a chord is longer than its arc";
         h.push_back(mean_edge(part.mesh));
         error.push_back((1 - edge_lengths(part.mesh).array() / in_plane).maxCoeff());
     }

@@ -58,10 +58,9 @@ TEST(Revolved, ArcLengthOfAConeIsTheDistanceToItsApex)
     meridian << 0, 30, /**/ 40, 0;
     const AxisymmetricPart cone = axisymmetric(meridian, 3000);
     const Eigen::Vector3d apex(0, 0, 40);
-    EXPECT_LT((cone.arc_length - (cone.mesh.position.colwise() - apex).colwise().norm().transpose())
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-12);
+    EXPECT_LT(
+        (cone.arc_length - (cone.mesh.position.colwise() - apex).colwise().norm().transpose()).cwiseAbs().maxCoeff(),
+        1e-12);
     EXPECT_NEAR(area(cone.mesh), pi * 30 * 50, 3e-3 * pi * 30 * 50);
 }
 
@@ -87,8 +86,8 @@ TEST(Revolved, ReferenceMeridiansAreMeshedAtEverySize)
             expect_topology(part.mesh, 1, 1);
             expect_well_shaped(part.mesh, 0, 25);
             EXPECT_GT(least_upward(part.mesh), 0);
-            EXPECT_NEAR(part.mesh.position.col(part.rim.front()).head<2>().norm(),
-                        meridian(0, meridian.cols() - 1), 1e-9);
+            EXPECT_NEAR(part.mesh.position.col(part.rim.front()).head<2>().norm(), meridian(0, meridian.cols() - 1),
+                        1e-9);
         }
 }
 

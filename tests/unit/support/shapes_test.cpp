@@ -46,10 +46,9 @@ TEST(Shapes, MeshOfAnUndersampledSurfaceIsStillAHeightField)
     square.high = {200, 200};
     square.corners = {{0, 0}, {200, 0}, {200, 200}, {0, 200}};
     square.distance = [](const Eigen::Vector2d& p) { return box_distance(p, {100, 100}, {100, 100}, 0); };
-    const auto egg_crate =
-        [](const Eigen::Vector2d& p) { // slopes up to 76 degrees, a wave is two to six edges long
-            return Eigen::Vector3d(p.x(), p.y(), 25 * std::sin(p.x() / 6) * std::sin(p.y() / 6));
-        };
+    const auto egg_crate = [](const Eigen::Vector2d& p) { // slopes up to 76 degrees, a wave is two to six edges long
+        return Eigen::Vector3d(p.x(), p.y(), 25 * std::sin(p.x() / 6) * std::sin(p.y() / 6));
+    };
     for (int n : {3000, 6000, 12000}) {
         const ParametricMesh crate = mesh_surface(square, egg_crate, n);
         expect_topology(crate.mesh, 1, 1);
@@ -93,10 +92,7 @@ TEST(Shapes, MoebiusStripHasClashingOrientations)
     EXPECT_THROW(halfedges(mesh), InputError);
 }
 
-TEST(Shapes, TwoRectanglesAreTwoComponents)
-{
-    expect_topology(two_rectangles(), 2, 2);
-}
+TEST(Shapes, TwoRectanglesAreTwoComponents) { expect_topology(two_rectangles(), 2, 2); }
 
 } // namespace
 } // namespace spia::shapes

@@ -33,10 +33,7 @@ TEST(SquareCup, IsADiskOfGoodTrianglesAtEverySize)
     }
 }
 
-TEST(SquareCup, DraftMakesItAHeightField)
-{
-    EXPECT_GT(least_upward(square_cup({.draft_deg = 1})), 0.01);
-}
+TEST(SquareCup, DraftMakesItAHeightField) { EXPECT_GT(least_upward(square_cup({.draft_deg = 1})), 0.01); }
 
 TEST(SquareCup, VerticalWallStandsOnThePunchSquare)
 {
