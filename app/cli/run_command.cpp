@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <exception>
 
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
@@ -60,8 +61,6 @@ void print_summary(const Session& session)
     const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
-    const Deviation& deviation = session.surface->deviation;
-    const GridResult& grid = session.grid->result;
     fmt::print("part      {} triangles, {} boundary loops, {:.0f} mm2\n", part.triangles(), boundary_loops(part).size(),
                area(part));
     fmt::print("blank     {:.2f} x {:.2f} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
@@ -73,9 +72,15 @@ void print_summary(const Session& session)
     if (flat.necking_triangles > 0)
         fmt::print(
             "          {} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear there\n",
-            flat.necking_triangles, session.options.flatten.curve.trusted_strain);
+            flat.necking_triangles, flat.report.trusted_strain);
+    if (!session.grid)
+        return;
+    const GridResult& grid = session.grid->result;
     fmt::print("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
                grid.planar.rows, name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
+    if (!session.surface)
+        return;
+    const Deviation& deviation = session.surface->deviation;
     fmt::print("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
                session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
                std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
@@ -88,9 +93,21 @@ int run(const RunArguments& arguments)
     Session session;
     session.file = arguments.part;
     session.options = options(arguments);
+    std::exception_ptr error; // of a stage after the solver: the blank is worth writing all the same
+    std::optional<Failure> failure;
     for (const Stage stage : chain) {
         JobDisplay display{std::string(name(stage))};
-        session = run_stage(stage, std::move(session), display.progress());
+        try {
+            session = run_stage(stage, session, display.progress());
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::exception& reason) {
+            if (!session.blank)
+                throw;
+            error = std::current_exception();
+            failure = {stage, reason.what()};
+            break;
+        }
         display.done(session.seconds.at(stage));
         if (stage == Stage::read)
             print_doctor(*session.part);
@@ -101,7 +118,7 @@ int run(const RunArguments& arguments)
     const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     display.done(write_seconds);
     if (!arguments.json.empty())
-        write_atomically(arguments.json, report_json(session, files, write_seconds));
+        write_atomically(arguments.json, report_json(session, files, write_seconds, failure));
 
     print_summary(session);
     for (const auto& file : files)
@@ -109,6 +126,8 @@ int run(const RunArguments& arguments)
     const auto poorer = shortcomings(session);
     for (const std::string& text : poorer)
         fmt::print("WARNING   {}\n", text);
+    if (error)
+        std::rethrow_exception(error);
     return arguments.strict && !poorer.empty() ? 1 : 0;
 }
 

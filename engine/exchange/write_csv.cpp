@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/sheet_field_list.h"
 
 namespace spia {
 
 void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
-                      const SheetFields& node_fields)
+                      const SheetFields& node_fields, const std::vector<int>& number)
 {
     require_blank_of(part, blank);
+    if (!number.empty() && int(number.size()) != part.vertices())
+        throw InputError(fmt::format("{} vertex numbers were given for {} vertices", number.size(), part.vertices()));
     const auto fields = forming_fields(node_fields);
     std::string content = "vertex,x,y,z,blank_x,blank_y";
     for (const NamedField& field : fields) {
@@ -21,8 +24,8 @@ void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, co
     content += '\n';
     auto end = std::back_inserter(content);
     for (int v = 0; v < part.vertices(); ++v) {
-        fmt::format_to(end, "{},{},{},{},{},{}", v, part.position(0, v), part.position(1, v), part.position(2, v),
-                       blank.position(0, v), blank.position(1, v));
+        fmt::format_to(end, "{},{},{},{},{},{}", number.empty() ? v : number[size_t(v)], part.position(0, v),
+                       part.position(1, v), part.position(2, v), blank.position(0, v), blank.position(1, v));
         for (const NamedField& field : fields)
             fmt::format_to(end, ",{}", (*field.value)[v]);
         content += '\n';

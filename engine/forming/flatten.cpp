@@ -87,52 +87,115 @@ Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction)
     return plane;
 }
 
+/// What every stage of one solution needs.
+struct Job {
+    const TriMesh& part;
+    const std::vector<Element>& element;
+    const FlattenOptions& options;
+    const Friction& friction;
+    BlockMatrix& matrix;
+    Cholesky& cholesky;
+};
+
+/// Newton decrements of the energy stage, relative: to go on from, as a start for the equilibrium, as a result of its own.
+constexpr double rough = 1e-2, near_enough = 1e-3, exact = 1e-6;
+
 /// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
 /// is no number to begin with.
-EnergyResult energy_stage(const TriMesh& part, const std::vector<Element>& element, const FlattenOptions& options,
-                          Eigen::Matrix2Xd X, double decrement, BlockMatrix& matrix, Cholesky& cholesky,
-                          const Progress& progress)
+EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eigen::Matrix2Xd X, double decrement,
+                          int most_steps, SolveReport& report, const Progress& progress)
 {
-    const Eigen::VectorXd h = Eigen::VectorXd::Constant(part.triangles(), options.thickness);
-    std::vector<double> rates{options.curve.continuation_rate};
-    if (largest_strain(part, element, X) > 2)
-        rates = {0.25 * rates[0], 0.5 * rates[0], rates[0]};
+    const Eigen::VectorXd h = Eigen::VectorXd::Constant(job.part.triangles(), job.options.thickness);
+    std::vector<double> shares{1};
+    if (largest_strain(job.part, job.element, X) > 2)
+        shares = {0.25, 0.5, 1};
     EnergyResult result;
-    std::vector<NewtonStep> steps;
-    for (size_t level = 0; level < rates.size(); ++level) {
-        const bool last = level + 1 == rates.size();
-        StressCurve::Options curve = options.curve;
-        curve.continuation_rate = rates[level];
+    for (size_t level = 0; level < shares.size(); ++level) {
+        StressCurve::Options gentle = curve;
+        gentle.continuation_rate *= shares[level];
         EnergyOptions energy;
-        energy.most_steps = options.most_energy_steps;
-        energy.decrement = last ? decrement : 1e-2;
-        result = minimise_energy(part.triangle, element, MembraneLaw(options.material, curve), h, X, matrix, cholesky,
-                                 energy, progress.part(double(level) / rates.size(), double(level + 1) / rates.size()));
+        energy.most_steps = most_steps;
+        energy.decrement = level + 1 == shares.size() ? decrement : rough;
+        result = minimise_energy(
+            job.part.triangle, job.element, MembraneLaw(job.options.material, gentle), h, X, job.matrix, job.cholesky,
+            energy, progress.part(double(level) / double(shares.size()), double(level + 1) / double(shares.size())));
         X = result.position;
-        steps.insert(steps.end(), result.steps.begin(), result.steps.end());
+        report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
     }
-    result.steps = std::move(steps);
     return result;
 }
 
-/// Newton decrements of the energy stage, relative: as a start for the equilibrium, and as a result of its own.
-constexpr double near_enough = 1e-3, exact = 1e-6;
-
-std::string reason(const EnergyResult& energy, const EquilibriumResult& equilibrium)
+void take(EquilibriumResult& equilibrium, SolveReport& report)
 {
-    switch (equilibrium.ended) {
-    case Ended::converged: return "converged";
-    case Ended::stalled:
-        return fmt::format(
-            "the virtual-work system stalled at a residual of {:.1e} after {} steps; the blank is the one "
-            "of least energy with the thickness held",
-            equilibrium.residual, equilibrium.steps.size());
-    default:
-        return fmt::format("the virtual-work system was not solved within {} steps (residual {:.1e}); the blank is the "
-                           "one of least energy with the thickness held{}",
-                           equilibrium.steps.size() - 1, equilibrium.residual,
-                           energy.ended == Ended::converged ? "" : ", itself not fully converged");
+    report.newton.insert(report.newton.end(), equilibrium.steps.begin(), equilibrium.steps.end());
+    report.residual = equilibrium.residual;
+    report.resultant = equilibrium.resultant;
+    report.converged = equilibrium.ended == Ended::converged;
+}
+
+/// The three stages from a flip-free start X to the blank, each tried where the one before did not get there.
+Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<double, 3, 2>& plane,
+                       SolveReport& report, const Progress& progress)
+{
+    const FlattenOptions& options = job.options;
+    const EquilibriumOptions newton{options.most_newton_steps, options.tolerance};
+    // A curve that never lets the sheet soften: its energy is convex enough to find the minimum from far away.
+    StressCurve::Options hardening = options.curve;
+    hardening.trusted_strain = uniform_strain(options.material.hardening, options.curve.trusted_strain);
+    X = energy_stage(job, hardening, std::move(X), rough, options.most_energy_steps, report, progress.part(0, 0.3))
+            .position;
+    place_under_part(job.part, job.element, plane, X);
+    const Eigen::Matrix2Xd hardened = X;
+
+    report.trusted_strain = options.curve.trusted_strain;
+    constexpr int few_steps = 40; // more means that strain is gathering in single elements
+    const EnergyResult energy =
+        energy_stage(job, options.curve, X, near_enough, std::min(few_steps, options.most_energy_steps), report,
+                     progress.part(0.3, 0.4));
+    std::string obstacle = "the energy stage did not end";
+    if (energy.ended == Ended::converged) {
+        const MembraneLaw law(options.material, options.curve);
+        VirtualWork work(job.part, job.element, law, options.thickness, job.friction);
+        EquilibriumResult result = solve_equilibrium(job.part, job.element, work, energy.position, job.matrix,
+                                                     job.cholesky, newton, progress.part(0.4, 0.6));
+        take(result, report);
+        if (report.converged) {
+            report.reason = "converged";
+            return std::move(result.position);
+        }
+        obstacle = fmt::format("the equations stalled at a residual of {:.1e}", result.residual);
     }
+
+    const MembraneLaw law(options.material, hardening);
+    report.trusted_strain = law.curve().trusted_strain();
+    VirtualWork work(job.part, job.element, law, options.thickness, job.friction);
+    X = energy_stage(job, hardening, hardened, near_enough, options.most_energy_steps, report, progress.part(0.6, 0.7))
+            .position;
+    EquilibriumResult result = solve_relaxed_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky,
+                                                         newton, progress.part(0.7, 0.95));
+    take(result, report);
+    if (report.converged) {
+        report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
+        report.reason = "converged";
+        if (report.trusted_strain < options.curve.trusted_strain)
+            report.reason +=
+                fmt::format(" with the hardening curve continued from the uniform strain {:.2f} on instead of "
+                            "{:.2f} ({})",
+                            report.trusted_strain, options.curve.trusted_strain, obstacle);
+        if (report.relaxed_vertices > 0)
+            report.reason +=
+                fmt::format("; equilibrium is relaxed at {} of {} vertices, where the mesh does not resolve how "
+                            "the strain changes",
+                            report.relaxed_vertices, job.part.vertices());
+        return std::move(result.position);
+    }
+    EnergyResult held =
+        energy_stage(job, hardening, std::move(X), exact, options.most_energy_steps, report, progress.part(0.95, 1));
+    report.reason = fmt::format(
+        "the virtual-work system was not solved (residual {:.1e} after {} steps); the blank is the "
+        "one of least energy with the thickness held{}",
+        result.residual, report.newton.size(), held.ended == Ended::converged ? "" : ", itself not fully converged");
+    return std::move(held.position);
 }
 
 /// Area-weighted mean of the faces around each vertex; directions as the mean of d d^T.
@@ -176,9 +239,9 @@ SheetFields to_nodes(const TriMesh& part, const std::vector<Element>& element, c
 }
 
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
-                        const FlattenOptions& options)
+                        const FlattenOptions& options, const StressCurve::Options& curve)
 {
-    const MembraneLaw law(options.material, options.curve);
+    const MembraneLaw law(options.material, curve);
     const int faces = part.triangles();
     SheetFields out;
     for (Eigen::VectorXd* field :
@@ -223,7 +286,7 @@ double volume_error(const TriMesh& part, const FlattenResult& result, double h0)
 
 SheetFields sheet_fields(const TriMesh& part, const Blank& blank, const FlattenOptions& options)
 {
-    return face_fields(part, elements(part), blank, options);
+    return face_fields(part, elements(part), blank, options, options.curve);
 }
 
 FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
@@ -242,31 +305,15 @@ FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const 
     InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky);
     result.report.start = guess.method;
 
-    EnergyResult energy = energy_stage(part, element, options, std::move(guess.position), near_enough, matrix, cholesky,
-                                       progress.part(0.1, 0.6));
-    result.report.energy = std::move(energy.steps);
-    place_under_part(part, element, plane, energy.position);
-
     const Friction friction{options.friction, plane,
                             result.stamping.direction * (part.position.transpose() * result.stamping.direction).mean()};
-    const EquilibriumOptions newton{options.most_newton_steps, options.tolerance};
-    EquilibriumResult equilibrium =
-        solve_equilibrium(part, element, MembraneLaw(options.material, options.curve), options.thickness, friction,
-                          energy.position, matrix, cholesky, newton, progress.part(0.6, 0.95));
-    result.report.converged = equilibrium.ended == Ended::converged;
-    if (!result.report.converged) {
-        energy = energy_stage(part, element, options, std::move(energy.position), exact, matrix, cholesky,
-                              progress.part(0.95, 1));
-        result.report.energy.insert(result.report.energy.end(), energy.steps.begin(), energy.steps.end());
-    }
-    result.report.reason = reason(energy, equilibrium);
-    result.report.newton = std::move(equilibrium.steps);
-    result.report.residual = equilibrium.residual;
-    result.report.resultant = equilibrium.resultant;
-    result.blank.position = result.report.converged ? std::move(equilibrium.position) : std::move(energy.position);
+    const Job job{part, element, options, friction, matrix, cholesky};
+    result.blank.position = solve(job, std::move(guess.position), plane, result.report, progress.part(0.1, 1));
     place_under_part(part, element, plane, result.blank.position);
 
-    result.face = face_fields(part, element, result.blank, options);
+    StressCurve::Options curve = options.curve;
+    curve.trusted_strain = result.report.trusted_strain;
+    result.face = face_fields(part, element, result.blank, options, curve);
     result.node = to_nodes(part, element, result.face);
     result.necking_triangles = result.face.necking.sum();
     result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);

@@ -24,12 +24,14 @@ struct FlattenOptions {
 
 /// How the solution came about.
 struct SolveReport {
-    bool converged = false; ///< the virtual-work system holds to the tolerance
-    std::string reason;     ///< why the iteration ended, in words
+    bool converged = false;    ///< the virtual-work system holds to the tolerance
+    double trusted_strain = 0; ///< the hardening curve is continued beyond it: the option's, or the uniform strain
+    int relaxed_vertices = 0;  ///< whose equations were relaxed, see VirtualWork::relax()
+    std::string reason;        ///< why the iteration ended, in words
     StartMethod start;
-    std::vector<NewtonStep> energy; ///< steps of the energy stage (all continuation levels in a row)
-    std::vector<NewtonStep> newton; ///< steps of the virtual-work stage
-    double residual = 0;            ///< |R| relative to the nodal forces at the yield stress
+    std::vector<NewtonStep> energy;                      ///< steps of the energy stage (all its passes in a row)
+    std::vector<NewtonStep> newton;                      ///< steps of the virtual-work stage
+    double residual = 0;                                 ///< |R| relative to the nodal forces at the yield stress
     Eigen::Vector3d resultant = Eigen::Vector3d::Zero(); ///< multipliers of the rigid motion: N, N, N mm
     double seconds = 0;
 };
@@ -50,8 +52,9 @@ struct FlattenResult {
 /// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
 /// @throws InputError  if the part or an option is not as described; names the first offending face
 /// @throws SolveError  if there is no flip-free state at all
-/// If the virtual-work system does not converge, the blank of the energy stage (thickness held) is given and the report
-/// says so. The result does not depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
+/// If the virtual-work system does not converge, the hardening curve is continued from the uniform strain on and equations
+/// that the mesh cannot bear are relaxed; if that fails too, the blank of the energy stage (thickness held) is given. The
+/// report says so. The result does not depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
 FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {});
 
 /// Strains, thickness and stresses of forming `blank` into `part`.

@@ -64,6 +64,22 @@ FlowStress StressCurve::Cubic::at(double x) const
             w * t * (f0 + t * (c1 / 2 + t * (c2 / 3 + t * c3 / 4)))};
 }
 
+double uniform_strain(const Hardening& law, double at_most)
+{
+    const auto hardens = [&](double strain) {
+        const FlowStress f = flow_stress(law, strain);
+        return f.slope > f.stress;
+    };
+    if (hardens(at_most))
+        return at_most;
+    double low = 0, high = at_most;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (hardens(middle) ? low : high) = middle;
+    }
+    return high;
+}
+
 StressCurve::StressCurve(const Hardening& law, double young_MPa, const Options& options)
     : law_(law), young_(young_MPa), trusted_(options.trusted_strain), rate_(options.continuation_rate)
 {

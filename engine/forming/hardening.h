@@ -27,6 +27,11 @@ struct FlowStress {
 };
 FlowStress flow_stress(const Hardening& law, double strain);
 
+/// Strain up to which a tensile bar strains uniformly: the slope of the true curve has fallen to the stress there. [Considere
+/// 1885] Beyond it the force in a strained sheet falls, and equilibrium may gather the strain in a single row of elements.
+/// @param at_most answered where the law does not get there before
+double uniform_strain(const Hardening& law, double at_most);
+
 /// The uniaxial curve sigma_eq(eps_eq) that the solver sees: Hooke's line, the hardening law, and beyond the strain up
 /// to which the law is trusted an exponential continuation (without it the model is ill-posed past the forming limit:
 /// strain collapses into single elements). Both transitions are cubics with matching value and slope, so Newton's

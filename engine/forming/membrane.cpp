@@ -140,16 +140,16 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
     return out;
 }
 
-MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G, double coupling)
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G)
 {
     const Svd2 d = svd(G);
     const Eigen::Vector2d& s = d.s;
     const PlaneStress p = law(-s.array().log().matrix());
-    const double h = coupling == 1 ? h0 * s[0] * s[1] : h0 * std::pow(s[0] * s[1], coupling);
+    const double h = h0 * s[0] * s[1];
     const Eigen::Vector2d t = h * p.stress;
 
-    // dt_k / d eps_l = h (C_kl - coupling sigma_k), for h = h0 exp(-coupling (eps_1 + eps_2)).
-    const Eigen::Matrix2d dt = h * (p.tangent - coupling * p.stress * Eigen::RowVector2d::Ones());
+    // dt_k / d eps_l = h (C_kl - sigma_k), for h = h0 exp(-(eps_1 + eps_2)).
+    const Eigen::Matrix2d dt = h * (p.tangent - p.stress * Eigen::RowVector2d::Ones());
     // (t_1 - t_2) / (mu_1 - mu_2) with mu = s^2, from eps_1 - eps_2 = -ln(mu_1/mu_2) / 2.
     const double shear = -0.5 * h * p.deviatoric * log_difference_quotient(s[0] * s[0], s[1] * s[1]);
 

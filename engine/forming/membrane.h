@@ -56,8 +56,7 @@ struct MembraneForce {
     Eigen::Matrix4d derivative;
 };
 /// @pre det G > 0
-/// @param h0        mm, initial thickness
-/// @param coupling  h = h0 (s_1 s_2)^coupling: 1 for the thickness of the formed sheet, 0 holds the initial one
-MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G, double coupling = 1);
+/// @param h0 mm, initial thickness
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G);
 
 } // namespace spia

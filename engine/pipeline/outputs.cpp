@@ -27,8 +27,8 @@ const std::vector<std::string>& output_formats()
 std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
                                                  const std::vector<std::string>& formats, const Progress& progress)
 {
-    if (!session.surface)
-        throw InputError("there is nothing to write yet: run the chain to its end first");
+    if (!session.blank)
+        throw InputError("there is nothing to write yet: solve the part first");
     for (const std::string& format : formats)
         if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
             throw InputError(
@@ -40,12 +40,23 @@ std::vector<std::filesystem::path> write_outputs(const Session& session, const s
 
     const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
-    const NurbsSurface& surface = session.surface->result.surface;
     const std::string name = session.file.stem().string();
-    const Tessellation tessellation = tessellate(surface, 3);
-    const ExportScene scene{
-        name,    &part, &flat.blank, &flat.node, &session.lifted->lifted, &tessellation.mesh, &tessellation.normal,
-        &surface};
+    ExportScene scene;
+    scene.name = name;
+    scene.part = &part;
+    scene.blank = &flat.blank;
+    scene.fields = &flat.node;
+    if (session.lifted)
+        scene.quad_mesh = &session.lifted->lifted;
+    Tessellation tessellation;
+    const NurbsSurface* surface = nullptr;
+    if (session.surface) {
+        surface = &session.surface->result.surface;
+        tessellation = tessellate(*surface, 3);
+        scene.surface = &tessellation.mesh;
+        scene.surface_normal = &tessellation.normal;
+        scene.control_net = surface;
+    }
 
     std::vector<std::filesystem::path> files;
     const auto file = [&](const std::string& file_name) -> const std::filesystem::path& {
@@ -54,20 +65,26 @@ std::vector<std::filesystem::path> write_outputs(const Session& session, const s
     for (size_t i = 0; i < formats.size(); ++i) {
         const std::string& format = formats[i];
         progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
-        if (format == "iges")
-            write_iges(file(name + ".iges"), surface, name);
-        else if (format == "step")
-            write_step(file(name + ".step"), surface, name);
-        else if (format == "glb")
+        if (format == "iges") {
+            if (surface)
+                write_iges(file(name + ".iges"), *surface, name);
+        } else if (format == "step") {
+            if (surface)
+                write_step(file(name + ".step"), *surface, name);
+        } else if (format == "glb")
             write_gltf(file(name + ".glb"), scene);
         else if (format == "vtu") {
-            const Eigen::VectorXd deviation = session.surface->deviation.at_vertex.head(part.vertices());
-            const NamedField extra[] = {{"deviation", &deviation}};
+            Eigen::VectorXd deviation;
+            std::vector<NamedField> extra;
+            if (session.surface) {
+                deviation = session.surface->deviation.at_vertex.head(part.vertices());
+                extra.push_back({"deviation", &deviation});
+            }
             write_vtu(file(name + ".vtu"), part, flat.blank, flat.face, flat.node, extra);
         } else if (format == "dxf")
             write_dxf(file(name + ".dxf"), blank_outline(part, flat.blank));
         else if (format == "csv") {
-            write_fields_csv(file("fields.csv"), part, flat.blank, flat.node);
+            write_fields_csv(file("fields.csv"), part, flat.blank, flat.node, session.part->source_vertex);
             write_outline_csv(file("outline.csv"), blank_outline(part, flat.blank));
         } else if (format == "png")
             write_picture(file(name + ".png"), scene);

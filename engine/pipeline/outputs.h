@@ -11,12 +11,12 @@ namespace spia {
 /// Formats by the names the command line uses.
 const std::vector<std::string>& output_formats();
 
-/// Writes the results of a finished session into a folder, which is made if need be: PART.iges, PART.step, PART.glb,
+/// Writes the results of a session, solved at least, into a folder, which is made if need be: PART.iges, PART.step, PART.glb,
 /// PART.vtu, PART.dxf, PART.png, and for csv the two tables fields.csv and outline.csv. Each file appears whole or not
-/// at all.
+/// at all. What has no surface yet leaves out IGES and STEP, and of the other files what belongs to it.
 /// @param formats some of output_formats()
 /// @returns the files, in the order of `formats`
-/// @throws InputError if the chain has not run to its end or a format is unknown; ExchangeError if a file cannot be written
+/// @throws InputError if the part is not solved or a format is unknown; ExchangeError if a file cannot be written
 std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
                                                  const std::vector<std::string>& formats,
                                                  const Progress& progress = {});

@@ -85,6 +85,8 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping)
             {"newton_iterations", report.newton.size()},
             {"residual", report.residual},
             {"seconds", report.seconds},
+            {"trusted_strain", report.trusted_strain},
+            {"relaxed_vertices", report.relaxed_vertices},
             {"start", name(report.start)},
             {"resultant_N_N_Nmm", {report.resultant[0], report.resultant[1], report.resultant[2]}},
             {"stamping_direction", {stamping.direction[0], stamping.direction[1], stamping.direction[2]}},
@@ -156,7 +158,7 @@ std::vector<std::string> shortcomings(const Session& session)
     std::vector<std::string> list;
     if (session.blank) {
         const FlattenResult& flat = *session.blank;
-        if (!flat.report.converged)
+        if (flat.report.reason != "converged")
             list.push_back(flat.report.reason);
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
@@ -172,7 +174,8 @@ std::vector<std::string> shortcomings(const Session& session)
     return list;
 }
 
-std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds)
+std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds,
+                        const std::optional<Failure>& failure)
 {
     Json json = {{"schema", "spia.result/1"}, {"input", session.file.string()}};
     if (session.part)
@@ -191,6 +194,8 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["grid"] = grid_json(session);
     if (session.surface)
         json["surface"] = surface_json(*session.surface);
+    if (failure)
+        json["failure"] = {{"stage", name(failure->stage)}, {"message", failure->message}};
     json["shortcomings"] = shortcomings(session);
     json["files"] = Json::array();
     for (const auto& file : files)

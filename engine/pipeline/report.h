@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,17 @@ namespace spia {
 /// What makes a result poorer than it should be, in words; empty if nothing does. (Command line: exit 1 with --strict.)
 std::vector<std::string> shortcomings(const Session& session);
 
+/// The stage that could not be run, and why not.
+struct Failure {
+    Stage stage;
+    std::string message;
+};
+
 /// The result of a run as JSON, the contract of engine/pipeline/README.md. Stages that have not run are left out.
 /// @param write_seconds time of write_outputs()
-std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds);
+/// @param failure what ended the chain before its end, if anything did
+std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds,
+                        const std::optional<Failure>& failure = {});
 
 /// What the mesh doctor says of a part as JSON.
 std::string doctor_json(const std::filesystem::path& file, const PartFile& part);

@@ -285,14 +285,17 @@ TEST(FieldsCsv, RowsFollowTheVerticesAndReadAsTheSameDoubles)
 {
     const ScratchFolder folder;
     const samples::Chain chain = samples::chain();
-    write_fields_csv(folder / "x.csv", chain.part, chain.blank, chain.node);
+    std::vector<int> number; // as if the file had had two vertices before each of the part
+    for (int v = 0; v < chain.part.vertices(); ++v)
+        number.push_back(3 * v + 2);
+    write_fields_csv(folder / "x.csv", chain.part, chain.blank, chain.node, number);
     const auto rows = split(content_of(folder / "x.csv"), '\n');
     EXPECT_EQ(rows[0], "vertex,x,y,z,blank_x,blank_y,thickness,thinning,strain_major,strain_minor,strain_equivalent");
     ASSERT_EQ(rows.size(), size_t(chain.part.vertices()) + 1);
     for (int v = 0; v < chain.part.vertices(); ++v) {
         const auto cell = split(rows[size_t(v) + 1], ',');
         ASSERT_EQ(cell.size(), 11u);
-        EXPECT_EQ(std::stoi(cell[0]), v);
+        EXPECT_EQ(std::stoi(cell[0]), 3 * v + 2);
         const double expected[] = {chain.part.position(0, v),  chain.part.position(1, v),
                                    chain.part.position(2, v),  chain.blank.position(0, v),
                                    chain.blank.position(1, v), chain.node.thickness[v],
@@ -343,6 +346,7 @@ TEST(PlainFiles, FailureLeavesNoFile)
     chain.node.thinning.conservativeResize(5);
     EXPECT_THROW(write_vtu(folder / "x", chain.part, chain.blank, chain.face, chain.node), InputError);
     EXPECT_THROW(write_fields_csv(folder / "x", chain.part, chain.blank, chain.node), InputError);
+    EXPECT_THROW(write_fields_csv(folder / "x", chain.part, chain.blank, samples::chain().node, {1, 2}), InputError);
     EXPECT_THROW(write_dxf(folder / "x", {}), InputError);
     EXPECT_THROW(write_outline_csv(folder / "x", {OutlineLoop::Zero(2, 2)}), InputError);
     EXPECT_TRUE(folder.names().empty());

@@ -1,4 +1,4 @@
-#include "engine/forming/equilibrium.h"
+#include "engine/forming/virtual_work.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -40,21 +40,29 @@ TEST(Equilibrium, TangentAgreesWithCentralDifferencesWithFriction)
     friction.traction = Eigen::VectorXd::Constant(part.triangles(), 0.8);
     friction.plane << 1, 0, 0, 1, 0, 0;
     friction.origin << 0.3, -0.2, 5;
-    const EquilibriumSystem at_X = equilibrium_system(part, law, 0.8, friction, X, X);
-    Eigen::MatrixXd difference(X.size(), X.size());
-    const double step = 1e-6;
-    for (Eigen::Index i = 0; i < X.size(); ++i) {
-        Eigen::Matrix2Xd up = X, down = X;
-        up(i) += step;
-        down(i) -= step;
-        difference.col(i) = (equilibrium_system(part, law, 0.8, friction, X, up).residual -
-                             equilibrium_system(part, law, 0.8, friction, X, down).residual) /
-                            (2 * step);
-    }
-    for (Eigen::Index i = 0; i < X.size(); ++i) {
-        Eigen::VectorXd column;
-        at_X.tangent.multiply(Eigen::VectorXd::Unit(X.size(), i), column);
-        EXPECT_LT((column - difference.col(i)).norm(), 1e-6 * difference.norm());
+    const std::vector<Element> element = elements(part);
+    VirtualWork work(part, element, law, 0.8, friction);
+    std::vector<char> relaxed(size_t(part.vertices()), 0);
+    for (size_t v = 0; v < relaxed.size(); v += 3)
+        relaxed[v] = 1;
+    for (const auto& some : {std::vector<char>(relaxed.size(), 0), relaxed}) {
+        work.relax(some);
+        work.set_axes(X);
+        Eigen::MatrixXd difference(X.size(), X.size());
+        const double step = 1e-6;
+        for (Eigen::Index i = 0; i < X.size(); ++i) {
+            Eigen::Matrix2Xd up = X, down = X;
+            up(i) += step;
+            down(i) -= step;
+            difference.col(i) = (work.residual(up) - work.residual(down)) / (2 * step);
+        }
+        BlockMatrix tangent(part.triangle, part.vertices());
+        work.tangent(X, tangent);
+        for (Eigen::Index i = 0; i < X.size(); ++i) {
+            Eigen::VectorXd column;
+            tangent.multiply(Eigen::VectorXd::Unit(X.size(), i), column);
+            EXPECT_LT((column - difference.col(i)).norm(), 1e-6 * difference.norm());
+        }
     }
 }
 
@@ -64,9 +72,60 @@ TEST(Equilibrium, MovingTheBlankChangesNothing)
     const MembraneLaw law(mild_steel());
     const Eigen::Matrix2Xd X = strained(part);
     const Eigen::Matrix2Xd moved = (Eigen::Rotation2Dd(0.7).toRotationMatrix() * X).colwise() + Eigen::Vector2d(11, -4);
-    const Eigen::VectorXd a = equilibrium_system(part, law, 0.8, {}, X, X).residual;
-    const Eigen::VectorXd b = equilibrium_system(part, law, 0.8, {}, X, moved).residual;
+    const std::vector<Element> element = elements(part);
+    const Friction none;
+    VirtualWork work(part, element, law, 0.8, none);
+    work.set_axes(X);
+    const Eigen::VectorXd a = work.residual(X), b = work.residual(moved);
     EXPECT_LT((a - b).norm(), 1e-10 * a.norm());
+}
+
+TEST(Equilibrium, TheAxesDoNotChangeTheForces)
+{
+    const TriMesh part = wavy();
+    const MembraneLaw law(mild_steel());
+    const Eigen::Matrix2Xd X = strained(part), flat = part.position.topRows<2>();
+    const std::vector<Element> element = elements(part);
+    const Friction none;
+    VirtualWork work(part, element, law, 0.8, none);
+    work.set_axes(X);
+    const Eigen::VectorXd a = work.residual(X);
+    work.set_axes(1.7 * flat);
+    const Eigen::VectorXd b = work.residual(X);
+    // Two forces in the same tangent plane, written in axes T and T': both zero or none, and near each other here.
+    for (int v = 0; v < part.vertices(); ++v) {
+        const double cosine = a.segment<2>(2 * v).normalized().dot(b.segment<2>(2 * v).normalized());
+        EXPECT_GT(cosine, 0.9) << v;
+    }
+}
+
+TEST(Equilibrium, VerticesAgreeWhereTheStrainIsUniform)
+{
+    const TriMesh flat = shapes::rectangle(30, 20, 6, 5);
+    const MembraneLaw law(mild_steel());
+    const std::vector<Element> element = elements(flat);
+    const Friction none;
+    VirtualWork work(flat, element, law, 0.8, none);
+    Eigen::Matrix2d stretch;
+    stretch << 1.2, 0.1, 0, 0.9;
+    const Eigen::Matrix2Xd uniform = stretch * flat.position.topRows<2>();
+    work.set_axes(uniform);
+    EXPECT_LT((work.mismatch().array() - 1).abs().maxCoeff(), 1e-12);
+    const Eigen::VectorXd strict = work.residual(uniform);
+    work.relax(std::vector<char>(size_t(flat.vertices()), 1));
+    EXPECT_LT((work.residual(uniform) - strict).norm(), 1e-12 * strict.norm());
+
+    Eigen::Matrix2Xd kinked = flat.position.topRows<2>(); // twice as long beyond x = 15: F jumps by 2 there
+    for (int v = 0; v < flat.vertices(); ++v)
+        if (kinked(0, v) > 15)
+            kinked(0, v) += kinked(0, v) - 15;
+    work.set_axes(kinked);
+    const Eigen::VectorXd mismatch = work.mismatch();
+    for (int v = 0; v < flat.vertices(); ++v)
+        if (std::abs(flat.position(0, v) - 15) < 1e-9)
+            EXPECT_GT(mismatch[v], 1.2) << v;
+        else
+            EXPECT_NEAR(mismatch[v], 1, 1e-12) << v;
 }
 
 } // namespace spia

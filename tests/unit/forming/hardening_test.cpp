@@ -68,4 +68,14 @@ TEST(StressCurve, HasNoJumpInStressOrSlope)
     }
 }
 
+TEST(UniformStrain, IsWhereTheSlopeHasFallenToTheStress)
+{
+    EXPECT_NEAR(uniform_strain(Swift{565.32, 0.007117, 0.2589}, 1), 0.2589 - 0.007117, 1e-12);
+    EXPECT_NEAR(uniform_strain(Hollomon{500, 0.21}, 1), 0.21, 1e-12);
+    // Voce: c (s - s0) e = s - (s - s0) e for e = exp(-c eps)
+    EXPECT_NEAR(uniform_strain(Voce{200, 400, 12}, 1), std::log((400 - 200) * (12 + 1) / 400.0) / 12, 1e-12);
+    EXPECT_EQ(uniform_strain(Hollomon{500, 0.6}, 0.5), 0.5);
+    EXPECT_LT(uniform_strain(Voce{300, 310, 1}, 0.5), 1e-12); // never hardens enough
+}
+
 } // namespace spia

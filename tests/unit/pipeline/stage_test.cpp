@@ -1,12 +1,14 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/session.h"
+#include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
 namespace {
@@ -130,6 +132,30 @@ TEST(Report, HasTheKeysOfTheContractAndTheFiguresOfTheResult)
     for (size_t f = 0; f < element.size(); ++f)
         volume += element[f].area * session.blank->face.thickness[Eigen::Index(f)];
     EXPECT_NEAR(json["blank"]["area_mm2"].get<double>(), volume, 1e-9 * volume);
+}
+
+TEST(Outputs, WhatHasNoSurfaceYetIsWrittenWithoutIt)
+{
+    const ScratchFolder folder;
+    Session session = finished("dome.obj");
+    const auto all = write_outputs(session, folder / "whole", output_formats());
+    EXPECT_EQ(all.size(), output_formats().size() + 1); // csv: two tables
+    session.grid.reset();
+    session.lifted.reset();
+    session.surface.reset();
+    std::set<std::string> names;
+    for (const auto& file : write_outputs(session, folder / "partial", output_formats())) {
+        EXPECT_GT(std::filesystem::file_size(file), 100u) << file;
+        names.insert(file.filename().string());
+    }
+    EXPECT_EQ(names,
+              (std::set<std::string>{"dome.glb", "dome.vtu", "dome.dxf", "fields.csv", "outline.csv", "dome.png"}));
+    const auto json = nlohmann::json::parse(report_json(session, {}, 0, Failure{Stage::grid, "no corner"}));
+    EXPECT_EQ(json["failure"]["stage"], "grid");
+    EXPECT_EQ(json["failure"]["message"], "no corner");
+    EXPECT_TRUE(json.contains("blank"));
+    session.blank.reset();
+    EXPECT_THROW(write_outputs(session, folder / "nothing", output_formats()), InputError);
 }
 
 } // namespace spia

@@ -1,0 +1,203 @@
+#include "engine/forming/virtual_work.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/parallel.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+/// The smallest rotation that takes unit vector `from` to unit vector `to`, applied to v. Where they are opposite
+/// (a sheet folded flat on itself) the turn is not unique; the guarded divisor then picks none in particular.
+Eigen::Vector3d turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& v)
+{
+    const Eigen::Vector3d w = from.cross(to);
+    const double divisor = std::max(1 + from.dot(to), 1e-6);
+    return v + w.cross(v) + w.cross(w.cross(v)) / divisor;
+}
+
+} // namespace
+
+VirtualWork::VirtualWork(const TriMesh& part, const std::vector<Element>& element, const MembraneLaw& law, double h0,
+                         const Friction& friction)
+    : part_(part), element_(element), law_(law), h0_(h0), friction_(friction), normal_(vertex_normals(part)),
+      turned_(element.size()), F_(element.size()), axes_(size_t(part.vertices())), relaxed_(size_t(part.vertices()), 0)
+{
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto& frame = element[size_t(f)].frame;
+        const Eigen::Vector3d face_normal = frame.col(0).cross(frame.col(1));
+        for (int a = 0; a < 3; ++a)
+            for (int k = 0; k < 2; ++k)
+                turned_[size_t(f)][size_t(a)].col(k) =
+                    turn(face_normal, normal_.col(part.triangle(a, f)), frame.col(k));
+    }
+    if (friction.traction.size() == 0)
+        return;
+    nodal_traction_ = Eigen::VectorXd::Zero(part.vertices());
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int a = 0; a < 3; ++a)
+            nodal_traction_[part.triangle(a, f)] += friction.traction[f] * element[size_t(f)].area / 3;
+}
+
+void VirtualWork::set_axes(const Eigen::Matrix2Xd& X)
+{
+    std::fill(axes_.begin(), axes_.end(), Axes::Zero());
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(part_.vertices());
+    for (int f = 0; f < part_.triangles(); ++f) {
+        const Element& e = element_[size_t(f)];
+        F_[size_t(f)] = inverse_gradient(e, corners(X, part_.triangle.col(f))).inverse();
+        for (int a = 0; a < 3; ++a) {
+            const int v = part_.triangle(a, f);
+            axes_[size_t(v)] += e.area * turned_[size_t(f)][size_t(a)] * F_[size_t(f)];
+            weight[v] += e.area;
+        }
+    }
+    for (int v = 0; v < part_.vertices(); ++v)
+        axes_[size_t(v)] /= weight[v];
+}
+
+Eigen::VectorXd VirtualWork::mismatch() const
+{
+    constexpr double least_cosine = 0.5;
+    Eigen::VectorXd worst = Eigen::VectorXd::Ones(part_.vertices());
+    for (int f = 0; f < part_.triangles(); ++f)
+        for (int a = 0; a < 3; ++a) {
+            const int v = part_.triangle(a, f);
+            const Axes& T = axes_[size_t(v)];
+            const auto& frame = element_[size_t(f)].frame;
+            // The triangle's push-forward of the blank's axes, in terms of the vertex's: the identity if they agree.
+            const Eigen::Matrix2d relative =
+                (T.transpose() * T).inverse() * T.transpose() * turned_[size_t(f)][size_t(a)] * F_[size_t(f)];
+            const Eigen::Vector2d s = svd(relative).s;
+            const bool tangent_plane = frame.col(0).cross(frame.col(1)).dot(normal_.col(v)) >= least_cosine;
+            if (!tangent_plane || !(s[1] > 0))
+                worst[v] = std::numeric_limits<double>::infinity();
+            else
+                worst[v] = std::max({worst[v], s[0], 1 / s[1]});
+        }
+    return worst;
+}
+
+Eigen::Matrix2d VirtualWork::to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const
+{
+    const size_t v = size_t(part_.triangle(a, f));
+    return relaxed_[v] ? pull_back : Eigen::Matrix2d(axes_[v].transpose() * turned_[size_t(f)][size_t(a)]);
+}
+
+Eigen::VectorXd VirtualWork::residual(const Eigen::Matrix2Xd& X) const
+{
+    std::vector<Eigen::Matrix<double, 2, 3>> force(element_.size());
+    parallel_for(part_.triangles(), [&](int f) {
+        const Element& e = element_[size_t(f)];
+        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
+        const Eigen::Matrix2d tau = membrane_force(law_, h0_, G).force;
+        const Eigen::Matrix2d pull_back = G.inverse().transpose();
+        for (int a = 0; a < 3; ++a)
+            force[size_t(f)].col(a) = -e.area * (to_vertex(f, a, pull_back) * (tau * e.gradient.col(a)));
+    });
+    Eigen::VectorXd R = Eigen::VectorXd::Zero(2 * X.cols());
+    for (int f = 0; f < part_.triangles(); ++f)
+        for (int a = 0; a < 3; ++a)
+            R.segment<2>(2 * part_.triangle(a, f)) += force[size_t(f)].col(a);
+    if (nodal_traction_.size() > 0)
+        for (int v = 0; v < part_.vertices(); ++v)
+            R.segment<2>(2 * v) += nodal_friction(v, X.col(v)).force;
+    return R;
+}
+
+void VirtualWork::tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
+{
+    std::vector<Matrix6d> stiffness(element_.size());
+    parallel_for(part_.triangles(), [&](int f) {
+        const Element& e = element_[size_t(f)];
+        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
+        const MembraneForce m = membrane_force(law_, h0_, G);
+        const Eigen::Matrix2d pull_back = G.inverse().transpose();
+        const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
+        for (int a = 0; a < 3; ++a)
+            stiffness[size_t(f)].middleRows<2>(2 * a) =
+                -e.area * (force_change(m, pull_back, to_vertex(f, a, pull_back),
+                                        relaxed_[size_t(part_.triangle(a, f))], e.gradient.col(a)) *
+                           B);
+    });
+    matrix.assemble(stiffness);
+    if (nodal_traction_.size() > 0)
+        for (int v = 0; v < part_.vertices(); ++v)
+            matrix.add_to_diagonal(v, nodal_friction(v, X.col(v)).derivative);
+}
+
+void VirtualWork::definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
+{
+    std::vector<Matrix6d> stiffness(element_.size());
+    parallel_for(part_.triangles(), [&](int f) {
+        const Element& e = element_[size_t(f)];
+        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
+        const MembraneForce m = membrane_force(law_, h0_, G);
+        const Eigen::Matrix2d pull_back = G.inverse().transpose();
+        Eigen::Matrix4d K = Eigen::Matrix4d::Zero(); // mean of the three corners
+        for (int a = 0; a < 3; ++a) {
+            const Eigen::Matrix2d M = to_vertex(f, a, pull_back);
+            const bool relaxed = relaxed_[size_t(part_.triangle(a, f))];
+            K.topRows<2>() -= force_change(m, pull_back, M, relaxed, Eigen::Vector2d::UnitX()) / 3;
+            K.bottomRows<2>() -= force_change(m, pull_back, M, relaxed, Eigen::Vector2d::UnitY()) / 3;
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(0.5 * (K + K.transpose()));
+        Eigen::Vector4d value = modes.eigenvalues().cwiseAbs();
+        value = value.cwiseMax(1e-8 * value.maxCoeff());
+        const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
+        stiffness[size_t(f)] =
+            e.area * (B.transpose() * modes.eigenvectors() * value.asDiagonal() * modes.eigenvectors().transpose() * B);
+    });
+    matrix.assemble(stiffness);
+    // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a difference of rank six.
+    const double mean = matrix.diagonal().mean();
+    matrix.add_to_diagonal(0, mean);
+    matrix.add_to_diagonal(1, mean);
+    matrix.add_to_diagonal(matrix.size() - 1, mean);
+}
+
+double VirtualWork::yield_force() const
+{
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(part_.vertices());
+    for (int f = 0; f < part_.triangles(); ++f)
+        for (int a = 0; a < 3; ++a)
+            force[part_.triangle(a, f)] += element_[size_t(f)].area * h0_ * law_.curve().yield_stress() *
+                                           element_[size_t(f)].gradient.col(a).norm();
+    return force.norm();
+}
+
+Eigen::Matrix<double, 2, 4> VirtualWork::force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
+                                                      const Eigen::Matrix2d& M, bool relaxed,
+                                                      const Eigen::Vector2d& g) const
+{
+    Eigen::Matrix<double, 2, 4> change;
+    for (int k = 0; k < 4; ++k)
+        change.col(k) = M * (m.derivative.col(k).reshaped(2, 2) * g);
+    if (relaxed) { // M = F^T: dF^T = -F^T dG^T F^T, and dG has a single one in row k % 2, column k / 2
+        const Eigen::Vector2d pulled = pull_back * (m.force * g);
+        for (int k = 0; k < 4; ++k)
+            change.col(k) -= pull_back.col(k / 2) * pulled[k % 2];
+    }
+    return change;
+}
+
+VirtualWork::NodalFriction VirtualWork::nodal_friction(int v, const Eigen::Vector2d& X) const
+{
+    NodalFriction out{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+    if (nodal_traction_[v] == 0)
+        return out;
+    const Eigen::Vector3d n = normal_.col(v);
+    const Eigen::Matrix3d to_tangent = Eigen::Matrix3d::Identity() - n * n.transpose();
+    const Eigen::Vector3d slip = to_tangent * (part_.position.col(v) - friction_.origin - friction_.plane * X);
+    const double length = std::sqrt(slip.squaredNorm() + friction_.full_slip * friction_.full_slip);
+    const Eigen::Matrix3d change = (Eigen::Matrix3d::Identity() - slip * slip.transpose() / (length * length)) / length;
+    const Axes& T = axes_[size_t(v)];
+    out.force = -nodal_traction_[v] * (T.transpose() * slip) / length;
+    out.derivative = nodal_traction_[v] * T.transpose() * change * to_tangent * friction_.plane;
+    return out;
+}
+
+} // namespace spia

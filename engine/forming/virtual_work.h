@@ -1,0 +1,84 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "engine/forming/membrane.h"
+#include "engine/mesh/tri_mesh.h"
+#include "engine/sparse/block_matrix.h"
+
+namespace spia {
+
+/// A friction traction on the formed part, tangential, against the material's slip from blank to part.
+struct Friction {
+    Eigen::VectorXd traction;          ///< #F, MPa (N/mm2 of the part); empty where there is none
+    Eigen::Matrix<double, 3, 2> plane; ///< axes of the blank in space
+    Eigen::Vector3d origin;            ///< point of the blank's (0, 0) in space, up to its height
+    double full_slip = 0.1;            ///< mm: below this slip the traction fades out smoothly
+};
+
+/// The principle of virtual work on the formed part (eqs. 16-23): two equations per vertex. The membrane forces h sigma
+/// of the triangles around it, turned into its tangent plane by the smallest rotation between the two normals, are in
+/// balance with friction. Keeps references to its arguments.
+class VirtualWork {
+public:
+    VirtualWork(const TriMesh& part, const std::vector<Element>& element, const MembraneLaw& law, double h0,
+                const Friction& friction);
+
+    /// Writes the equations in axes that follow the blank's x and y through the deformation X: the residual is then
+    /// close to the gradient of an energy and its derivative close to symmetric. The solution does not depend on X.
+    void set_axes(const Eigen::Matrix2Xd& X);
+
+    /// Relaxes the equations of some vertices: the virtual displacement of a triangle's corner is then carried from the
+    /// blank by the triangle's own F, not by one tangent vector of the vertex for all triangles around it. The stresses
+    /// and the thickness are the same; the change of F across the vertex is neglected. For vertices where the mesh
+    /// does not resolve that change, or has no tangent plane: one vector for all is then no approximation either, and
+    /// the system has no solution.
+    void relax(std::vector<char> vertex) { relaxed_ = std::move(vertex); } ///< one entry per vertex
+    const std::vector<char>& relaxed() const { return relaxed_; }
+
+    /// Per vertex, how far the one tangent vector is from what the triangles around it do: the largest factor, at least
+    /// 1, by which a principal stretch between the two differs from 1; infinite where the vertex has no tangent plane
+    /// (a normal around it is more than 60 degrees off).
+    Eigen::VectorXd mismatch() const;
+
+    /// Minus internal plus external forces, N: 2 per vertex. Its derivative is nearly positive definite.
+    Eigen::VectorXd residual(const Eigen::Matrix2Xd& X) const;
+
+    /// The exact derivative of the residual with the axes held.
+    void tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
+
+    /// A positive definite neighbour of the tangent, to precondition with: per triangle the symmetric part of the
+    /// tangent in the space of G, the eigenvalues by their magnitude (they are negative where the sheet softens).
+    void definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
+
+    /// Norm of the nodal forces of a sheet at its yield stress all over: what |R| is measured against. N
+    double yield_force() const;
+
+private:
+    using Axes = Eigen::Matrix<double, 3, 2>;
+    struct NodalFriction {
+        Eigen::Vector2d force;
+        Eigen::Matrix2d derivative; ///< with respect to the vertex's place on the blank
+    };
+
+    /// How corner a of face f sees its vertex's equations: M in M (h sigma) g_a.
+    Eigen::Matrix2d to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const;
+    /// Change of M (h sigma) g with G, column by column; M itself changes with G where the vertex is relaxed.
+    Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
+                                             const Eigen::Matrix2d& M, bool relaxed, const Eigen::Vector2d& g) const;
+    NodalFriction nodal_friction(int v, const Eigen::Vector2d& X) const;
+
+    const TriMesh& part_;
+    const std::vector<Element>& element_;
+    const MembraneLaw& law_;
+    double h0_;
+    const Friction& friction_;
+    Eigen::Matrix3Xd normal_;
+    std::vector<std::array<Axes, 3>> turned_; ///< Q_ea J_e: a triangle's axes in the tangent planes of its corners
+    std::vector<Eigen::Matrix2d> F_;          ///< at the X of set_axes()
+    std::vector<Axes> axes_;                  ///< T_a: push-forward of the blank's x and y, tangential
+    Eigen::VectorXd nodal_traction_;
+    std::vector<char> relaxed_;
+};
+
+} // namespace spia
