@@ -193,13 +193,15 @@ private:
 };
 
 /// From the first to the last of a hundred equal shares: single extreme vertices must not take the colours
-/// from the rest.
+/// from the rest. Never narrower than 0.02 %: rounding errors are not worth a colour.
 ColourRange central_range(const Eigen::VectorXd& values)
 {
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
     const size_t cut = sorted.size() / 100;
-    return {sorted[cut], sorted[sorted.size() - 1 - cut]};
+    constexpr double least_half_width = 1e-4;
+    const double least = sorted[cut], greatest = sorted[sorted.size() - 1 - cut], middle = 0.5 * (least + greatest);
+    return {std::min(least, middle - least_half_width), std::max(greatest, middle + least_half_width)};
 }
 
 class Picture {

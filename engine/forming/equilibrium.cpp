@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <fmt/core.h>
+#include <numeric>
 
 #include "engine/sparse/gmres.h"
 #include "engine/sparse/lu.h"
@@ -85,7 +86,7 @@ private:
     /// The residual has not halved in a while, or steps have become tiny: most often a triangle is about to turn over.
     static bool no_progress(const std::vector<NewtonStep>& steps)
     {
-        constexpr size_t patience = 15, few = 6;
+        constexpr size_t patience = 10, few = 6;
         constexpr double tiny = 0.02; // mean step length
         const size_t n = steps.size();
         if (n > patience && steps.back().residual > 0.5 * steps[n - 1 - patience].residual)
@@ -154,6 +155,21 @@ private:
     double spring_ = 0;
 };
 
+/// The vertices that carry nine tenths of |R|^2.
+std::vector<int> most_loaded(const Eigen::VectorXd& R)
+{
+    std::vector<int> vertex(size_t(R.size() / 2));
+    std::iota(vertex.begin(), vertex.end(), 0);
+    const auto load = [&](int v) { return R.segment<2>(2 * v).squaredNorm(); };
+    std::stable_sort(vertex.begin(), vertex.end(), [&](int a, int b) { return load(a) > load(b); });
+    double rest = R.squaredNorm();
+    size_t count = 0;
+    for (const double enough = 0.1 * rest; count < vertex.size() && rest > enough; ++count)
+        rest -= load(vertex[count]);
+    vertex.resize(count);
+    return vertex;
+}
+
 } // namespace
 
 EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,
@@ -190,9 +206,14 @@ EquilibriumResult solve_relaxed_equilibrium(const TriMesh& part, const std::vect
     Eigen::Matrix2Xd looked_at = all.position;
     for (size_t round = 0; round < most_mismatch.size(); ++round) {
         work.set_axes(looked_at); // where a failed attempt went astray, the mismatch has grown
-        const Eigen::VectorXd mismatch = work.mismatch();
-        for (size_t v = 0; v < vertices; ++v)
-            relaxed[v] |= round > 0 && mismatch[int(v)] > most_mismatch[round];
+        if (round > 0) {
+            const Eigen::VectorXd mismatch = work.mismatch();
+            for (size_t v = 0; v < vertices; ++v)
+                relaxed[v] |= mismatch[int(v)] > most_mismatch[round];
+        }
+        if (round > 1)
+            for (const int v : most_loaded(work.residual(looked_at)))
+                relaxed[size_t(v)] = 1;
         work.relax(relaxed);
         EquilibriumResult result = newton.solve(
             all.position, options.tolerance, progress.part((1 + double(round)) / rounds, (2 + double(round)) / rounds));

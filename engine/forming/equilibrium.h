@@ -26,8 +26,8 @@ EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Eleme
                                     const EquilibriumOptions& options, const Progress& progress);
 
 /// For meshes that are too coarse or too crumpled for the equations as they are: solves them with all vertices relaxed,
-/// from there without, and where that fails with ever more vertices relaxed, those of the largest mismatch first. At the
-/// end `work` holds the vertices that had to be.
+/// from there without, and where that fails with ever more vertices relaxed: those of the largest mismatch and those that
+/// carried the residual of the failed attempt. At the end `work` holds the vertices that had to be.
 EquilibriumResult solve_relaxed_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,
                                             const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                                             const EquilibriumOptions& options, const Progress& progress);
