@@ -82,7 +82,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
             const double weight = e.area * h[f];
             force[size_t(f)] = weight * (B.transpose() * w.gradient.reshaped());
-            stiffness[size_t(f)] = weight * (B.transpose() * w.hessian * B);
+            stiffness[size_t(f)] = weight * (B.transpose() * w.stiffness * B);
         });
         Eigen::VectorXd gradient = Eigen::VectorXd::Zero(matrix.size());
         for (int f = 0; f < faces; ++f)

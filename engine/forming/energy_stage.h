@@ -30,7 +30,7 @@ struct EnergyOptions {
 };
 
 /// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held, by projected
-/// Newton. W grows without bound as a triangle collapses and no step may turn one over: from a flip-free start every
+/// Newton steps with a majorising stiffness (energy_density()). W grows without bound as a triangle collapses and no step may turn one over: from a flip-free start every
 /// iterate is flip-free.
 /// @param h      #F, mm, the thickness that is held
 /// @param matrix work space with the mesh's pattern; @param cholesky its analysis

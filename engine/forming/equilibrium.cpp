@@ -69,7 +69,7 @@ public:
             }
             if (step == options_.most_steps)
                 break;
-            if (no_progress(result.steps) || !advance(X, R, result.steps.back())) {
+            if (no_progress(result.steps) || !advance(X, R, result.steps)) {
                 result.ended = Ended::stalled;
                 return result;
             }
@@ -97,29 +97,38 @@ private:
         return n > few && length < few * tiny;
     }
 
-    bool advance(Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, NewtonStep& step)
+    bool advance(Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, std::vector<NewtonStep>& steps)
     {
-        const Eigen::VectorXd newton = direction_at(X, R, step.residual);
+        const Eigen::VectorXd newton = direction_at(X, R, forcing_term(steps));
         const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
         double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
         for (int halving = 0; halving < 10; ++halving, length *= 0.5) {
             const Eigen::Matrix2Xd trial = X + length * direction;
             if (residual(trial).norm() <= (1 - 1e-4 * length) * R.norm()) {
                 X = trial;
-                step.step_length = length;
+                steps.back().step_length = length;
                 return true;
             }
         }
         return false;
     }
 
+    /// To which part of R the linear system is solved: as exactly as the decrease of the residual deserves. [Eisenstat and
+    /// Walker 1996, choice 2]
+    static double forcing_term(const std::vector<NewtonStep>& steps)
+    {
+        if (steps.size() < 2)
+            return worst_forcing;
+        const double decrease = steps.back().residual / steps[steps.size() - 2].residual;
+        return std::clamp(0.9 * decrease * decrease, 1e-10, worst_forcing);
+    }
+
     /// Solves (K + k C C^T) d = -R, the exact tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
     /// factor of the tangent's definite neighbour preconditions it; where that is not enough, a sparse LU takes its place.
-    Eigen::VectorXd direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, double relative_residual)
+    Eigen::VectorXd direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, double tolerance)
     {
         constexpr int most_iterations = 60;
-        // Solved only as exactly as Newton's quadratic decrease needs.
-        const double tolerance = std::clamp(0.1 * relative_residual, 1e-10, 1e-2);
+        const double rough = tolerance < worst_forcing ? 0 : 0.3;
         work_.tangent(X, tangent_);
         const LinearMap A = [&](const Eigen::VectorXd& x) {
             Eigen::VectorXd y;
@@ -131,7 +140,7 @@ private:
             const GmresResult solved = gmres(
                 A, [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); }, -R, tolerance, most_iterations);
             // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
-            if (solved.relative_residual <= (relative_residual > 1e-3 ? 0.3 : tolerance))
+            if (solved.relative_residual <= std::max(tolerance, rough))
                 return solved.x;
         }
         preconditioner_ = tangent_;
@@ -143,6 +152,8 @@ private:
                    A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations)
             .x;
     }
+
+    static constexpr double worst_forcing = 0.1;
 
     const Eigen::Matrix3Xi& triangle_;
     VirtualWork& work_;

@@ -133,6 +133,23 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
     report.converged = equilibrium.ended == Ended::converged;
 }
 
+/// @param obstacle why the law as given had no solution
+std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
+                               int vertices)
+{
+    std::string words = "converged";
+    if (report.trusted_strain < wanted_strain)
+        words +=
+            fmt::format(" with the hardening curve continued from the uniform strain {:.2f} on instead of {:.2f} ({})",
+                        report.trusted_strain, wanted_strain, obstacle);
+    if (report.relaxed_vertices > 0)
+        words +=
+            fmt::format("; equilibrium is relaxed at {} of {} vertices, where the mesh does not resolve how the strain "
+                        "changes",
+                        report.relaxed_vertices, vertices);
+    return words;
+}
+
 /// The three stages from a flip-free start X to the blank, each tried where the one before did not get there.
 Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<double, 3, 2>& plane,
                        SolveReport& report, const Progress& progress)
@@ -169,32 +186,26 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
     const MembraneLaw law(options.material, hardening);
     report.trusted_strain = law.curve().trusted_strain();
     VirtualWork work(job.part, job.element, law, options.thickness, job.friction);
-    X = energy_stage(job, hardening, hardened, near_enough, options.most_energy_steps, report, progress.part(0.6, 0.7))
-            .position;
-    EquilibriumResult result = solve_relaxed_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky,
-                                                         newton, progress.part(0.7, 0.95));
-    take(result, report);
-    if (report.converged) {
+    EnergyResult held{hardened};
+    double from = 0.6;
+    for (const double decrement : {near_enough, exact}) { // most often the first will do
+        held = energy_stage(job, hardening, std::move(held.position), decrement, options.most_energy_steps, report,
+                            progress.part(from, from + 0.05));
+        EquilibriumResult result =
+            solve_relaxed_equilibrium(job.part, job.element, work, held.position, job.matrix, job.cholesky, newton,
+                                      progress.part(from + 0.05, from + 0.2));
+        take(result, report);
+        from += 0.2;
+        if (!report.converged)
+            continue;
         report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
-        report.reason = "converged";
-        if (report.trusted_strain < options.curve.trusted_strain)
-            report.reason +=
-                fmt::format(" with the hardening curve continued from the uniform strain {:.2f} on instead of "
-                            "{:.2f} ({})",
-                            report.trusted_strain, options.curve.trusted_strain, obstacle);
-        if (report.relaxed_vertices > 0)
-            report.reason +=
-                fmt::format("; equilibrium is relaxed at {} of {} vertices, where the mesh does not resolve how "
-                            "the strain changes",
-                            report.relaxed_vertices, job.part.vertices());
+        report.reason = converged_in_words(report, obstacle, options.curve.trusted_strain, job.part.vertices());
         return std::move(result.position);
     }
-    EnergyResult held =
-        energy_stage(job, hardening, std::move(X), exact, options.most_energy_steps, report, progress.part(0.95, 1));
     report.reason = fmt::format(
-        "the virtual-work system was not solved (residual {:.1e} after {} steps); the blank is the "
-        "one of least energy with the thickness held{}",
-        result.residual, report.newton.size(), held.ended == Ended::converged ? "" : ", itself not fully converged");
+        "the virtual-work system was not solved (residual {:.1e} after {} steps); the blank is the one of least energy "
+        "with the thickness held{}",
+        report.residual, report.newton.size(), held.ended == Ended::converged ? "" : ", itself not fully converged");
     return std::move(held.position);
 }
 

@@ -169,10 +169,12 @@ PlaneStress MembraneLaw::operator()(const Eigen::Vector2d& strain) const
     const double secant = elastic ? young_ : flow.stress / out.equivalent_strain;
     out.stress = secant * conjugate;
     out.deviatoric = secant * (metric_(0, 0) - metric_(0, 1));
-    out.tangent = secant * metric_;
+    out.tangent = out.majorant = secant * metric_;
     if (!elastic) {
         const Eigen::Vector2d direction = conjugate / out.equivalent_strain;
-        out.tangent += (flow.slope - secant) * direction * direction.transpose();
+        const Eigen::Matrix2d along = direction * direction.transpose();
+        out.tangent += (flow.slope - secant) * along;
+        out.majorant += std::max(0.0, flow.slope - secant) * along;
     }
     return out;
 }

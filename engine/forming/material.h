@@ -31,6 +31,7 @@ struct PlaneStress {
     double equivalent_stress; ///< MPa
     Eigen::Vector2d stress;   ///< MPa, principal, Cauchy
     Eigen::Matrix2d tangent;  ///< MPa, d stress_k / d eps_l, symmetric
+    Eigen::Matrix2d majorant; ///< MPa, the tangent with no less than the secant along the strain: see energy_density()
     double deviatoric;        ///< MPa, (stress_1 - stress_2) / (eps_1 - eps_2)
     double work;              ///< MPa, integral of sigma_eq d eps_eq
 };

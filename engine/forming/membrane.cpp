@@ -118,8 +118,8 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
     // W(-ln s): first and second derivatives with respect to the singular values.
     const Eigen::Vector2d first = -p.stress.cwiseQuotient(s);
     Eigen::Matrix2d second;
-    second << (p.tangent(0, 0) + p.stress[0]) / (s[0] * s[0]), p.tangent(0, 1) / (s[0] * s[1]),
-        p.tangent(1, 0) / (s[0] * s[1]), (p.tangent(1, 1) + p.stress[1]) / (s[1] * s[1]);
+    second << (p.majorant(0, 0) + p.stress[0]) / (s[0] * s[0]), p.majorant(0, 1) / (s[0] * s[1]),
+        p.majorant(1, 0) / (s[0] * s[1]), (p.majorant(1, 1) + p.stress[1]) / (s[1] * s[1]);
     // Mixed directions: twist (antisymmetric in the singular basis) and flip (symmetric). [Smith et al. 2019]
     const double twist = (first[0] + first[1]) / (s[0] + s[1]);
     const double stress_per_stretch = -p.deviatoric * log_difference_quotient(s[0], s[1]);
@@ -136,7 +136,7 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
     EnergyDensity out;
     out.value = p.work;
     out.gradient = d.U * first.asDiagonal() * d.V.transpose();
-    out.hessian = basis * H * basis.transpose();
+    out.stiffness = basis * H * basis.transpose();
     return out;
 }
 

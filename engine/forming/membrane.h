@@ -38,12 +38,16 @@ struct Svd2 {
 };
 Svd2 svd(const Eigen::Matrix2d& G);
 
-/// Energy density of forming (integral of sigma_eq d eps_eq) as a function of G: value, first derivative, and the
-/// second derivative with its negative eigenvalues raised to a small positive one. G is stored column by column.
+/// Energy density of forming (integral of sigma_eq d eps_eq) as a function of G: value, first derivative, and a positive
+/// definite stiffness for descent. It is the second derivative but for two things. Negative eigenvalues are raised to a small
+/// positive one; and along the strain the secant modulus stands where the curve's slope is less. Near yield the work is
+/// nearly a cone, sigma_Y |eps|: the tangent sees no curvature there and overshoots to the other side, while a quadratic
+/// with the secant modulus lies above the work everywhere (it is concave in eps_eq^2), so that full steps descend.
+/// [Kacanov 1959; majorise-minimise] G is stored column by column.
 struct EnergyDensity {
-    double value;             ///< MPa
-    Eigen::Matrix2d gradient; ///< d value / d G
-    Eigen::Matrix4d hessian;  ///< symmetric positive definite
+    double value;              ///< MPa
+    Eigen::Matrix2d gradient;  ///< d value / d G
+    Eigen::Matrix4d stiffness; ///< symmetric positive definite
 };
 /// @pre det G > 0
 double energy_density_value(const MembraneLaw& law, const Eigen::Matrix2d& G);

@@ -57,31 +57,65 @@ TEST(Membrane, EnergyGradientIsTheDerivativeOfTheEnergy)
         }
 }
 
-TEST(Membrane, EnergyHessianIsTheDerivativeOfTheGradientWhereItIsConvex)
+namespace {
+
+Eigen::Matrix4d hessian_by_differences(const MembraneLaw& law, const Eigen::Matrix2d& G)
+{
+    Eigen::Matrix4d result;
+    for (int k = 0; k < 4; ++k) {
+        const double step = 1e-7;
+        Eigen::Matrix2d up = G, down = G;
+        up(k) += step;
+        down(k) -= step;
+        result.col(k) = (energy_density(law, up).gradient - energy_density(law, down).gradient).reshaped() / (2 * step);
+    }
+    return result;
+}
+
+} // namespace
+
+TEST(Membrane, StiffnessIsTheSecondDerivativeWhereTheCurveIsSteeperThanItsSecant)
 {
     const MembraneLaw law(mild_steel());
     std::mt19937 random(3);
-    // Compression of the sheet: every eigenvalue of the true second derivative is positive there.
-    for (auto [s1, s2] : {std::pair{1.05, 1.02}, {1.08, 1.08}, {1.1, 1.05}, {1.00005, 1.00003}}) {
-        const Eigen::Matrix2d G = turned(s1, s2, random);
-        const EnergyDensity density = energy_density(law, G);
-        for (int k = 0; k < 4; ++k) {
-            const double step = 1e-7;
-            Eigen::Matrix2d up = G, down = G;
-            up(k) += step;
-            down(k) -= step;
-            const Eigen::Vector4d difference =
-                (energy_density(law, up).gradient - energy_density(law, down).gradient).reshaped() / (2 * step);
-            EXPECT_LT((difference - density.hessian.col(k)).norm(), 1e-5 * density.hessian.norm()) << G;
-        }
+    // On Hooke's line every eigenvalue is positive in compression.
+    const Eigen::Matrix2d elastic = turned(1.00005, 1.00003, random);
+    const Eigen::Matrix4d stiffness = energy_density(law, elastic).stiffness;
+    EXPECT_LT((hessian_by_differences(law, elastic) - stiffness).norm(), 1e-5 * stiffness.norm());
+    // In the continuation some are not, but equal compression or stretching of both axes has a positive one.
+    for (const double s : {2.0, 0.4}) {
+        const Eigen::Matrix2d G = turned(s, s, random);
+        const Eigen::Vector4d scaling = G.reshaped();
+        const double curvature = scaling.dot(energy_density(law, G).stiffness * scaling);
+        EXPECT_NEAR(scaling.dot(hessian_by_differences(law, G) * scaling), curvature, 1e-5 * curvature) << G;
     }
 }
 
-TEST(Membrane, HessianIsPositiveDefiniteEverywhere)
+TEST(Membrane, StiffnessExceedsTheSecondDerivativeAlongTheStrainBySecantMinusSlope)
+{
+    const MembraneLaw law(mild_steel());
+    std::mt19937 random(4);
+    for (auto [s1, s2] : {std::pair{1.05, 1.02}, {1.08, 1.08}, {1.1, 1.05}, {1.003, 1.002}}) {
+        const Eigen::Matrix2d G = turned(s1, s2, random);
+        const Eigen::Matrix4d stiffness = energy_density(law, G).stiffness;
+        Eigen::Matrix4d excess = stiffness - hessian_by_differences(law, G);
+        excess = 0.5 * (excess + excess.transpose()).eval();
+        const Eigen::Vector4d value = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(excess).eigenvalues();
+        EXPECT_LT(value.head<3>().norm(), 1e-4 * value[3]) << G; // of rank one
+        const PlaneStress p = law({-std::log(s1), -std::log(s2)});
+        const FlowStress flow = law.curve()(p.equivalent_strain);
+        const Eigen::Vector2d along = p.stress / p.equivalent_stress; // d eps_eq / d eps
+        const double expected = (flow.stress / p.equivalent_strain - flow.slope) *
+                                (std::pow(along[0] / s1, 2) + std::pow(along[1] / s2, 2));
+        EXPECT_NEAR(value[3], expected, 1e-4 * expected) << G;
+    }
+}
+
+TEST(Membrane, StiffnessIsPositiveDefiniteEverywhere)
 {
     const MembraneLaw law(mild_steel());
     for (const Eigen::Matrix2d& G : states())
-        EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(energy_density(law, G).hessian).eigenvalues()[0], 0);
+        EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(energy_density(law, G).stiffness).eigenvalues()[0], 0);
 }
 
 TEST(Membrane, ForceTangentAgreesWithCentralDifferences)
