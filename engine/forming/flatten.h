@@ -57,7 +57,4 @@ struct FlattenResult {
 /// report says so. The result does not depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]
 FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress = {});
 
-/// Strains, thickness and stresses of forming `blank` into `part`.
-SheetFields sheet_fields(const TriMesh& part, const Blank& blank, const FlattenOptions& options);
-
 } // namespace spia

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "engine/forming/blank.h"
+#include "engine/forming/membrane.h"
+#include "engine/mesh/tri_mesh.h"
+
+namespace spia {
+
+/// Strains, thickness and stresses of forming a blank into the part, one entry per face.
+/// @param thickness mm, of the flat sheet
+SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
+                        const MembraneLaw& law, double thickness);
+
+/// One entry per vertex: the area-weighted mean of the faces around it; of the directions d, the major axis of the mean of
+/// d d^T. A vertex necks if a face around it does.
+SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element, const SheetFields& face);
+
+} // namespace spia
