@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+
+#include "engine/mesh/edge_uses.h"
 
 namespace spia {
 
@@ -33,22 +34,10 @@ bool one_layer(const std::vector<MeshPoint>& found, const Eigen::Matrix3Xi& tria
 
 std::vector<std::array<int, 3>> faces_across(const Eigen::Matrix3Xi& triangle)
 {
-    struct Edge {
-        int low, high, face, corner;
-    };
-    std::vector<Edge> edges;
-    edges.reserve(size_t(3 * triangle.cols()));
-    for (int f = 0; f < triangle.cols(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangle(k, f), b = triangle((k + 1) % 3, f);
-            edges.push_back({std::min(a, b), std::max(a, b), f, k});
-        }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-    });
+    const std::vector<EdgeUse> edges = edge_uses(triangle);
     std::vector<std::array<int, 3>> across(size_t(triangle.cols()), {-1, -1, -1});
     for (size_t e = 0; e + 1 < edges.size(); ++e)
-        if (edges[e].low == edges[e + 1].low && edges[e].high == edges[e + 1].high) {
+        if (edges[e].same_edge(edges[e + 1])) {
             across[size_t(edges[e].face)][size_t(edges[e].corner)] = edges[e + 1].face;
             across[size_t(edges[e + 1].face)][size_t(edges[e + 1].corner)] = edges[e].face;
         }

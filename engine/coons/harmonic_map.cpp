@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <tuple>
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/mesh/edge_uses.h"
 
 namespace spia {
 
@@ -20,29 +20,6 @@ constexpr double smallest_weight = 0.1;
 constexpr double largest_weight = 100;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// An undirected edge of two triangles or one, as it appears in the sorted list of all of them.
-struct Edge {
-    int low, high;
-    int face, corner; ///< the edge runs from this corner of the face to the next one
-
-    bool same(const Edge& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<Edge> sorted_edges(const Eigen::Matrix3Xi& triangle)
-{
-    std::vector<Edge> edges;
-    edges.reserve(size_t(3 * triangle.cols()));
-    for (int f = 0; f < triangle.cols(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangle(k, f), b = triangle((k + 1) % 3, f);
-            edges.push_back({std::min(a, b), std::max(a, b), f, k});
-        }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-    });
-    return edges;
-}
 
 /// Bit k is set for a vertex on side k; a corner is on two sides.
 std::vector<char> sides_of_vertices(const BlankBoundary& boundary, int vertices)
@@ -106,10 +83,10 @@ Eigen::Matrix2Xd cut_dividing_edges(const FilledMesh& filled, const std::vector<
     const Eigen::Matrix3Xi& face = filled.mesh.triangle;
     std::vector<std::array<int, 3>> middle(size_t(face.cols()), {-1, -1, -1});
     std::vector<Eigen::Vector2d> added;
-    const std::vector<Edge> edges = sorted_edges(face);
+    const std::vector<EdgeUse> edges = edge_uses(face);
     for (size_t e = 0; e + 1 < edges.size(); ++e) {
-        const Edge &one = edges[e], &other = edges[e + 1];
-        if (!one.same(other) || !(sides[size_t(one.low)] & sides[size_t(one.high)]))
+        const EdgeUse &one = edges[e], &other = edges[e + 1];
+        if (!one.same_edge(other) || !(sides[size_t(one.low)] & sides[size_t(one.high)]))
             continue;
         const int vertex = filled.mesh.vertices() + int(added.size());
         middle[size_t(one.face)][size_t(one.corner)] = vertex;
@@ -169,10 +146,10 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     map.square = Eigen::Matrix2Xd::Zero(2, plane.cols());
     place_sides(boundary, filled.plane, map.square);
 
-    const std::vector<Edge> edges = sorted_edges(map.triangle);
+    const std::vector<EdgeUse> edges = edge_uses(map.triangle);
     std::vector<int> unknown(size_t(plane.cols()), -1);
     int unknowns = 0;
-    for (const Edge& edge : edges)
+    for (const EdgeUse& edge : edges)
         for (const int v : {edge.low, edge.high})
             if (unknown[size_t(v)] < 0 && (v >= filled.mesh.vertices() || !sides[size_t(v)]))
                 unknown[size_t(v)] = unknowns++;
@@ -181,11 +158,11 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(unknowns);
     Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
     for (size_t e = 0; e < edges.size(); ++e) {
-        const Edge& edge = edges[e];
-        if (e > 0 && edges[e - 1].same(edge))
+        const EdgeUse& edge = edges[e];
+        if (e > 0 && edges[e - 1].same_edge(edge))
             continue;
         double weight = 0;
-        for (size_t f = e; f < edges.size() && edges[f].same(edge); ++f)
+        for (size_t f = e; f < edges.size() && edges[f].same_edge(edge); ++f)
             weight += cotangent(plane, map.triangle.col(edges[f].face), (edges[f].corner + 2) % 3) / 2;
         weight = std::clamp(weight, smallest_weight, largest_weight);
         for (const auto& [v, w] : {std::pair(edge.low, edge.high), std::pair(edge.high, edge.low)}) {

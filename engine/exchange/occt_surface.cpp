@@ -1,5 +1,6 @@
 #include "engine/exchange/occt_surface.h"
 
+#include <Standard_Failure.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColStd_Array2OfReal.hxx>
@@ -8,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
 
 namespace spia {
 namespace {
@@ -130,6 +132,23 @@ NurbsSurface from_occt(const Geom_BSplineSurface& original)
             result.weight[result.index(i, j)] = opened->Weight(i + 1, j + 1);
         }
     return result;
+}
+
+void write_cad_file(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces,
+                    const std::function<std::string()>& text)
+{
+    if (surfaces.empty())
+        throw InputError(fmt::format("there is no surface to write to {}", path.string()));
+    for (const NurbsSurface& surface : surfaces)
+        require_exchangeable(surface);
+    std::string content;
+    try {
+        content = text();
+    } catch (const Standard_Failure& failure) {
+        throw ExchangeError(
+            fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(), failure.GetMessageString()));
+    }
+    write_atomically(path, content);
 }
 
 } // namespace spia

@@ -7,16 +7,13 @@
 #include <IGESData_Protocol.hxx>
 #include <IGESGeom_BSplineSurface.hxx>
 #include <Interface_Static.hxx>
-#include <Standard_Failure.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColStd_HArray2OfReal.hxx>
 #include <TColgp_HArray2OfXYZ.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <fmt/core.h>
 #include <sstream>
 
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/occt_surface.h"
 #include "engine/exchange/provenance.h"
@@ -124,18 +121,7 @@ std::string iges_text(std::span<const NurbsSurface> surfaces, const std::string&
 
 void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name)
 {
-    if (surfaces.empty())
-        throw InputError(fmt::format("there is no surface to write to {}", path.string()));
-    for (const NurbsSurface& surface : surfaces)
-        require_exchangeable(surface);
-    std::string content;
-    try {
-        content = iges_text(surfaces, path.filename().string(), part_name);
-    } catch (const Standard_Failure& failure) {
-        throw ExchangeError(
-            fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(), failure.GetMessageString()));
-    }
-    write_atomically(path, content);
+    write_cad_file(path, surfaces, [&] { return iges_text(surfaces, path.filename().string(), part_name); });
 }
 
 } // namespace spia

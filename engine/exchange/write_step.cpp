@@ -7,7 +7,6 @@
 #include <Interface_HArray1OfHAsciiString.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
-#include <Standard_Failure.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
@@ -20,7 +19,6 @@
 #include <sstream>
 
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/occt_surface.h"
 #include "engine/exchange/provenance.h"
@@ -142,18 +140,7 @@ std::string step_text(std::span<const NurbsSurface> surfaces, const std::string&
 
 void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name)
 {
-    if (surfaces.empty())
-        throw InputError(fmt::format("there is no surface to write to {}", path.string()));
-    for (const NurbsSurface& surface : surfaces)
-        require_exchangeable(surface);
-    std::string content;
-    try {
-        content = step_text(surfaces, path.filename().string(), part_name);
-    } catch (const Standard_Failure& failure) {
-        throw ExchangeError(
-            fmt::format("cannot write {}: OpenCASCADE says \"{}\"", path.string(), failure.GetMessageString()));
-    }
-    write_atomically(path, content);
+    write_cad_file(path, surfaces, [&] { return step_text(surfaces, path.filename().string(), part_name); });
 }
 
 } // namespace spia

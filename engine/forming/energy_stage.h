@@ -21,7 +21,7 @@ enum class Ended { converged, stalled, too_many_steps };
 struct EnergyResult {
     Eigen::Matrix2Xd position;
     Ended ended = Ended::too_many_steps;
-    std::vector<NewtonStep> steps;
+    std::vector<NewtonStep> steps = {};
 };
 
 struct EnergyOptions {

@@ -81,6 +81,12 @@ Eigen::VectorXd VirtualWork::mismatch() const
     return worst;
 }
 
+VirtualWork::Formed VirtualWork::formed(int f, const Eigen::Matrix2Xd& X) const
+{
+    const Eigen::Matrix2d G = inverse_gradient(element_[size_t(f)], corners(X, part_.triangle.col(f)));
+    return {membrane_force(law_, h0_, G), G.inverse().transpose()};
+}
+
 Eigen::Matrix2d VirtualWork::to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const
 {
     const size_t v = size_t(part_.triangle(a, f));
@@ -92,11 +98,9 @@ Eigen::VectorXd VirtualWork::residual(const Eigen::Matrix2Xd& X) const
     std::vector<Eigen::Matrix<double, 2, 3>> force(element_.size());
     parallel_for(part_.triangles(), [&](int f) {
         const Element& e = element_[size_t(f)];
-        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
-        const Eigen::Matrix2d tau = membrane_force(law_, h0_, G).force;
-        const Eigen::Matrix2d pull_back = G.inverse().transpose();
+        const auto [m, pull_back] = formed(f, X);
         for (int a = 0; a < 3; ++a)
-            force[size_t(f)].col(a) = -e.area * (to_vertex(f, a, pull_back) * (tau * e.gradient.col(a)));
+            force[size_t(f)].col(a) = -e.area * (to_vertex(f, a, pull_back) * (m.force * e.gradient.col(a)));
     });
     Eigen::VectorXd R = Eigen::VectorXd::Zero(2 * X.cols());
     for (int f = 0; f < part_.triangles(); ++f)
@@ -113,9 +117,7 @@ void VirtualWork::tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
     std::vector<Matrix6d> stiffness(element_.size());
     parallel_for(part_.triangles(), [&](int f) {
         const Element& e = element_[size_t(f)];
-        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
-        const MembraneForce m = membrane_force(law_, h0_, G);
-        const Eigen::Matrix2d pull_back = G.inverse().transpose();
+        const auto [m, pull_back] = formed(f, X);
         const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
         for (int a = 0; a < 3; ++a)
             stiffness[size_t(f)].middleRows<2>(2 * a) =
@@ -134,9 +136,7 @@ void VirtualWork::definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matri
     std::vector<Matrix6d> stiffness(element_.size());
     parallel_for(part_.triangles(), [&](int f) {
         const Element& e = element_[size_t(f)];
-        const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f)));
-        const MembraneForce m = membrane_force(law_, h0_, G);
-        const Eigen::Matrix2d pull_back = G.inverse().transpose();
+        const auto [m, pull_back] = formed(f, X);
         Eigen::Matrix4d K = Eigen::Matrix4d::Zero(); // mean of the three corners
         for (int a = 0; a < 3; ++a) {
             const Eigen::Matrix2d M = to_vertex(f, a, pull_back);

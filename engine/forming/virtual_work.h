@@ -61,6 +61,11 @@ private:
         Eigen::Matrix2d derivative; ///< with respect to the vertex's place on the blank
     };
 
+    struct Formed {
+        MembraneForce m;           ///< h sigma of the triangle and its derivative
+        Eigen::Matrix2d pull_back; ///< F^T
+    };
+    Formed formed(int f, const Eigen::Matrix2Xd& X) const;
     /// How corner a of face f sees its vertex's equations: M in M (h sigma) g_a.
     Eigen::Matrix2d to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const;
     /// Change of M (h sigma) g with G, column by column; M itself changes with G where the vertex is relaxed.
