@@ -13,8 +13,7 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Whether one layer can explain all these faces at one point: they meet in a vertex, and it is inside at
-/// most one.
+/// Whether one layer can explain all these faces at one point: they meet in a vertex, and it is inside at most one.
 bool one_layer(const std::vector<MeshPoint>& found, const Eigen::Matrix3Xi& triangle)
 {
     constexpr double inside = 1e-6; // barycentric
@@ -44,8 +43,7 @@ std::vector<std::array<int, 3>> faces_across(const Eigen::Matrix3Xi& triangle)
     return across;
 }
 
-/// Separating axes: the normal of the segment and the normals of the triangle's edges, the segment's box by
-/// the way.
+/// Separating axes: the normal of the segment and the normals of the triangle's edges, the segment's box by the way.
 bool touches(const Vector2d& p, const Vector2d& q, const std::array<Vector2d, 3>& corner, double tolerance)
 {
     const auto apart = [&](const Vector2d& axis) {

@@ -20,8 +20,8 @@ public:
     /// The place of a point of the plane. Face -1 if no face covers it, or faces of different layers do.
     MeshPoint unique_place(const Eigen::Vector2d& point) const;
 
-    /// The place of a point on the layer of one of its neighbours: the straight line from there does not
-    /// leave the blank. Face -1 if there is none.
+    /// The place of a point on the layer of one of its neighbours: the straight line from there does not leave the
+    /// blank. Face -1 if there is none.
     MeshPoint place_next_to(const Eigen::Vector2d& point, const std::vector<MeshPoint>& neighbours) const;
 
     /// The nearest place, on any layer.

@@ -108,8 +108,7 @@ struct Quadruple {
     double worth;
 };
 
-/// Whether the outline turns outwards at each corner between the first border nodes of a grid of usual
-/// density.
+/// Whether the outline turns outwards at each corner between the first border nodes of a grid of usual density.
 bool cells_fit(const Outline& outline, const std::array<int, 4>& corner)
 {
     constexpr double cells = 40, least_turn = 0.01; // radians

@@ -48,9 +48,8 @@ struct GridResult {
 /// Laplacian smoothing; then the harmonic map of the blank onto the unit square, inverted at the grid nodes;
 /// then untangling, on a finer grid if the cell counts are automatic. Holes of the part are filled for this.
 /// @param boundary of the same blank, see split_boundary()
-/// @throws InputError if every way folds a cell; the message says at which corner, and what to choose
-/// instead. Also if
-///         the part is not one piece without handles
+/// @throws InputError if every way folds a cell; the message says at which corner, and what to choose instead;
+///         also if the part is not one piece without handles
 GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBoundary& boundary,
                       const GridOptions& options = {}, const Progress& progress = {});
 

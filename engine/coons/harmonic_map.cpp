@@ -120,8 +120,7 @@ void place_sides(const BlankBoundary& boundary, const Eigen::Matrix2Xd& plane, E
     }
 }
 
-/// The cotangent at corner k of a triangle. A triangle that is turned over or flat gives the one of its
-/// mirror image.
+/// The cotangent at corner k of a triangle. A triangle that is turned over or flat gives the one of its mirror image.
 double cotangent(const Eigen::Matrix2Xd& plane, const Eigen::Vector3i& t, int k)
 {
     const Eigen::Vector2d a = plane.col(t[(k + 1) % 3]) - plane.col(t[k]),

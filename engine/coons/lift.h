@@ -18,8 +18,7 @@ LiftResult lift(const GridResult& grid);
 
 /// The same for a grid in the plane of the blank that did not come from coons_grid(): finds the triangle of
 /// each node.
-/// @throws InputError if a node misses the blank by more than rounding, or lies where the blank overlaps
-/// itself
+/// @throws InputError if a node misses the blank by more than rounding, or lies where the blank overlaps itself
 LiftResult lift(const QuadGrid& planar, const Blank& blank, const TriMesh& part, const Progress& progress = {});
 
 } // namespace spia

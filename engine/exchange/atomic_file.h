@@ -4,11 +4,9 @@
 
 namespace spia {
 
-/// Writes the whole file or nothing: the content goes to a new file beside it, reaches the disk, and takes
-/// the name in one step. Until then an older file of that name stays as it was; a link is followed and stays
-/// a link.
-/// @throws ExchangeError with the path, the reason (folder missing, no permission, disk full, ...) and what
-/// to do;
+/// Writes the whole file or nothing: the content goes to a new file beside it, reaches the disk, and takes the name in
+/// one step. Until then an older file of that name stays as it was; a link is followed and stays a link.
+/// @throws ExchangeError with the path, the reason (folder missing, no permission, disk full, ...) and what to do;
 ///         nothing of the attempt is left behind
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 

@@ -7,9 +7,8 @@
 
 namespace spia {
 
-/// A white picture with a depth per pixel. x runs right, y down, both in pixels from the upper left corner;
-/// of two points on a pixel the one of greater depth is seen. Colours are sRGB, 0..1. Drawn twice as fine as
-/// it is shown.
+/// A white picture with a depth per pixel. x runs right, y down, both in pixels from the upper left corner; of two
+/// points on a pixel the one of greater depth is seen. Colours are sRGB, 0..1. Drawn twice as fine as it is shown.
 class Canvas {
 public:
     Canvas(int width, int height);

@@ -28,8 +28,8 @@ void require_complete(const ExportScene& scene);
 /// Two triangles per cell, counter-clockwise as the cells are; vertices are the grid's nodes.
 TriMesh triangles_of(const QuadGrid& grid);
 
-/// Pairs of neighbours along u and then along v in a structured net of count_u by count_v points, u fastest.
-/// 2 by #lines
+/// Pairs of neighbours along u and then along v in a structured net of count_u by count_v points, u fastest. 2 by
+/// #lines
 Eigen::Matrix2Xi net_lines(int count_u, int count_v);
 
 } // namespace spia

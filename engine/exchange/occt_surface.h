@@ -9,9 +9,8 @@
 
 namespace spia {
 
-/// @throws InputError unless counts, knots (clamped, not decreasing, no inner one more than degree times),
-/// weights (> 0)
-///         and points (finite) make a surface that CAD files can hold
+/// @throws InputError unless counts, knots (clamped, not decreasing, no inner one more than degree times), weights (>
+///         0) and points (finite) make a surface that CAD files can hold
 void require_exchangeable(const NurbsSurface& surface);
 
 /// Writes what text() makes of the surfaces, whole or not at all. For .cpp files of engine/exchange.

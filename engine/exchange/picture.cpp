@@ -192,8 +192,8 @@ private:
     double slope_ = 0; ///< per pixel
 };
 
-/// From the first to the last of a hundred equal shares: single extreme vertices must not take the colours
-/// from the rest. Never narrower than 0.02 %: rounding errors are not worth a colour.
+/// From the first to the last of a hundred equal shares: single extreme vertices must not take the colours from the
+/// rest. Never narrower than 0.02 %: rounding errors are not worth a colour.
 ColourRange central_range(const Eigen::VectorXd& values)
 {
     std::vector<double> sorted(values.begin(), values.end());

@@ -27,10 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// ---- before tinygltf sees the file ----
-// It copies nested values by recursion, holds a copy of the binary chunk for every buffer that names none,
-// trusts the indices of images, and opens any file that a buffer names. So it gets the geometry alone, and
-// reads files through us.
+// ---- before tinygltf sees the file ---- It copies nested values by recursion, holds a copy of the binary chunk for
+// every buffer that names none, trusts the indices of images, and opens any file that a buffer names. So it gets the
+// geometry alone, and reads files through us.
 
 struct Parts {
     std::string_view json, binary;

@@ -14,9 +14,8 @@ struct GltfContent {
     std::vector<std::string> notes; ///< what was left out
 };
 
-/// Reads the triangles of the default scene (or of all root nodes, or of all meshes where there are no nodes)
-/// with the transforms of their nodes; a mirrored node keeps the outer side outside. The axes stay as they
-/// are: Y is up.
+/// Reads the triangles of the default scene (or of all root nodes, or of all meshes where there are no nodes) with the
+/// transforms of their nodes; a mirrored node keeps the outer side outside. The axes stay as they are: Y is up.
 /// @param path  for .gltf: its folder is where buffers in files of their own are looked for, and nowhere else
 /// @param file  the content of the file, text or binary
 /// @throws InputError for damage, compression and required extensions that change the geometry

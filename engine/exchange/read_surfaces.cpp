@@ -34,9 +34,8 @@ std::ifstream opened(const std::filesystem::path& path)
     return file;
 }
 
-/// The last line of an IGES file, letter T in column 73, counts the lines of the sections S, G, D and P. It
-/// is looked at first because OpenCASCADE crashes on a file that was cut short. (Its STEP reader finds that
-/// out by itself.)
+/// The last line of an IGES file, letter T in column 73, counts the lines of the sections S, G, D and P. It is looked
+/// at first because OpenCASCADE crashes on a file that was cut short. (Its STEP reader finds that out by itself.)
 void require_iges_end(const std::filesystem::path& path)
 {
     std::ifstream file = opened(path);

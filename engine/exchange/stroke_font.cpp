@@ -9,8 +9,7 @@ constexpr int base_line = 2; ///< y of the base line on the grid; descenders rea
 constexpr double letter_space = 1.9;
 constexpr double word_space = 3.2;
 
-/// Polylines divided by blanks, each point two digits x and y on a grid of 0..6 by 0..8; a lone point is a
-/// dot.
+/// Polylines divided by blanks, each point two digits x and y on a grid of 0..6 by 0..8; a lone point is a dot.
 std::string_view strokes(char letter)
 {
     switch (letter) {

@@ -8,8 +8,8 @@
 namespace spia {
 namespace {
 
-/// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those
-/// of the fixed objects are below 0x100.
+/// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those of the
+/// fixed objects are below 0x100.
 class DxfText {
 public:
     DxfText& operator()(int code, const char* value) { return line(code, value); }

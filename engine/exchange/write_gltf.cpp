@@ -82,8 +82,7 @@ private:
     tinygltf::Model& model_;
 };
 
-/// Unit length in float32; where faces cancel there is no normal, and any direction shades as badly as
-/// another.
+/// Unit length in float32; where faces cancel there is no normal, and any direction shades as badly as another.
 Eigen::MatrixXf unit(const Eigen::Matrix3Xd& normals)
 {
     Eigen::MatrixXf result(3, normals.cols());

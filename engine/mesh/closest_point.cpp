@@ -44,8 +44,8 @@ void require_usable(const TriMesh& mesh)
 
 Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& point)
 {
-    // Inside the prism over the triangle it is the foot of the perpendicular: all three areas it spans with
-    // the edges are on the inner side. Else it is on one of the edges.
+    // Inside the prism over the triangle it is the foot of the perpendicular: all three areas it spans with the edges
+    // are on the inner side. Else it is on one of the edges.
     const Eigen::Vector3d edge_1 = triangle.col(1) - triangle.col(0), edge_2 = triangle.col(2) - triangle.col(0);
     const Eigen::Vector3d normal = edge_1.cross(edge_2);
     Eigen::Vector3d inner;
@@ -81,10 +81,9 @@ Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen
     return best;
 }
 
-/// A binary tree of boxes. The faces are halved at the median of their boxes' middles along the longest side,
-/// down to a few faces per leaf. On 100 000 triangles it answers in 1.3 us, Boost.Geometry's R-tree (1.74) in
-/// 5 us and only if 32 candidate boxes are enough: its search for neighbours can be limited by their number,
-/// not by their distance.
+/// A binary tree of boxes. The faces are halved at the median of their boxes' middles along the longest side, down to a
+/// few faces per leaf. On 100 000 triangles it answers in 1.3 us, Boost.Geometry's R-tree (1.74) in 5 us and only if 32
+/// candidate boxes are enough: its search for neighbours can be limited by their number, not by their distance.
 struct ClosestPointSearch::Tree {
     struct Node {
         Box box;
@@ -164,8 +163,7 @@ ClosestPoint ClosestPointSearch::nearest(const Eigen::Vector3d& point, double wi
     stack[size_t(waiting++)] = {0, tree_->node[0].box.squaredExteriorDistance(point)};
     while (waiting > 0) {
         Waiting here = stack[size_t(--waiting)];
-        // Equally near boxes are opened too, so that of equally near faces the one of smallest index is
-        // found.
+        // Equally near boxes are opened too, so that of equally near faces the one of smallest index is found.
         while (here.squared <= best) {
             const Tree::Node& node = tree_->node[size_t(here.node)];
             if (node.count > 0) {

@@ -18,10 +18,8 @@ struct ClosestPoint {
 /// several threads at a time is safe.
 class ClosestPointSearch {
 public:
-    /// Copies what it needs of the mesh. Faces without area count as the segment or point that is left of
-    /// them.
-    /// @throws InputError  if there is no face, a face names a vertex that does not exist or a coordinate of
-    /// its
+    /// Copies what it needs of the mesh. Faces without area count as the segment or point that is left of them.
+    /// @throws InputError  if there is no face, a face names a vertex that does not exist or a coordinate of its
     ///                     vertices is not a number; names the first such face
     explicit ClosestPointSearch(const TriMesh& mesh);
     ~ClosestPointSearch();

@@ -166,8 +166,8 @@ double area(const Triangle& t, const std::vector<Vector3d>& position)
     return 0.5 * (position[size_t(t[1])] - a).cross(position[size_t(t[2])] - a).norm();
 }
 
-/// Floods each piece from its first triangle and turns over whatever shows the other side; then the piece as
-/// a whole if that was the smaller area.
+/// Floods each piece from its first triangle and turns over whatever shows the other side; then the piece as a whole if
+/// that was the smaller area.
 void orient(Surface& s, DoctorReport& report)
 {
     const auto steps = neighbours(s.triangle);

@@ -74,9 +74,9 @@ struct Examination {
     DoctorReport report;
 };
 
-/// Makes a triangle mesh of a polygon soup: joins, splits, turns and removes what can be repaired without
-/// changing the sheet, and reports every change and every fault that is left. Vertices and faces keep the
-/// order of the file. Never throws for what the soup contains (only Cancelled).
+/// Makes a triangle mesh of a polygon soup: joins, splits, turns and removes what can be repaired without changing the
+/// sheet, and reports every change and every fault that is left. Vertices and faces keep the order of the file. Never
+/// throws for what the soup contains (only Cancelled).
 Examination examine(const PolygonSoup& soup, const DoctorOptions& options = {}, const Progress& progress = {});
 
 /// @throws InputError with the first three fatal findings and what to do about them

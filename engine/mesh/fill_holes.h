@@ -7,8 +7,8 @@
 
 namespace spia {
 
-/// A part without holes, in space and in the plane of its blank. The vertices and faces of the part come
-/// first and are unchanged; those of the fill follow.
+/// A part without holes, in space and in the plane of its blank. The vertices and faces of the part come first and are
+/// unchanged; those of the fill follow.
 struct FilledMesh {
     TriMesh mesh;           ///< the part and, in space, a fill that continues it smoothly
     Eigen::Matrix2Xd plane; ///< 2 by #V of mesh: the blank and its fill
@@ -28,11 +28,10 @@ struct FilledMesh {
 /// @throws InputError if there is no loop, or none runs counter-clockwise: the blank is upside down
 int outer_loop(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& plane);
 
-/// Closes every boundary loop but the outer one, without moving a vertex. In the plane a hole is triangulated
-/// inside its edge and refined to about the size of the edges around it; in space the new vertices minimise
-/// the squared Laplacian of the position as a function over the plane, which joins the part with a continuous
-/// tangent plane and leaves a hole in a plane part plane. Ear clipping, refinement after [Liepa 2003],
-/// biharmonic fill.
+/// Closes every boundary loop but the outer one, without moving a vertex. In the plane a hole is triangulated inside
+/// its edge and refined to about the size of the edges around it; in space the new vertices minimise the squared
+/// Laplacian of the position as a function over the plane, which joins the part with a continuous tangent plane and
+/// leaves a hole in a plane part plane. Ear clipping, refinement after [Liepa 2003], biharmonic fill.
 /// @param part one component without handles; @param plane 2 by #V of the part, its blank
 /// @throws InputError if the filled part is not a disk: several components, or handles
 FilledMesh fill_holes(const TriMesh& part, const Eigen::Matrix2Xd& plane, const Progress& progress = {});

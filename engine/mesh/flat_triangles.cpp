@@ -151,8 +151,8 @@ private:
         return false;
     }
 
-    /// The link condition: a surface stays one if the two ends share no neighbours but the tips of the
-    /// removed faces, and no inner edge joins two boundary vertices.
+    /// The link condition: a surface stays one if the two ends share no neighbours but the tips of the removed faces,
+    /// and no inner edge joins two boundary vertices.
     bool link_allows_joining(int a, int b, const std::vector<int>& sharing)
     {
         if (sharing.size() == 2 && on_boundary(a) && on_boundary(b))

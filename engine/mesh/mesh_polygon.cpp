@@ -20,8 +20,7 @@ constexpr int most_passes = 60;
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 double doubled_area(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
 
-/// Doubled area over the squared longest edge: 0.87 for an equilateral triangle, 0 or less for a flat or
-/// turned one.
+/// Doubled area over the squared longest edge: 0.87 for an equilateral triangle, 0 or less for a flat or turned one.
 double shape(const Point& a, const Point& b, const Point& c)
 {
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -163,8 +162,7 @@ public:
         }
     }
 
-    /// Puts a point into every triangle that is large against the spacing at its corners. @return whether
-    /// there was one
+    /// Puts a point into every triangle that is large against the spacing at its corners. @return whether there was one
     bool refine()
     {
         const int count = int(triangle_.size());

@@ -9,9 +9,9 @@ namespace {
 
 using Row = std::array<double, max_degree + 1>;
 
-/// From the functions of degree d - 1 that do not vanish on the span to those of degree d.
-/// Entry k of a row of degree d belongs to function span - d + k. No denominator is zero: each is the length
-/// of the support of a function that does not vanish on the span.
+/// From the functions of degree d - 1 that do not vanish on the span to those of degree d. Entry k of a row of degree d
+/// belongs to function span - d + k. No denominator is zero: each is the length of the support of a function that does
+/// not vanish on the span.
 Row raise(const Row& lower, const double* knot_of_span, int d, double u)
 {
     Row higher{};

@@ -129,9 +129,8 @@ DeviationStatistics measure_surface(const NurbsSurface& surface, const std::vect
     return statistics(samples, [&](int i) { return at(i).position; });
 }
 
-/// The places of the mesh that are projected on the surface: all vertices first, then the midpoints of the
-/// part's edges and faces. The weights integrate cubic functions exactly over each face (1/20, 2/15 and 9/20
-/// of its area).
+/// The places of the mesh that are projected on the surface: all vertices first, then the midpoints of the part's edges
+/// and faces. The weights integrate cubic functions exactly over each face (1/20, 2/15 and 9/20 of its area).
 struct MeshSamples {
     Eigen::Matrix3Xd position;
     Samples samples;
@@ -185,8 +184,8 @@ MeshSamples sample_mesh(const TriMesh& mesh, int part_faces)
     return result;
 }
 
-/// How densely the surface is tessellated to start the projections: as asked, but sparser on a very large
-/// net, where memory is short and the spans are nearly flat.
+/// How densely the surface is tessellated to start the projections: as asked, but sparser on a very large net, where
+/// memory is short and the spans are nearly flat.
 int start_samples_per_span(const NurbsSurface& surface, int asked)
 {
     constexpr double most = 1e6;

@@ -10,8 +10,8 @@ namespace spia {
 
 struct DeviationOptions {
     int samples_per_span = 4; ///< of the surface, in each direction; the borders of the spans are always sampled
-    /// The part's faces are the mesh's first ones, faces after them fill its holes: what the surface does
-    /// there is no deviation. -1: all faces are the part's.
+    /// The part's faces are the mesh's first ones, faces after them fill its holes: what the surface does there is no
+    /// deviation. -1: all faces are the part's.
     int part_faces = -1;
     /// Parameters at which the surface was interpolated (InterpolateResult::u and v). Between them, in the
     /// middle, an interpolant is farthest from having no error by construction. Empty:
@@ -19,8 +19,7 @@ struct DeviationOptions {
     std::vector<double> data_u = {}, data_v = {};
 };
 
-/// Distances of many sampled places, each weighted with the area it stands for. All zero if there is no
-/// sample.
+/// Distances of many sampled places, each weighted with the area it stands for. All zero if there is no sample.
 struct DeviationStatistics {
     int samples = 0;                                 ///< that count
     int excluded = 0;                                ///< that do not, since they lie where a hole was filled
@@ -47,8 +46,8 @@ struct Deviation {
 /// Measures both ways; only the distance counts, not the parameters.
 /// @param mesh      the part, or the part with its holes filled (see DeviationOptions::part_faces)
 /// @param progress  a checkpoint every 65 536 samples
-/// @throws InputError  if the mesh has no face or coordinates that are not numbers, or an option is out of
-/// range The result does not depend on the number of threads. [theory.md 5; exchange-and-iga.md 4]
+/// @throws InputError  if the mesh has no face or coordinates that are not numbers, or an option is out of range
+/// The result does not depend on the number of threads. [theory.md 5; exchange-and-iga.md 4]
 Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const DeviationOptions& options = {},
                     const Progress& progress = {});
 

@@ -14,8 +14,8 @@ struct SurfacePoint {
     Eigen::Vector3d normal() const;
 };
 
-/// Point and derivatives, weights included; (u, v) beyond the domain counts as the nearest place of the
-/// domain. No allocation. [NURBS Book, eqs. 4.15, 4.20]
+/// Point and derivatives, weights included; (u, v) beyond the domain counts as the nearest place of the domain. No
+/// allocation. [NURBS Book, eqs. 4.15, 4.20]
 SurfacePoint evaluate(const NurbsSurface& surface, double u, double v);
 
 } // namespace spia

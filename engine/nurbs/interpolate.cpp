@@ -54,8 +54,7 @@ double interval(const Eigen::Vector3d& a, const Eigen::Vector3d& b, InterpolateO
     return 1;
 }
 
-/// Parameters along u: each row of points divides [0, 1] by the lengths of its intervals, and the rows' mean
-/// is taken.
+/// Parameters along u: each row of points divides [0, 1] by the lengths of its intervals, and the rows' mean is taken.
 MeanParameters mean_parameters(const Eigen::Matrix3Xd& points, int count_u, InterpolateOptions::Parameters kind)
 {
     const int intervals = count_u - 1, rows = int(points.cols()) / count_u;
@@ -148,8 +147,7 @@ public:
             throw SolveError("the interpolation matrix is singular: " + lu_.lastErrorMessage());
     }
 
-    /// Points (i, j), i fastest, of `width` curves that run along j, to their control points in the same
-    /// order.
+    /// Points (i, j), i fastest, of `width` curves that run along j, to their control points in the same order.
     Eigen::Matrix3Xd solve(const Eigen::Matrix3Xd& points, int width) const
     {
         const Eigen::Map<const Eigen::MatrixXd> rows(points.data(), 3 * width, points_);

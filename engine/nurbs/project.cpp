@@ -39,8 +39,7 @@ Eigen::Vector2d step_along(int axis, const Eigen::Matrix2d& newton, const Eigen:
     return step;
 }
 
-/// A direction in which |S(u, v) - point|^2 falls and that does not leave the domain at once; zero if there
-/// is none.
+/// A direction in which |S(u, v) - point|^2 falls and that does not leave the domain at once; zero if there is none.
 Eigen::Vector2d descent(const SurfacePoint& s, const Eigen::Vector3d& point, const Eigen::Vector2d& uv,
                         const Domain& domain)
 {
@@ -51,8 +50,8 @@ Eigen::Vector2d descent(const SurfacePoint& s, const Eigen::Vector3d& point, con
     newton << r.dot(s.S_uu), r.dot(s.S_uv), r.dot(s.S_uv), r.dot(s.S_vv);
     newton += gauss;
 
-    // Beyond a centre of curvature Newton's matrix is not positive and would lead uphill; where S_u and S_v
-    // are parallel not even Gauss's is.
+    // Beyond a centre of curvature Newton's matrix is not positive and would lead uphill; where S_u and S_v are
+    // parallel not even Gauss's is.
     constexpr double definite = 1e-8;
     const auto positive = [&](const Eigen::Matrix2d& m) {
         return m(0, 0) > 0 && m.determinant() > definite * gauss(0, 0) * gauss(1, 1);

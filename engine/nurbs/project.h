@@ -14,10 +14,8 @@ struct SurfaceFoot {
 /// Projects many points on one surface. Searching from several threads at a time is safe.
 class SurfaceProjection {
 public:
-    /// @param samples_per_span  where Newton's method starts: at the nearest place of this tessellation. Two
-    /// sheets of
-    ///        the surface whose distances from a point differ by less than the triangles' sag may be
-    ///        confused.
+    /// @param samples_per_span  where Newton's method starts: at the nearest place of this tessellation. Two sheets of
+    ///        the surface whose distances from a point differ by less than the triangles' sag may be confused.
     explicit SurfaceProjection(const NurbsSurface& surface, int samples_per_span = 4);
 
     /// Never farther than the place of the surface over the nearest place of the tessellation, and a point of

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Parameters along the generators of a strip mesh: 0, 1, ..., rows on every other one, 0, 1/2, 3/2, ...,
-/// rows on the ones between, so that inner triangles can be equilateral.
+/// Parameters along the generators of a strip mesh: 0, 1, ..., rows on every other one, 0, 1/2, 3/2, ..., rows on the
+/// ones between, so that inner triangles can be equilateral.
 std::vector<double> generator_points(int column, int rows)
 {
     std::vector<double> t = {0};
@@ -26,8 +26,8 @@ std::vector<double> generator_points(int column, int rows)
     return t;
 }
 
-/// Triangles between `columns` + 1 generators, each with its generator_points.
-/// Turning from the direction of growing column to that of growing t is counter-clockwise.
+/// Triangles between `columns` + 1 generators, each with its generator_points. Turning from the direction of growing
+/// column to that of growing t is counter-clockwise.
 /// @param place  place(column, t, x, flat) sets the position in space and in the plane
 template <class Place> DevelopablePart strips(int columns, int rows, const Place& place)
 {
@@ -64,8 +64,7 @@ template <class Place> DevelopablePart strips(int columns, int rows, const Place
     return part;
 }
 
-/// A profile in the xz plane, extruded along y from 0 to length. The outer side is to the left of the
-/// profile.
+/// A profile in the xz plane, extruded along y from 0 to length. The outer side is to the left of the profile.
 DevelopablePart extruded(const Profile& profile, double length, int triangles)
 {
     const double edge = std::sqrt(4 / std::sqrt(3.0) * profile.length() * length / triangles);

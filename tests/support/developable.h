@@ -32,8 +32,7 @@ struct ConeSector {
 };
 DevelopablePart cone_sector(const ConeSector& shape = {});
 
-/// A hat profile: flange, wall, top, wall, flange, bent with one radius. Bends up to 90 degrees; a height
-/// field below.
+/// A hat profile: flange, wall, top, wall, flange, bent with one radius. Bends up to 90 degrees; a height field below.
 struct HatChannel {
     double top = 60;    ///< mm, flat
     double wall = 35;   ///< mm, flat
@@ -45,8 +44,8 @@ struct HatChannel {
 };
 DevelopablePart hat_channel(const HatChannel& shape = {});
 
-/// An upside-down U whose walls end in flanges turned inwards, with lips turned up behind them: six bends of
-/// 90 degrees in the same sense. Seen from above it hides parts of itself, so no projection can flatten it.
+/// An upside-down U whose walls end in flanges turned inwards, with lips turned up behind them: six bends of 90 degrees
+/// in the same sense. Seen from above it hides parts of itself, so no projection can flatten it.
 struct LippedChannel {
     double top = 60;     ///< mm, flat
     double wall = 40;    ///< mm, flat
@@ -58,10 +57,9 @@ struct LippedChannel {
 };
 DevelopablePart lipped_channel(const LippedChannel& shape = {});
 
-/// A hat channel with a row of round holes in its top, in one wall and across one of its upper bends. The
-/// triangles were laid out flat around the holes and then rolled up, so edges cross the generators: unlike
-/// the parts above it is isometric to `flat` only up to the error of a chord, of second order in the edge
-/// length.
+/// A hat channel with a row of round holes in its top, in one wall and across one of its upper bends. The triangles
+/// were laid out flat around the holes and then rolled up, so edges cross the generators: unlike the parts above it is
+/// isometric to `flat` only up to the error of a chord, of second order in the edge length.
 struct PerforatedChannel {
     HatChannel channel;     ///< its `triangles` is the number here, too
     double hole_radius = 7; ///< mm, in the flat sheet

@@ -363,8 +363,7 @@ double first_size(const std::vector<std::pair<double, double>>& parts, int trian
 Remesher start(const Region& region, const Surface& surface, const std::function<double(const Vector2d&)>& edge,
                double spacing)
 {
-    // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go
-    // as a whole.
+    // Halves, not the largest that fits: a lattice just below the length that is collapsed would stay or go as a whole.
     while (spacing > region.smallest_feature / 2)
         spacing /= 2;
     const PlaneMesh plane = cut_lattice(region, spacing);
@@ -403,9 +402,8 @@ ParametricMesh mesh_surface(const Region& region, const Surface& surface, int tr
     const Remesher rough = attempt(box_edge);
     size = first_size(rough.areas_and_edges(), first_triangles);
 
-    // Lengths between those that are split and those that are collapsed stay as they are, so the number
-    // reached follows the wanted length only roughly, and an existing mesh not at all: start again with the
-    // length corrected.
+    // Lengths between those that are split and those that are collapsed stay as they are, so the number reached follows
+    // the wanted length only roughly, and an existing mesh not at all: start again with the length corrected.
     ParametricMesh result;
     std::vector<int> corners;
     double least_miss = 1e30, best_size = size;

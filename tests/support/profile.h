@@ -4,8 +4,7 @@
 
 namespace spia::shapes {
 
-/// A planar curve of straight lines and arcs, drawn like with a pen; tangents are continuous where pieces
-/// meet.
+/// A planar curve of straight lines and arcs, drawn like with a pen; tangents are continuous where pieces meet.
 class Profile {
 public:
     /// @param heading the angle of the first tangent against the first axis, radians

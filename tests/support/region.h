@@ -8,8 +8,7 @@ namespace spia::shapes {
 
 /// Where a surface is defined.
 struct Region {
-    /// Negative inside, zero on the boundary, positive outside; near the boundary about the distance to it,
-    /// mm.
+    /// Negative inside, zero on the boundary, positive outside; near the boundary about the distance to it, mm.
     std::function<double(const Eigen::Vector2d&)> distance;
     Eigen::Vector2d low, high;            ///< a box around it
     std::vector<Eigen::Vector2d> corners; ///< sharp turns of the boundary, where a vertex must lie
@@ -47,8 +46,7 @@ struct PlaneMesh {
     std::vector<int> corner;   ///< the vertex at each of the region's corners
 };
 
-/// A lattice of equilateral triangles, cut along the boundary of the region. Its triangles at the boundary
-/// may be thin.
+/// A lattice of equilateral triangles, cut along the boundary of the region. Its triangles at the boundary may be thin.
 /// @param spacing  mm; below the smallest feature, or holes are lost
 PlaneMesh cut_lattice(const Region& region, double spacing);
 

@@ -15,10 +15,8 @@ struct AxisymmetricPart {
 };
 
 /// Rows of vertices on the meridian, about as far apart as the vertices within a row.
-/// @param meridian   2 by #points (r, z), mm, from the axis outwards; r = 0 first gives a pole, r > 0 an
-/// inner edge. Between
-///                   points it is straight; where it turns by more than 20 degrees it keeps a row of
-///                   vertices.
+/// @param meridian   2 by #points (r, z), mm, from the axis outwards; r = 0 first gives a pole, r > 0 an inner edge.
+///                   Between points it is straight; where it turns by more than 20 degrees it keeps a row of vertices.
 /// @param triangles  wanted number; the actual one is within 10 %, from 5,000 on within 3 %
 AxisymmetricPart axisymmetric(const Eigen::Matrix2Xd& meridian, int triangles);
 
@@ -37,8 +35,7 @@ struct SharpCup {
 };
 AxisymmetricPart sharp_cup(const SharpCup& shape = {});
 
-/// A spherical cap that runs through a die radius into a flat flange. The pole is the highest point, the
-/// flange z = 0.
+/// A spherical cap that runs through a die radius into a flat flange. The pole is the highest point, the flange z = 0.
 struct Dome {
     double radius = 50;         ///< mm, of the sphere
     double die_radius = 10;     ///< mm

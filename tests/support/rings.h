@@ -17,10 +17,9 @@ struct RingPlan {
     double phase; ///< 0 or 1/2: the first point is this many steps away from the start of the ring
 };
 
-/// Rings of evenly spread points, about `edge` mm apart, every other ring turned by half a step, so that
-/// triangles come near to equilateral. On walls steeper than 80 degrees rings keep count and phase of the one
-/// above instead: staggered points on a vertical wall with round corners would make every other facet
-/// overhang.
+/// Rings of evenly spread points, about `edge` mm apart, every other ring turned by half a step, so that triangles come
+/// near to equilateral. On walls steeper than 80 degrees rings keep count and phase of the one above instead: staggered
+/// points on a vertical wall with round corners would make every other facet overhang.
 /// @param s              ascending arc lengths of the rings
 /// @param place          arc length -> (distance outwards, z) of the ring
 /// @param circumference  distance outwards -> length of the ring, mm; 0 at a pole

@@ -4,8 +4,8 @@
 #include "engine/mesh/tri_mesh.h"
 #include "tests/support/region.h"
 
-/// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h,
-/// square_cup.h, developable.h, inner_panel.h, fender.h.
+/// Plain shapes, and shapes that a stage must refuse. Parts with a name of their own: revolved.h, square_cup.h,
+/// developable.h, inner_panel.h, fender.h.
 namespace spia::shapes {
 
 /// A flat rectangle in the xy plane, columns x rows cells of two triangles.

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// The contour at a distance outside the punch square (inside: negative) is a square with rounded corners
-/// whose radius grows with the distance; far inside, a sharp square.
+/// The contour at a distance outside the punch square (inside: negative) is a square with rounded corners whose radius
+/// grows with the distance; far inside, a sharp square.
 struct Contour {
     double half_side, corner_radius;
 

@@ -200,8 +200,8 @@ TEST(CoonsGrid, CellsCoverTheOutlineOnce)
 
 TEST(CoonsGrid, ABlankThatOverlapsItselfIsFilledLayerByLayer)
 {
-    // A band that winds around by 8 radians: its ends lie on top of each other, but belong to different ends
-    // of the strip.
+    // A band that winds around by 8 radians: its ends lie on top of each other, but belong to different ends of the
+    // strip.
     const TriMesh strip = shapes::rectangle(0.5, 8, 8, 128);
     Blank blank;
     blank.position.resize(2, strip.vertices());

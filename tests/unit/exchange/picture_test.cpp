@@ -153,9 +153,8 @@ TEST(Picture, BlankHasItsAreaAndTheColoursOfItsThinning)
     EXPECT_NEAR(right - left, 452, 3); // panel less margins, and half a boundary line
     EXPECT_NEAR(bottom - top, 226, 3);
     EXPECT_EQ(image.drawn(510, 80, 990, 440), (right - left) * (bottom - top));
-    // Contours every 2 % (levels k / 50 of the value): look half way between them. Colours run from the
-    // second to the last but one column of vertices, since each of the 41 holds more than a hundredth of
-    // them: over the whole range.
+    // Contours every 2 % (levels k / 50 of the value): look half way between them. Colours run from the second to the
+    // last but one column of vertices, since each of the 41 holds more than a hundredth of them: over the whole range.
     for (const double thinning : {0.03, 0.07, 0.11, 0.15}) {
         const int x = 524 + int(452 * thinning / 0.2);
         const Eigen::Vector3d expected = viridis(thinning / 0.2);

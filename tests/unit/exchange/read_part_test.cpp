@@ -187,8 +187,8 @@ std::string glb(std::string json, std::string binary)
     return bytes + std::string("BIN\0", 4) + binary;
 }
 
-/// A 2 x 1 strip in metres: a triangle list on the left (vertices 0 to 3), and a strip with vertices of its
-/// own (4 to 7) on the right, moved there by a node and mirrored in it.
+/// A 2 x 1 strip in metres: a triangle list on the left (vertices 0 to 3), and a strip with vertices of its own (4 to
+/// 7) on the right, moved there by a node and mirrored in it.
 struct GltfStrip {
     std::string binary, json;
 

@@ -35,8 +35,7 @@ inline SheetFields smooth_fields(int count)
     return f;
 }
 
-/// @param cells along x; a multiple of 4. The hole leaves vertices without faces, as real meshes may have
-/// them.
+/// @param cells along x; a multiple of 4. The hole leaves vertices without faces, as real meshes may have them.
 inline Chain chain(int cells = 12, double size = 400)
 {
     Chain c;

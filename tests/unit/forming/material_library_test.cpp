@@ -48,8 +48,8 @@ std::string complaint(const std::function<void()>& action)
 }
 
 /// What a tensile test would show: necking begins where the slope of the true curve has fallen to the stress
-/// (Considere), the tensile strength is the load there over the first area, the proof stress has left a
-/// strain of 0.002.
+/// (Considere), the tensile strength is the load there over the first area, the proof stress has left a strain of
+/// 0.002.
 struct TensileTest {
     double uniform_strain; ///< logarithmic
     double strength_MPa;

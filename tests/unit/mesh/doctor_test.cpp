@@ -236,8 +236,7 @@ TEST(Doctor, ThirdFaceAtAnEdgeIsFatalAndNamed)
 
 TEST(Doctor, HolesThatTouchInAVertexAreSeparated)
 {
-    // Two missing cells of 4 x 4 that meet in the vertex (2, 2) = 12: one vertex too few for two proper
-    // holes.
+    // Two missing cells of 4 x 4 that meet in the vertex (2, 2) = 12: one vertex too few for two proper holes.
     const Examination e = examine(quads(4, 4, {5, 10}));
     EXPECT_EQ(count(e, Fault::touching_fans), 1);
     EXPECT_EQ(first(e, Fault::touching_fans), 12);
@@ -289,8 +288,7 @@ TEST(Doctor, ImpossibleNumbersAreRefusedWithTheirPlace)
 
 TEST(Doctor, RepeatedCornersShortenAFaceOrRemoveIt)
 {
-    // A triangle written as a quad, an edge written as a triangle, and a face that goes through a vertex
-    // twice.
+    // A triangle written as a quad, an edge written as a triangle, and a face that goes through a vertex twice.
     PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 2}, {0, 2, 3}, {0, 2, 0}});
     const Examination e = examine(soup);
     EXPECT_EQ(count(e, Fault::repeated_corner), 2);
@@ -318,8 +316,7 @@ TEST(Doctor, NeedleWithTwoVerticesAtOnePlaceIsClosed)
 
 TEST(Doctor, CapIsTurnedIntoItsNeighbourAndABoundaryCapIsLeftOut)
 {
-    // (1, 0) lies on the edge (0, 0) - (2, 0) between a lower and an upper triangle fan; triangle 0 is the
-    // cap.
+    // (1, 0) lies on the edge (0, 0) - (2, 0) between a lower and an upper triangle fan; triangle 0 is the cap.
     const std::vector<Vector3d> points = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 2, 0}, {1, -2, 0}};
     const Examination inner = examine(soup_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {0, 4, 1}}));
     EXPECT_EQ(count(inner, Fault::flat_face), 1);
@@ -362,8 +359,7 @@ TEST(Doctor, TornFacetsAreWeldedInTheOrderOfTheirFirstCorners)
 
 TEST(Doctor, GapsOfRoundingAreWeldedAndShortRealEdgesAreKept)
 {
-    // All corners are off at random; one real edge is shorter than the tolerance of 5.7e-3 but longer than
-    // the errors.
+    // All corners are off at random; one real edge is shorter than the tolerance of 5.7e-3 but longer than the errors.
     const double real_edge = 2e-3;
     PolygonSoup whole = quads(4, 4);
     whole.position[12].x() -= 1 - real_edge; // the middle vertex comes next to its left neighbour 11

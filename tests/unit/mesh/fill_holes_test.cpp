@@ -74,8 +74,8 @@ TEST(FillHoles, APlatePartStaysAPlaneAndKeepsItsVertices)
 
 TEST(FillHoles, TheFillContinuesACurvedPart)
 {
-    // z = x^2 - y^2 + x^3 / 3 - x y^2 is harmonic, so the smooth fill of its hole is the surface itself, up
-    // to the mesh size.
+    // z = x^2 - y^2 + x^3 / 3 - x y^2 is harmonic, so the smooth fill of its hole is the surface itself, up to the mesh
+    // size.
     const auto height = [](double x, double y) { return x * x - y * y + x * x * x / 3 - x * y * y; };
     std::vector<double> error;
     for (const int n : {20, 40}) {
@@ -128,8 +128,7 @@ TEST(FillHoles, WhatIsNoDiskIsNamed)
     two.position.rightCols(9) = plate_part.position.colwise() + Eigen::Vector3d(5, 0, 0);
     two.triangle.conservativeResize(3, 16);
     two.triangle.rightCols(8) = plate_part.triangle.array() + 9;
-    // The second piece's edge runs counter-clockwise too and cannot be filled; either complaint would help
-    // the user.
+    // The second piece's edge runs counter-clockwise too and cannot be filled; either complaint would help the user.
     EXPECT_THROW(fill_holes(two, two.position.topRows(2)), InputError);
     TriMesh mirrored = plate_part;
     mirrored.position.row(0) *= -1;

@@ -10,16 +10,14 @@ namespace spia::surfaces {
 /// A grid of columns x rows cells, its nodes on place(s, t), s and t even from 0 to 1.
 QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double s, double t)>& place);
 
-/// A quarter of a cylinder about the y axis, exactly round by its weights; S_u x S_v points away from the
-/// axis.
+/// A quarter of a cylinder about the y axis, exactly round by its weights; S_u x S_v points away from the axis.
 NurbsSurface quarter_cylinder(double radius, double length);
 
 /// The part of a sphere about the origin between 45 degrees left and right of the x axis (u) and 45 degrees
 /// below and above it (v), exactly round; S_u x S_v points outwards.
 NurbsSurface sphere_patch(double radius);
 
-/// A rational surface of no particular shape: degrees 3 and 2, uneven knots with one repeated, uneven
-/// weights.
+/// A rational surface of no particular shape: degrees 3 and 2, uneven knots with one repeated, uneven weights.
 NurbsSurface crooked();
 
 } // namespace spia::surfaces

@@ -17,8 +17,7 @@ inline int euler_characteristic(const TriMesh& mesh)
     return mesh.vertices() - int(edge_lengths(mesh).size()) + mesh.triangles();
 }
 
-/// A proper surface (halfedges() throws otherwise) with this many boundary loops and this Euler
-/// characteristic.
+/// A proper surface (halfedges() throws otherwise) with this many boundary loops and this Euler characteristic.
 inline void expect_topology(const TriMesh& mesh, size_t loops, int euler)
 {
     ASSERT_NO_THROW(halfedges(mesh));
