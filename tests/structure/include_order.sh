@@ -27,5 +27,11 @@ done < <(grep -rnE '#include <(cholmod|umfpack|SuiteSparse)' engine app tests | 
 while IFS= read -r line; do
     complain "the engine has no window: $line"
 done < <(grep -rnE '#include <(GLFW|imgui|glm|GL/)' engine)
+while IFS= read -r line; do
+    complain "only app/viewer/render and the window itself know OpenGL: $line"
+done < <(grep -rnE '#include <(epoxy|GL)/' app | grep -vE '^app/viewer/(render/|window)')
+while IFS= read -r line; do
+    complain "the viewer's model and views know neither ImGui nor a window: $line"
+done < <(grep -rnE '#include <(imgui|GLFW|epoxy)' app/viewer/model app/viewer/views)
 [ $bad -eq 0 ] && echo "the include order holds"
 exit $bad

@@ -1,0 +1,171 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/viewer/model/state.h"
+
+/// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply() carries them out
+/// between two frames. In a script an action is an object {"do": NAME, ...} with the members of its struct; NAME is given here.
+namespace spia::viewer {
+
+// --- the chain
+struct OpenPart {
+    std::filesystem::path file;
+    std::string unit;
+}; ///< "open_part"; unit may be empty
+struct SetUnit {
+    std::string unit;
+}; ///< "set_unit": reads the part again
+struct RunTo {
+    Stage stage = Stage::fit;
+};                   ///< "run_to": what is missing up to this stage, in the background
+struct CancelJob {}; ///< "cancel_job"
+struct SetMaterial {
+    std::string material;
+}; ///< "set_material": a grade or a file
+struct SetThickness {
+    double thickness = 1;
+}; ///< "set_thickness", mm
+struct SetDirection {
+    std::optional<Eigen::Vector3d> direction;
+}; ///< "set_direction"; not given: automatic
+struct SetCorner {
+    int corner = 0;
+    int vertex = 0;
+    bool dragging = false;
+};                        ///< "set_corner": number 0 to 3 to a vertex of the part; while dragging, coarse
+struct ProposeCorners {}; ///< "propose_corners": automatic ones again
+struct SetGrid {
+    GridOptions grid;
+}; ///< "set_grid": columns, rows, cells, smoothing, method
+struct SetEnds {
+    bool natural = false;
+}; ///< "set_ends" of the interpolation
+
+// --- picking
+enum class PickMode { replace, add, remove };
+struct SelectFaces {
+    std::vector<int> faces;
+    PickMode mode = PickMode::replace;
+}; ///< "select_faces"
+/// "pick_at": what the view shows at a pixel: the face, with `flood` all around it up to an angle (degrees), with `smooth` its whole smooth region.
+struct PickAt {
+    View view = View::part;
+    glm::dvec2 pixel{0};
+    glm::dvec2 size{0};
+    PickMode mode = PickMode::replace;
+    std::optional<double> flood;
+    bool smooth = false;
+};
+/// "pick_area": all faces whose middle lies inside a polygon of pixels (a box has four). Hidden ones only with `through`.
+struct PickArea {
+    View view = View::part;
+    std::vector<glm::dvec2> polygon;
+    glm::dvec2 size{0};
+    PickMode mode = PickMode::replace;
+    bool through = false;
+};
+/// "pick_brush": all faces that a brush of some pixels' radius touches at this pixel.
+struct PickBrush {
+    View view = View::part;
+    glm::dvec2 pixel{0};
+    double radius = 20;
+    glm::dvec2 size{0};
+    PickMode mode = PickMode::add;
+    bool through = false;
+};
+struct GrowSelection {};   ///< "grow_selection": by one ring of faces
+struct ShrinkSelection {}; ///< "shrink_selection"
+struct InvertSelection {}; ///< "invert_selection"
+struct ClearSelection {};  ///< "clear_selection"
+struct MakeRegion {
+    std::string name;
+    RegionKind kind = RegionKind::fixed;
+}; ///< "make_region" of the selected faces; name may be empty
+struct ChangeRegion {
+    int region = 0;
+    std::string name;
+    RegionKind kind = RegionKind::fixed;
+    Colour colour{};
+}; ///< "change_region"
+struct RemoveRegion {
+    int region = 0;
+}; ///< "remove_region"
+struct SelectRegion {
+    int region = 0;
+    PickMode mode = PickMode::replace;
+}; ///< "select_region"
+struct AddProbe {
+    Probe probe;
+}; ///< "add_probe"
+struct RemoveProbe {
+    int probe = 0;
+};                     ///< "remove_probe"
+struct ClearProbes {}; ///< "clear_probes"
+
+// --- looking
+struct SetDisplay {
+    FieldDisplay display;
+}; ///< "set_display"
+struct SetViewSettings {
+    ViewSettings view;
+}; ///< "set_view": no matter of undo
+struct FitView {
+    std::optional<View> view;
+}; ///< "fit_view"; not given: all
+struct LookFrom {
+    View view = View::part;
+    StandardView from = StandardView::isometric;
+}; ///< "look_from"
+struct FlyTo {
+    int face = 0;
+}; ///< "fly_to": every view shows this face in its middle
+
+// --- the document and files
+struct Undo {}; ///< "undo"
+struct Redo {}; ///< "redo"
+struct OpenProject {
+    std::filesystem::path file;
+}; ///< "open_project"
+struct SaveProject {
+    std::filesystem::path file;
+}; ///< "save_project"; empty: the one it came from
+struct ExportFiles {
+    std::filesystem::path folder;
+    std::vector<std::string> formats;
+}; ///< "export", in the background
+struct WriteReport {
+    std::filesystem::path file;
+}; ///< "write_report": HTML with pictures of the views
+struct Screenshot {
+    std::filesystem::path file;
+    std::optional<View> view;
+    int width = 0, height = 0;
+};                         ///< "screenshot" (PNG); no view: the window
+struct DismissMessages {}; ///< "dismiss_messages"
+struct Quit {};            ///< "quit"
+
+using Action =
+    std::variant<OpenPart, SetUnit, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
+                 ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, GrowSelection,
+                 ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SelectRegion,
+                 AddProbe, RemoveProbe, ClearProbes, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, Undo, Redo,
+                 OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+
+/// Actions to come, in order.
+class ActionQueue {
+public:
+    void push(Action action) { actions_.push_back(std::move(action)); }
+    std::vector<Action> take() { return std::exchange(actions_, {}); }
+    bool empty() const { return actions_.empty(); }
+
+private:
+    std::vector<Action> actions_;
+};
+
+} // namespace spia::viewer

@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string_view>
+
+namespace spia::viewer {
+
+enum class StandardView { top, bottom, front, back, left, right, isometric };
+
+/// Looks at a target from a distance. Lengths in mm; a view's pixels run right and down from its upper left corner.
+struct Camera {
+    glm::dvec3 target{0, 0, 0};
+    glm::dquat turn{1, 0, 0, 0}; ///< camera axes (x right, y up, z towards the viewer) into space
+    double height = 100;         ///< mm, what the view shows from bottom to top at the target
+    bool perspective = false;    ///< with a vertical angle of 30 degrees, else orthographic
+    bool flat = false;           ///< of a flat drawing: it is not turned out of its plane
+
+    friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+/// Space (relative to `origin`, so that single precision is enough) to clip coordinates, of a view of this aspect (width / height). Near and far
+/// enclose `box`.
+glm::dmat4 view_matrix(const Camera& camera, const Eigen::Vector3d& origin);
+glm::dmat4 projection_matrix(const Camera& camera, double aspect, const Eigen::AlignedBox3d& box);
+
+struct Ray {
+    Eigen::Vector3d origin, direction; ///< mm, unit
+};
+
+/// Through a pixel of a view of this size, from in front of everything in the box.
+Ray ray_through(const Camera& camera, const Eigen::AlignedBox3d& box, glm::dvec2 pixel, glm::dvec2 size);
+
+/// Pixel of a place, and its depth towards the viewer (larger is nearer).
+glm::dvec3 pixel_of(const Camera& camera, const Eigen::Vector3d& place, glm::dvec2 size);
+
+/// Turns by a drag from one pixel to another: left and right about the vertical of the picture, up and down about its horizontal. A
+/// flat camera pans instead.
+Camera orbit(Camera camera, glm::dvec2 drag, glm::dvec2 size);
+/// What was under the mouse follows it.
+Camera pan(Camera camera, glm::dvec2 drag, glm::dvec2 size);
+/// Larger than 1 comes nearer; the place under the pixel stays there.
+Camera zoom(Camera camera, double factor, glm::dvec2 pixel, glm::dvec2 size);
+/// Shows the whole box with a small margin, without turning.
+Camera fit(Camera camera, const Eigen::AlignedBox3d& box, double aspect);
+/// Turns to a standard view about the target.
+Camera look(Camera camera, StandardView view);
+
+} // namespace spia::viewer

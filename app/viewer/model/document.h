@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/model/field.h"
+#include "app/viewer/model/scene.h"
+#include "engine/pipeline/session.h"
+
+namespace spia::viewer {
+
+enum class RegionKind { fixed, binder, pad, material, other };
+std::string_view name(RegionKind kind);
+RegionKind region_kind(std::string_view name); ///< @throws InputError
+
+/// Picked faces with a name.
+struct FaceRegion {
+    std::string name;
+    RegionKind kind = RegionKind::other;
+    Colour colour{0.9f, 0.7f, 0.1f, 1};
+    std::vector<int> faces; ///< of the part, ascending
+
+    friend bool operator==(const FaceRegion&, const FaceRegion&) = default;
+};
+
+/// A place on the part that is watched: pinned by the user.
+struct Probe {
+    int face = -1;
+    Eigen::Vector3d barycentric{1. / 3, 1. / 3, 1. / 3};
+};
+
+/// How the fields of the sheet are shown on the part and the blank.
+struct FieldDisplay {
+    Field field = Field::thinning;
+    bool per_face = false;
+    std::optional<std::array<double, 2>> range; ///< in the unit of the field; not given: its least and greatest value
+    std::optional<ColourMap> map;               ///< not given: diverging where zero matters, else viridis
+    int bands = 0;                              ///< 0: smooth
+    bool isolines = false;
+    bool extremes = true;    ///< mark least and greatest
+    bool directions = false; ///< glyphs of the principal strains
+};
+
+/// What the user made: everything that undo brings back and a project file keeps. A copy is cheap, results are shared.
+struct Document {
+    Session session;
+    std::string material = "mild_steel"; ///< a built-in grade, or the path of a material file
+    std::vector<int> selected;           ///< faces of the part, ascending
+    std::vector<FaceRegion> regions;
+    std::vector<Probe> probes;
+    FieldDisplay display;
+};
+
+} // namespace spia::viewer

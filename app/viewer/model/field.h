@@ -1,0 +1,51 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/pipeline/session.h"
+
+namespace spia::viewer {
+
+/// A scalar of the formed sheet that can be looked at.
+enum class Field {
+    none,
+    thickness,
+    thinning,
+    thickening,
+    strain_major,
+    strain_minor,
+    strain_equivalent,
+    stress_major,
+    stress_minor,
+    stress_equivalent,
+    area_change,
+    angle_distortion,
+    necking,
+    deviation
+};
+
+struct FieldInfo {
+    Field field;
+    std::string_view name;  ///< as in scripts and projects, e.g. "strain_major"
+    std::string_view label; ///< for people, e.g. "Major strain"
+    std::string_view unit;  ///< "mm", "%", "MPa", "" (a pure number)
+    bool diverging;         ///< zero matters: both signs
+    std::string_view help;  ///< one sentence: what it is
+};
+
+/// All of them, in the order of the menu.
+const std::vector<FieldInfo>& all_fields();
+const FieldInfo& info(Field field);
+Field field_by_name(std::string_view name); ///< @throws InputError
+
+/// Whether the session has what the field needs.
+bool available(const Session& session, Field field);
+
+/// Values in the unit of the field, one per vertex of the part or one per face; empty for Field::none. The deviation has no values per
+/// face of its own: the mean of its corners.
+/// @throws InputError if it is not available
+Eigen::VectorXd values(const Session& session, Field field, bool per_face);
+
+} // namespace spia::viewer

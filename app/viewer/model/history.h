@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/viewer/model/document.h"
+
+namespace spia::viewer {
+
+/// Documents of the past and, after undo, of the future, each with the name of the change that left it.
+class History {
+public:
+    /// Remembers the document as it was before a change.
+    /// @param merge  changes of the same name in a row count as one (a drag, a slider): only the first is remembered
+    void remember(std::string name, const Document& before, bool merge = false);
+
+    /// Name of the change that undo (redo) would take back (do again); empty: there is none.
+    std::string undo_name() const;
+    std::string redo_name() const;
+
+    /// @param current replaced by the document before (after) the change; no effect if there is none
+    void undo(Document& current);
+    void redo(Document& current);
+    /// The next change is not merged with the last one, whatever its name.
+    void close() { open_ = false; }
+
+private:
+    struct Entry {
+        std::string name;
+        Document document;
+    };
+    static constexpr size_t most_ = 100;
+    std::vector<Entry> past_, future_;
+    bool open_ = false;
+};
+
+} // namespace spia::viewer

@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/model/camera.h"
+#include "app/viewer/model/document.h"
+#include "app/viewer/model/history.h"
+
+namespace spia::viewer {
+
+enum class View { part, blank, quads, surface };
+inline constexpr View all_views[] = {View::part, View::blank, View::quads, View::surface};
+std::string_view name(View view);         ///< "part", ...
+View view_by_name(std::string_view name); ///< @throws InputError
+
+enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, corners };
+std::string_view name(Tool tool);
+Tool tool_by_name(std::string_view name); ///< @throws InputError
+
+/// How things are looked at: kept with the project, but no matter of undo.
+struct ViewSettings {
+    std::array<Camera, 4> camera; ///< by View
+    bool linked = true;           ///< part, quads and surface turn together
+    std::optional<View> maximised;
+    float split_x = 0.5f, split_y = 0.5f; ///< of the four views, shares of the window
+    Tool tool = Tool::look;
+    double flood_angle = 20;  ///< degrees
+    double brush_radius = 20; ///< pixels
+    bool through = false;     ///< box, lasso and brush take hidden faces too
+    bool dark = true;
+    bool edges = false; ///< of the triangles
+    bool features = true;
+    bool control_net = true;
+    bool part_under_quads = true;
+    bool surface_deviation = true;
+    bool quad_quality = true;
+};
+
+enum class Severity { hint, done, warning, error };
+
+/// What the program says to the user, the newest last.
+struct Message {
+    Severity severity;
+    std::string text;
+};
+
+/// A job as the window sees it; see Jobs.
+struct JobView {
+    bool running = false;
+    bool cancelling = false;
+    std::string title, step;
+    double fraction = 0;
+    std::vector<double> residual;                  ///< of every step so far
+    std::shared_ptr<const Eigen::Matrix2Xd> blank; ///< while it converges; null: nothing yet
+};
+
+/// All the window shows. Only actions and finished jobs change it.
+struct ViewerState {
+    Document document;
+    History history;
+    ViewSettings view;
+    JobView job;
+    std::vector<Message> messages;
+    std::filesystem::path project; ///< file it was saved to or opened from; empty: none yet
+    bool unsaved = false;
+    std::optional<int> hovered; ///< face under the mouse
+};
+
+} // namespace spia::viewer
