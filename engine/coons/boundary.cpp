@@ -236,8 +236,10 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part)
     return {loop[size_t(corners[0])], loop[size_t(corners[1])], loop[size_t(corners[2])], loop[size_t(corners[3])]};
 }
 
-BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std::array<int, 4>& corners)
+BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std::array<int, 4>& corners,
+                             const std::vector<int>& file_number)
 {
+    const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
     const std::vector<int> loop = outline_of(blank, part);
     const int n = int(loop.size());
     std::array<int, 4> place;
@@ -246,10 +248,10 @@ BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std:
         if (found == loop.end())
             throw InputError(fmt::format("corner vertex {} is not on the outer boundary of the blank; pick "
                                          "one of its boundary vertices",
-                                         corners[k]));
+                                         number(corners[k])));
         if (std::count(corners.begin(), corners.end(), corners[k]) > 1)
-            throw InputError(
-                fmt::format("vertex {} is given as a corner twice; four different ones are needed", corners[k]));
+            throw InputError(fmt::format("vertex {} is given as a corner twice; four different ones are needed",
+                                         number(corners[k])));
         place[k] = int(found - loop.begin());
     }
     const auto steps = [&](size_t k) { return (place[k] - place[0] + n) % n; }; // counter-clockwise from the first
@@ -259,9 +261,10 @@ BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std:
         std::array<int, 4> sorted = place;
         std::sort(sorted.begin() + 1, sorted.end(),
                   [&](int a, int b) { return (a - place[0] + n) % n < (b - place[0] + n) % n; });
-        throw InputError(fmt::format(
-            "the corners do not follow each other along the boundary; give them as {},{},{},{}",
-            loop[size_t(sorted[0])], loop[size_t(sorted[1])], loop[size_t(sorted[2])], loop[size_t(sorted[3])]));
+        throw InputError(
+            fmt::format("the corners do not follow each other along the boundary; give them as {},{},{},{}",
+                        number(loop[size_t(sorted[0])]), number(loop[size_t(sorted[1])]),
+                        number(loop[size_t(sorted[2])]), number(loop[size_t(sorted[3])])));
     }
 
     BlankBoundary boundary;
@@ -278,7 +281,7 @@ BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std:
             throw InputError(
                 fmt::format("the side from corner {} to corner {} has no length in the blank; choose corners "
                             "farther apart",
-                            boundary.corner[k], loop[size_t(place[(k + 1) % 4])]));
+                            number(boundary.corner[k]), number(loop[size_t(place[(k + 1) % 4])])));
     }
     return boundary;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "engine/coons/quad_grid.h"
 #include "engine/forming/blank.h"
@@ -19,7 +20,9 @@ std::array<int, 4> propose_corners(const Blank& blank, const TriMesh& part);
 /// one counter-clockwise (1, 0). Corners given clockwise are taken the other way round, from the same first
 /// one; in a crossed order they are an error, since two of them were then probably mixed up.
 /// @throws InputError if a corner is not on the outer boundary, appears twice or out of order, or a side has no length
-BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std::array<int, 4>& corners);
+/// @param file_number per vertex its number in messages; empty: as in the mesh
+BlankBoundary split_boundary(const Blank& blank, const TriMesh& part, const std::array<int, 4>& corners,
+                             const std::vector<int>& file_number = {});
 
 /// A place on one side of the blank: between the vertices a and b, which are neighbours on it.
 struct SidePoint {

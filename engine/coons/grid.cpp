@@ -133,8 +133,10 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderPara
     return grid;
 }
 
-[[noreturn]] void throw_impossible(const Workshop& shop, const GridResult& grid)
+[[noreturn]] void throw_impossible(const Workshop& shop, const GridResult& grid, const std::vector<int>& file_number)
 {
+    const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
+    const auto& corner = shop.boundary.corner;
     const int m = grid.planar.columns, n = grid.planar.rows;
     if (const int k = impossible_corner(grid.planar); k >= 0)
         throw InputError(fmt::format("the {} x {} grid folds at corner vertex {}: the outline does not turn "
@@ -142,18 +144,19 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderPara
                                      "degrees at the size of a cell), and no cell fits into such a place; "
                                      "choose a corner where the outline is "
                                      "convex, or let the corners be proposed",
-                                     m, n, shop.boundary.corner[size_t(k)], corner_angle_deg(grid.planar, k)));
+                                     m, n, number(corner[size_t(k)]), corner_angle_deg(grid.planar, k)));
     if (!follows_outline(grid, shop.blank.overlaps_itself())) {
         if (const auto [vertex, angle_deg] = widest_vertex(*shop.filled); angle_deg > 360)
             throw InputError(fmt::format(
                 "the blank lies on itself around boundary vertex {} (inner angle {:.0f} degrees), and the cells of a "
                 "{} x {} grid cannot turn around such a place; cut the part there into two",
-                vertex, angle_deg, m, n));
+                number(vertex), angle_deg, m, n));
         throw InputError(fmt::format("the outline of the blank is too intricate for a {} x {} grid: the border nodes, "
                                      "joined by straight lines, do not follow it; choose a finer grid",
                                      m, n));
     }
-    const std::string corners = fmt::format("{}", fmt::join(shop.boundary.corner, ", "));
+    const std::string corners =
+        fmt::format("{}, {}, {}, {}", number(corner[0]), number(corner[1]), number(corner[2]), number(corner[3]));
     if (grid.quality.folded_cells > 0)
         throw InputError(fmt::format(
             "no {} x {} grid without folded cells was found between the corner vertices {}: {} "
@@ -219,7 +222,7 @@ GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBounda
             break;
         }
     }
-    throw_impossible(shop, grid);
+    throw_impossible(shop, grid, options.file_number);
 }
 
 } // namespace spia

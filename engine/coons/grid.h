@@ -25,6 +25,7 @@ struct GridOptions {
     int cells = 40;     ///< on the longer sides, where columns or rows is 0
     int smoothing = 50; ///< the most Laplacian sweeps over a Coons patch that folds
     GridMethod method = GridMethod::automatic;
+    std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 };
 
 /// Which way the grid came about.

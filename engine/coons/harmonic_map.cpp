@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "engine/coons/boundary.h"
@@ -183,7 +182,9 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     matrix.setFromTriplets(entries.begin(), entries.end());
     progress.checkpoint(0.2, "harmonic map: solution");
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
-    assert(factor.info() == Eigen::Success); // positive definite: positive weights, and every vertex hangs on the sides
+    // Positive definite, since the weights are and every vertex hangs on the sides; only rounding can spoil that.
+    if (factor.info() != Eigen::Success)
+        throw SolveError("the harmonic map of the blank could not be factored; remesh the part with better triangles");
     const Eigen::MatrixX2d solution = factor.solve(right);
     for (size_t v = 0; v < unknown.size(); ++v)
         if (unknown[v] >= 0)

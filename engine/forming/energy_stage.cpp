@@ -100,6 +100,8 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         const double decrement = -gradient.dot(newton);
 
         result.steps.push_back({E * 1e-3, decrement / (E + yield_energy), 0});
+        if (options.watch)
+            options.watch(X, result.steps.back());
         if (decrement <= options.decrement * (E + 1e-6 * yield_energy)) {
             result.ended = Ended::converged;
             if (decrement > 0 && largest_step(triangle, X, direction) > 2) { // the last step costs nothing more

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct NewtonStep {
     double step_length = 0; ///< share of the full Newton step taken
 };
 
+/// Sees the blank and the step that led to it, once per iteration; called on the solver's thread and must be quick.
+using StepWatch = std::function<void(const Eigen::Matrix2Xd& blank, const NewtonStep& step)>;
+
 enum class Ended { converged, stalled, too_many_steps };
 
 struct EnergyResult {
@@ -27,11 +31,12 @@ struct EnergyResult {
 struct EnergyOptions {
     int most_steps = 200;
     double decrement = 1e-5; ///< stop when a step promises less than this share of the energy
+    StepWatch watch = {};
 };
 
 /// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held, by projected
-/// Newton steps with a majorising stiffness (energy_density()). W grows without bound as a triangle collapses and no step may turn one over: from a flip-free start every
-/// iterate is flip-free.
+/// Newton steps with a majorising stiffness (energy_density()). W grows without bound as a triangle collapses and no step
+/// may turn one over: from a flip-free start every iterate is flip-free.
 /// @param h      #F, mm, the thickness that is held
 /// @param matrix work space with the mesh's pattern; @param cholesky its analysis
 EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element,

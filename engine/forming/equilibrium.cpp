@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <numeric>
+#include <optional>
 
 #include "engine/sparse/gmres.h"
 #include "engine/sparse/lu.h"
@@ -20,10 +21,10 @@ public:
         for (int f = 0; f < part.triangles(); ++f)
             for (int a = 0; a < 3; ++a)
                 mass[part.triangle(a, f)] += element[size_t(f)].area / 3;
-        const Eigen::Vector2d centre = X * mass / mass.sum();
+        centre_ = X * mass / mass.sum();
         rows_.setZero(2 * X.cols(), 3);
         for (int v = 0; v < part.vertices(); ++v) {
-            const Eigen::Vector2d arm = X.col(v) - centre;
+            const Eigen::Vector2d arm = X.col(v) - centre_;
             rows_.block<2, 3>(2 * v, 0) << mass[v], 0, -mass[v] * arm[1], 0, mass[v], mass[v] * arm[0];
         }
         for (int k = 0; k < 3; ++k)
@@ -31,10 +32,22 @@ public:
     }
 
     const Eigen::MatrixX3d& rows() const { return rows_; }
+    /// Force and, about the centre of the start, moment of the nodal forces that the three multipliers stand for. N, N, N mm
+    Eigen::Vector3d resultant(const Eigen::Vector3d& multiplier) const
+    {
+        const Eigen::VectorXd force = rows_ * multiplier;
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (Eigen::Index v = 0; v < start_.cols(); ++v) {
+            const Eigen::Vector2d f = force.segment<2>(2 * v), arm = start_.col(v) - centre_;
+            sum += Eigen::Vector3d(f[0], f[1], arm[0] * f[1] - arm[1] * f[0]);
+        }
+        return sum;
+    }
     Eigen::Vector3d moved(const Eigen::Matrix2Xd& X) const { return rows_.transpose() * (X - start_).reshaped(); }
 
 private:
     Eigen::Matrix2Xd start_;
+    Eigen::Vector2d centre_;
     Eigen::MatrixX3d rows_;
 };
 
@@ -61,8 +74,10 @@ public:
             result.residual = R.norm() / yield_force_;
             progress.checkpoint(double(step) / options_.most_steps,
                                 fmt::format("equilibrium step {}, residual {:.1e}", step + 1, result.residual));
-            result.resultant = spring_ * rigid_.moved(X);
+            result.resultant = rigid_.resultant(spring_ * rigid_.moved(X));
             result.steps.push_back({0, result.residual, 0});
+            if (options_.watch)
+                options_.watch(X, result.steps.back());
             if (result.residual <= tolerance) {
                 result.ended = Ended::converged;
                 return result;
@@ -99,8 +114,10 @@ private:
 
     bool advance(Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, std::vector<NewtonStep>& steps)
     {
-        const Eigen::VectorXd newton = direction_at(X, R, forcing_term(steps));
-        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
+        const std::optional<Eigen::VectorXd> newton = direction_at(X, R, forcing_term(steps));
+        if (!newton)
+            return false;
+        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton->data(), 2, X.cols());
         double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
         for (int halving = 0; halving < 10; ++halving, length *= 0.5) {
             const Eigen::Matrix2Xd trial = X + length * direction;
@@ -124,8 +141,9 @@ private:
     }
 
     /// Solves (K + k C C^T) d = -R, the exact tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
-    /// factor of the tangent's definite neighbour preconditions it; where that is not enough, a sparse LU takes its place.
-    Eigen::VectorXd direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, double tolerance)
+    /// factor of the tangent's definite neighbour preconditions it; where that is not enough, a sparse LU takes its place. None: the tangent is
+    /// singular.
+    std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, double tolerance)
     {
         constexpr int most_iterations = 60;
         const double rough = tolerance < worst_forcing ? 0 : 0.3;
@@ -148,6 +166,8 @@ private:
         preconditioner_.add_to_diagonal(1, spring_);
         preconditioner_.add_to_diagonal(preconditioner_.size() - 1, spring_);
         const Lu lu(preconditioner_);
+        if (lu.singular())
+            return std::nullopt;
         return gmres(
                    A, [&](const Eigen::VectorXd& x) { return lu.solve(x); }, -R, tolerance, most_iterations)
             .x;

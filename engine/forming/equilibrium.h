@@ -8,14 +8,16 @@ namespace spia {
 struct EquilibriumOptions {
     int most_steps = 60;
     double tolerance = 1e-9; ///< on |R| relative to the nodal forces of a sheet at its yield stress
+    StepWatch watch = {};
 };
 
 struct EquilibriumResult {
     Eigen::Matrix2Xd position;
     Ended ended = Ended::too_many_steps;
     std::vector<NewtonStep> steps;
-    double residual = 0;                                 ///< relative, at position
-    Eigen::Vector3d resultant = Eigen::Vector3d::Zero(); ///< multipliers: N, N, N mm; what real friction would take
+    double residual = 0; ///< relative, at position
+    Eigen::Vector3d resultant =
+        Eigen::Vector3d::Zero(); ///< of the forces that hold the blank: N, N, N mm about its centre
 };
 
 /// Solves the virtual-work equations by Newton's method with the exact tangent and a line search on |R|. No step turns a

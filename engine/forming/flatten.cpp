@@ -22,8 +22,8 @@ void require_valid(const TriMesh& part, const FlattenOptions& options)
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", options.thickness));
     if (options.friction.size() != 0 && options.friction.size() != part.triangles())
         throw InputError("friction must be given for every face or not at all");
-    if (options.direction && !(options.direction->norm() > 0))
-        throw InputError("the stamping direction is the zero vector");
+    if (options.direction && !(options.direction->norm() > 0 && options.direction->allFinite()))
+        throw InputError("the stamping direction must be a finite vector that is not zero");
     if (boundary_loops(part).empty())
         throw InputError("the part is closed: it has no edge from which it could be unfolded; cut it open");
 }
@@ -116,6 +116,7 @@ EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eig
         gentle.continuation_rate *= shares[level];
         EnergyOptions energy;
         energy.most_steps = most_steps;
+        energy.watch = job.options.watch;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
         result = minimise_energy(
             job.part.triangle, job.element, MembraneLaw(job.options.material, gentle), h, X, job.matrix, job.cholesky,
@@ -138,7 +139,7 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
                                int vertices)
 {
-    std::string words = "converged";
+    std::string words = report.converged ? "converged" : "the virtual-work system was only solved in its relaxed form";
     if (report.trusted_strain < wanted_strain)
         words +=
             fmt::format(" with the hardening curve continued from the uniform strain {:.2f} on instead of {:.2f} ({})",
@@ -156,7 +157,7 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
                        SolveReport& report, const Progress& progress)
 {
     const FlattenOptions& options = job.options;
-    const EquilibriumOptions newton{options.most_newton_steps, options.tolerance};
+    const EquilibriumOptions newton{options.most_newton_steps, options.tolerance, options.watch};
     // A curve that never lets the sheet soften: its energy is convex enough to find the minimum from far away.
     StressCurve::Options hardening = options.curve;
     hardening.trusted_strain = uniform_strain(options.material.hardening, options.curve.trusted_strain);
@@ -179,6 +180,7 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
         take(result, report);
         if (report.converged) {
             report.reason = "converged";
+            report.system = SolvedSystem::strict;
             return std::move(result.position);
         }
         obstacle = fmt::format("the equations stalled at a residual of {:.1e}", result.residual);
@@ -200,6 +202,10 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
         if (!report.converged)
             continue;
         report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
+        report.converged = report.relaxed_vertices < job.part.vertices(); // else nothing is left of the system
+        report.system = !report.converged             ? SolvedSystem::energy
+                        : report.relaxed_vertices > 0 ? SolvedSystem::relaxed
+                                                      : SolvedSystem::continued;
         report.reason = converged_in_words(report, obstacle, options.curve.trusted_strain, job.part.vertices());
         return std::move(result.position);
     }
@@ -226,10 +232,25 @@ double volume_error(const TriMesh& part, const FlattenResult& result, double h0)
 
 } // namespace
 
-FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
+std::string_view name(SolvedSystem system)
+{
+    switch (system) {
+    case SolvedSystem::strict: return "strict";
+    case SolvedSystem::continued: return "continued";
+    case SolvedSystem::relaxed: return "relaxed";
+    case SolvedSystem::energy: return "energy";
+    }
+    return "";
+}
+
+FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
-    require_valid(part, options);
+    require_valid(original, options);
+    // Far from the origin (a part in car coordinates) the digits of a blank would not do for equilibrium to 1e-9.
+    TriMesh part = original;
+    const Eigen::Vector3d centre = (part.position.rowwise().minCoeff() + part.position.rowwise().maxCoeff()) / 2;
+    part.position.colwise() -= centre;
     const std::vector<Element> element = elements(part);
     FlattenResult result;
     result.stamping = stamping(part, options);
@@ -238,8 +259,7 @@ FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const 
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(part.triangle, part.vertices());
     Cholesky cholesky(matrix);
-    progress.checkpoint(0.03, "first guess");
-    InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky);
+    InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky, progress.part(0.03, 0.1));
     result.report.start = guess.method;
 
     const Friction friction{options.friction, plane,
@@ -253,8 +273,9 @@ FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const 
     result.face = face_fields(part, element, result.blank, MembraneLaw(options.material, curve), options.thickness);
     result.node = node_fields(part, element, result.face);
     result.necking_triangles = result.face.necking.sum();
-    result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
     result.volume_error = volume_error(part, result, options.thickness);
+    result.blank.position.colwise() += plane.transpose() * centre;
+    result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string_view>
 
 #include "engine/core/progress.h"
 #include "engine/forming/blank.h"
@@ -20,19 +21,31 @@ struct FlattenOptions {
     int most_energy_steps = 200;
     int most_newton_steps = 60;
     double tolerance = 1e-9; ///< on |R| relative to the nodal forces at the yield stress
+    StepWatch watch = {};    ///< sees the blank while it converges
 };
+
+/// Which equations the blank fulfils.
+enum class SolvedSystem {
+    strict,    ///< virtual work with the material as given
+    continued, ///< virtual work, the hardening curve continued from the uniform strain on
+    relaxed,   ///< likewise, relaxed at some vertices: see VirtualWork::relax()
+    energy     ///< none: the least energy with the thickness held, or virtual work relaxed everywhere
+};
+std::string_view name(SolvedSystem system);
 
 /// How the solution came about.
 struct SolveReport {
-    bool converged = false;    ///< the virtual-work system holds to the tolerance
+    bool converged = false; ///< `system` holds to the tolerance, and is not SolvedSystem::energy
+    SolvedSystem system = SolvedSystem::energy;
     double trusted_strain = 0; ///< the hardening curve is continued beyond it: the option's, or the uniform strain
     int relaxed_vertices = 0;  ///< whose equations were relaxed, see VirtualWork::relax()
     std::string reason;        ///< why the iteration ended, in words
     StartMethod start;
-    std::vector<NewtonStep> energy;                      ///< steps of the energy stage (all its passes in a row)
-    std::vector<NewtonStep> newton;                      ///< steps of the virtual-work stage
-    double residual = 0;                                 ///< |R| relative to the nodal forces at the yield stress
-    Eigen::Vector3d resultant = Eigen::Vector3d::Zero(); ///< multipliers of the rigid motion: N, N, N mm
+    std::vector<NewtonStep> energy; ///< steps of the energy stage (all its passes in a row)
+    std::vector<NewtonStep> newton; ///< steps of the virtual-work stage
+    double residual = 0;            ///< |R| relative to the nodal forces at the yield stress
+    Eigen::Vector3d resultant =
+        Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; friction would take it
     double seconds = 0;
 };
 

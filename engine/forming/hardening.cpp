@@ -43,9 +43,7 @@ FlowStress evaluate(const HardeningTable& table, double strain)
         work += 0.5 * (y[i] + y[i + 1]) * (x[i + 1] - x[i]);
     const double stress = y[piece] + slope(piece) * (strain - x[piece]);
     work += piece == 0 ? 0.5 * (at_zero + stress) * strain : 0.5 * (y[piece] + stress) * (strain - x[piece]);
-    if (piece > 0)
-        return {stress, slope(piece), work};
-    return {stress, slope(0), work};
+    return {stress, slope(piece), work};
 }
 
 } // namespace

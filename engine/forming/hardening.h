@@ -7,15 +7,19 @@ namespace spia {
 /// Hardening laws: flow stress in MPa over the equivalent logarithmic strain (the total one: theory of one-step forming).
 struct Swift {
     double K_MPa, e0, n; ///< K (e0 + eps)^n
+    friend bool operator==(const Swift&, const Swift&) = default;
 };
 struct Hollomon {
     double K_MPa, n; ///< K eps^n
+    friend bool operator==(const Hollomon&, const Hollomon&) = default;
 };
 struct Voce {
     double sigma0_MPa, sigma_sat_MPa, c; ///< sigma_sat - (sigma_sat - sigma0) exp(-c eps)
+    friend bool operator==(const Voce&, const Voce&) = default;
 };
 struct HardeningTable {
     std::vector<double> strain, stress_MPa; ///< strictly increasing strain from >= 0; linear between the points
+    friend bool operator==(const HardeningTable&, const HardeningTable&) = default;
 };
 using Hardening = std::variant<Swift, Hollomon, Voce, HardeningTable>;
 

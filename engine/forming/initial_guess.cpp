@@ -154,18 +154,21 @@ void scale_to_part(const TriMesh& part, const std::vector<Element>& element, Eig
 } // namespace
 
 InitialGuess initial_guess(const TriMesh& part, const std::vector<Element>& element, const StampingDirection& stamping,
-                           BlockMatrix& matrix, Cholesky& cholesky)
+                           BlockMatrix& matrix, Cholesky& cholesky, const Progress& progress)
 {
+    progress.checkpoint(0, "first guess: looking along the stamping direction");
     const Eigen::Matrix2Xd seen = projection(part, stamping.direction);
     if (stamping.height_field && stamping.steepest_angle < steepest_projected &&
         flipped_triangles(part.triangle, seen) == 0)
         return {seen, StartMethod::projection};
+    progress.checkpoint(0.1, "first guess: conformal map");
     if (auto X = conformal(part, element, seen, matrix, cholesky)) {
         if (X->allFinite() && flipped_triangles(part.triangle, *X) == 0) {
             scale_to_part(part, element, *X);
             return {std::move(*X), StartMethod::conformal};
         }
     }
+    progress.checkpoint(0.5, "first guess: harmonic map");
     Eigen::Matrix2Xd X = harmonic(part);
     const int flipped = flipped_triangles(part.triangle, X);
     if (!X.allFinite() || flipped > 0)

@@ -88,6 +88,13 @@ HardeningTable read_table(const Reader& in)
         if (!(table.stress_MPa[i] > 0) || (i > 0 && table.stress_MPa[i] < table.stress_MPa[i - 1]))
             in.fail("stress_MPa", fmt::format("must be positive and never fall; entry {} does not", i));
     }
+    // Below its first point the table keeps its first slope; Hooke's line has to meet it.
+    const double at_zero = flow_stress(table, 0).stress;
+    if (!(at_zero > 0))
+        in.fail("strain",
+                fmt::format("begins at {}, and its first slope leads to {:.4g} MPa at strain 0; add the yield "
+                            "stress at strain 0 as first point",
+                            table.strain[0], at_zero));
     return table;
 }
 

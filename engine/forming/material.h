@@ -19,6 +19,7 @@ struct Material {
 
     /// Mean normal anisotropy (r0 + 2 r45 + r90) / 4, the r of the plane-stress law that the solver uses.
     double normal_anisotropy() const { return (r0 + 2 * r45 + r90) / 4; }
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// Reads a material file (JSON, the form is documented in assets/materials/README.md).

@@ -10,6 +10,7 @@ struct Lu::State {
     const BlockMatrix matrix; // UMFPACK needs it again for iterative refinement
     double control[UMFPACK_CONTROL];
     void* numeric = nullptr;
+    bool singular = false;
     ~State() { umfpack_di_free_numeric(&numeric); }
 };
 
@@ -28,13 +29,14 @@ Lu::Lu(const BlockMatrix& matrix) : state_(new State{matrix, {}, nullptr})
     if (status == UMFPACK_OK)
         status = umfpack_di_numeric(start, row, value, symbolic, &s.numeric, s.control, nullptr);
     umfpack_di_free_symbolic(&symbolic);
-    if (status == UMFPACK_WARNING_singular_matrix)
-        throw SolveError("the tangent matrix is singular");
-    if (status != UMFPACK_OK)
+    s.singular = status == UMFPACK_WARNING_singular_matrix;
+    if (status != UMFPACK_OK && !s.singular)
         throw SolveError("the unsymmetric factorisation failed; there may not be enough memory for this mesh");
 }
 
 Lu::~Lu() = default;
+
+bool Lu::singular() const { return state_->singular; }
 
 Eigen::VectorXd Lu::solve(const Eigen::VectorXd& right) const
 {

@@ -8,9 +8,11 @@ namespace spia {
 /// Sparse LU factor of an unsymmetric matrix (UMFPACK, symmetric strategy).
 class Lu {
 public:
-    /// @throws SolveError if the matrix is singular to rounding
+    /// @throws SolveError if there is not enough memory
     explicit Lu(const BlockMatrix& matrix);
     ~Lu();
+    /// The matrix has no inverse, up to rounding: do not solve.
+    bool singular() const;
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
 private:

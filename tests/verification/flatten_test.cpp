@@ -143,11 +143,23 @@ TEST(Flatten, RigidMotionScaleMirrorAndPermutationChangeNothing)
     const FlattenOptions options = mild_steel();
     const FlattenResult reference = flatten(part, options);
     ASSERT_TRUE(reference.report.converged);
+    EXPECT_EQ(reference.report.system, SolvedSystem::strict);
+    EXPECT_GT(reference.volume_error, 0); // rounding
+    EXPECT_LT(reference.volume_error, 1e-12);
     constexpr double close = 1e-6; // mm: the solver's tolerance, not rounding
 
     const FlattenResult moved =
         flatten(shapes::transformed(part, shapes::random_rotation(5), Eigen::Vector3d(1000, 2, -300)), options);
     EXPECT_LT(distance(moved.blank.position, reference.blank.position), close);
+
+    const FlattenResult far = // its own coordinates have 9 digits behind the point
+        flatten(shapes::transformed(part, Eigen::Matrix3d::Identity(), Eigen::Vector3d(1e7, -1e7, 1e7)), options);
+    EXPECT_TRUE(far.report.reason == "converged") << far.report.reason;
+    EXPECT_LT((far.face.thinning - reference.face.thinning).cwiseAbs().maxCoeff(), 1e-7);
+    const auto middle = [](const FlattenResult& flat) -> Eigen::Vector2d {
+        return flat.blank.position.rowwise().mean();
+    };
+    EXPECT_LT((middle(far) - middle(reference) - Eigen::Vector2d(1e7, -1e7)).norm(), 1e-4); // still under the part
 
     FlattenOptions thick = options;
     thick.thickness *= 25.4;
@@ -192,6 +204,23 @@ TEST(Flatten, RefusesWhatCannotBeUnfolded)
     tetrahedron.position = Eigen::Matrix<double, 3, 4>{{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     tetrahedron.triangle = Eigen::Matrix<int, 3, 4>{{0, 0, 0, 1}, {2, 1, 3, 2}, {1, 3, 2, 3}};
     EXPECT_THROW(flatten(tetrahedron, mild_steel()), InputError);
+}
+
+TEST(Flatten, ShowsTheBlankWhileItConverges)
+{
+    const TriMesh part = shapes::square_cup({.triangles = 2000});
+    FlattenOptions options = mild_steel();
+    std::vector<double> seen;
+    Eigen::Matrix2Xd last;
+    options.watch = [&](const Eigen::Matrix2Xd& blank, const NewtonStep& step) {
+        EXPECT_EQ(flipped_triangles(part.triangle, blank), 0);
+        seen.push_back(step.residual);
+        last = blank;
+    };
+    const FlattenResult result = flatten(part, options);
+    ASSERT_EQ(seen.size(), result.report.energy.size() + result.report.newton.size());
+    EXPECT_EQ(seen.back(), result.report.residual);
+    EXPECT_LT(distance(last, result.blank.position), 1e-9);
 }
 
 TEST(Flatten, CancellingStopsAtTheNextStep)

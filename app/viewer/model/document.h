@@ -45,7 +45,8 @@ struct FieldDisplay {
 
 /// What the user made: everything that undo brings back and a project file keeps. A copy is cheap, results are shared.
 struct Document {
-    Session session;
+    Session session;                     ///< its options are what is wanted; results may be older, see first_stale()
+    SessionOptions made_with;            ///< the options that the results of the session were made with
     std::string material = "mild_steel"; ///< a built-in grade, or the path of a material file
     std::vector<int> selected;           ///< faces of the part, ascending
     std::vector<FaceRegion> regions;

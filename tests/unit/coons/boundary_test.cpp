@@ -112,4 +112,32 @@ TEST(SplitBoundary, CornersThatCannotBeAreRefusedWithAdvice)
     EXPECT_NE(message({0, 3, 1000, 8}).find("vertex 1000"), std::string::npos);
 }
 
+TEST(Boundary, PlacesOnASideGoByLength)
+{
+    Eigen::Matrix2Xd plane(2, 4);
+    plane << 0, 1, 1, 1, 0, 0, 3, 7; // edges of 1, 3 and 4
+    const std::vector<int> side = {0, 1, 2, 3};
+    const Eigen::VectorXd chord = chord_parameters(side, plane);
+    EXPECT_LT((chord - Eigen::Vector4d(0, 0.125, 0.5, 1)).norm(), 1e-15);
+    const SidePoint point = point_on_side(side, chord, 0.3125);
+    EXPECT_EQ(point.a, 1);
+    EXPECT_EQ(point.b, 2);
+    EXPECT_DOUBLE_EQ(point.weight, 0.5);
+}
+
+TEST(Boundary, MessagesCallVerticesByTheirNumberInTheFile)
+{
+    const TriMesh part = shapes::rectangle(4, 4, 2, 2);
+    std::vector<int> number(size_t(part.vertices()));
+    for (size_t v = 0; v < number.size(); ++v)
+        number[v] = int(v) + 100;
+    const Blank blank{part.position.topRows<2>()};
+    try {
+        split_boundary(blank, part, {0, 2, 4, 8}, number); // 4 is in the middle
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("vertex 104 "), std::string::npos) << error.what();
+    }
+}
+
 } // namespace spia

@@ -1,4 +1,4 @@
-#include "engine/forming/virtual_work.h"
+#include "engine/forming/equilibrium.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -97,6 +97,60 @@ TEST(Equilibrium, TheAxesDoNotChangeTheForces)
         const double cosine = a.segment<2>(2 * v).normalized().dot(b.segment<2>(2 * v).normalized());
         EXPECT_GT(cosine, 0.9) << v;
     }
+}
+
+TEST(Equilibrium, AFoldedSheetFeelsWhatAFlatOneFeels)
+{
+    const TriMesh flat = shapes::rectangle(30, 20, 6, 5);
+    TriMesh folded = flat; // by 70 degrees along the line x = 15
+    for (int v = 0; v < flat.vertices(); ++v)
+        if (const double beyond = flat.position(0, v) - 15; beyond > 1e-9)
+            folded.position.col(v) << 15 + beyond * std::cos(1.2), flat.position(1, v), beyond * std::sin(1.2);
+    const MembraneLaw law(mild_steel());
+    const Friction none;
+    const Eigen::Matrix2Xd X = strained(flat);
+    Eigen::VectorXd R[2];
+    int k = 0;
+    for (const TriMesh* part : {&flat, &std::as_const(folded)}) {
+        const std::vector<Element> element = elements(*part);
+        VirtualWork work(*part, element, law, 0.8, none);
+        work.set_axes(X);
+        R[k++] = work.residual(X);
+    }
+    EXPECT_LT((R[0] - R[1]).norm(), 1e-10 * R[0].norm());
+}
+
+TEST(Equilibrium, TheResultantIsTheSumOfTheForcesThatAreLeft)
+{
+    const TriMesh part = wavy();
+    const MembraneLaw law(mild_steel());
+    const std::vector<Element> element = elements(part);
+    Friction friction; // on one half only: it has to be held
+    friction.traction = Eigen::VectorXd::Zero(part.triangles());
+    friction.traction.head(part.triangles() / 2).setConstant(0.3);
+    friction.plane << 1, 0, 0, 1, 0, 0;
+    VirtualWork work(part, element, law, 0.8, friction);
+    BlockMatrix matrix(part.triangle, part.vertices());
+    Cholesky cholesky(matrix);
+    const Eigen::Matrix2Xd start = part.position.topRows<2>();
+    const EquilibriumResult result = solve_equilibrium(part, element, work, start, matrix, cholesky, {}, {});
+    ASSERT_EQ(result.ended, Ended::converged);
+    const Eigen::VectorXd R = work.residual(result.position);
+    double mass = 0;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+    for (int f = 0; f < part.triangles(); ++f) {
+        mass += element[size_t(f)].area;
+        for (int a = 0; a < 3; ++a)
+            centre += element[size_t(f)].area / 3 * start.col(part.triangle(a, f));
+    }
+    centre /= mass;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int v = 0; v < part.vertices(); ++v) {
+        const Eigen::Vector2d f = R.segment<2>(2 * v), arm = start.col(v) - centre;
+        sum -= Eigen::Vector3d(f[0], f[1], arm[0] * f[1] - arm[1] * f[0]);
+    }
+    EXPECT_GT(sum.norm(), 1);
+    EXPECT_LT((result.resultant - sum).norm(), 1e-6 * sum.norm());
 }
 
 TEST(Equilibrium, VerticesAgreeWhereTheStrainIsUniform)

@@ -407,6 +407,7 @@ TEST(MaterialLibrary, AMalformedTableIsRefusedByFileAndKey)
         {Json::array(), Json::array(), "strain"},       // none
         {{0, "0.1", 0.3}, {200, 300, 380}, "strain"},   // a text
         {0.1, {200, 300, 380}, "strain"},               // no list
+        {{0.2, 0.3, 0.5}, {200, 320, 380}, "strain"},   // its first slope says -40 MPa at strain 0
         {{0, 0.1, 0.3}, {200, 380, 300}, "stress_MPa"}, // softens
         {{0, 0.1, 0.3}, {0, 300, 380}, "stress_MPa"},   // no strength
         {{0, 0.1, 0.3}, {200, nullptr, 380}, "stress_MPa"},

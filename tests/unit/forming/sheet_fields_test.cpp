@@ -40,6 +40,23 @@ TEST(SheetFields, OfAUniformStretchAreThoseOfAPaperCalculation)
     }
 }
 
+TEST(SheetFields, AFaceIsMarkedFromTheTrustedStrainOn)
+{
+    const TriMesh part = shapes::rectangle(4, 1, 1, 1);
+    const std::vector<Element> element = elements(part);
+    StressCurve::Options curve;
+    curve.trusted_strain = 0.2;
+    const MembraneLaw law({"m", 206000, 0.3, 7850, Swift{565, 0.007, 0.26}, 1, 1, 1, ""}, curve);
+    for (const double strain : {0.19, 0.21}) { // uniaxial: the minor strain is -r / (1 + r) times the major one
+        Eigen::Matrix2Xd X = part.position.topRows<2>();
+        X.row(0) *= std::exp(-strain);
+        X.row(1) *= std::exp(strain / 2);
+        const SheetFields face = face_fields(part, element, {X}, law, 1);
+        EXPECT_NEAR(face.strain_equivalent[0], strain, 1e-12);
+        EXPECT_EQ(face.necking.sum(), strain > 0.2 ? 2 : 0);
+    }
+}
+
 TEST(SheetFields, NodesTakeTheMeanByArea)
 {
     const TriMesh part = shapes::rectangle(4, 1, 1, 1); // two triangles

@@ -52,6 +52,9 @@ TEST(LargestStep, IsTheStepAtWhichTheTriangleCollapses)
     EXPECT_DOUBLE_EQ(largest_step(triangle, X, direction), 4);
     direction(1, 2) = 1;
     EXPECT_EQ(largest_step(triangle, X, direction), std::numeric_limits<double>::infinity());
+    // First the area grows: 1 + t - t^2 of it is left.
+    direction << 0, 1, 1, 0, 1, 0;
+    EXPECT_NEAR(largest_step(triangle, X, direction), (1 + std::sqrt(5)) / 2, 1e-14);
     EXPECT_EQ(flipped_triangles(triangle, X), 0);
     X(1, 2) = -1;
     EXPECT_EQ(flipped_triangles(triangle, X), 1);
