@@ -32,8 +32,8 @@ SessionOptions options(const RunArguments& arguments)
         result.corners = {arguments.corners[0], arguments.corners[1], arguments.corners[2], arguments.corners[3]};
     if (!arguments.grid.empty()) {
         int n = 0, m = 0, read = 0;
-        if (std::sscanf(arguments.grid.c_str(), "%dx%d%n", &n, &m, &read) != 2 || read != int(arguments.grid.size()) ||
-            n < 1 || m < 1 || n > 2000 || m > 2000)
+        if (std::sscanf(arguments.grid.c_str(), "%4dx%4d%n", &n, &m, &read) != 2 ||
+            read != int(arguments.grid.size()) || n < 1 || m < 1 || n > 2000 || m > 2000)
             throw InputError(
                 fmt::format("--grid {}: give two numbers of cells from 1 to 2000 as in --grid 60x40", arguments.grid));
         result.grid.columns = n;
@@ -61,18 +61,14 @@ void print_summary(const Session& session)
     const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
-    fmt::print("part      {} triangles, {} boundary loops, {:.0f} mm2\n", part.triangles(), boundary_loops(part).size(),
+    fmt::print("part      {} triangles, {} boundary loops, {:.6g} mm2\n", part.triangles(), boundary_loops(part).size(),
                area(part));
-    fmt::print("blank     {:.2f} x {:.2f} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
+    fmt::print("blank     {:.6g} x {:.6g} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
                flat.report.energy.size(), flat.report.newton.size(),
                flat.report.converged ? "converged" : "NOT converged");
     fmt::print("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
                100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
                flat.face.strain_equivalent.maxCoeff());
-    if (flat.necking_triangles > 0)
-        fmt::print(
-            "          {} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear there\n",
-            flat.necking_triangles, flat.report.trusted_strain);
     if (!session.grid)
         return;
     const GridResult& grid = session.grid->result;
@@ -109,8 +105,11 @@ int run(const RunArguments& arguments)
             break;
         }
         display.done(session.seconds.at(stage));
-        if (stage == Stage::read)
+        if (stage == Stage::read) {
             print_doctor(*session.part);
+            require_possible(session);
+            require_place(session, arguments.folder, arguments.formats, arguments.json);
+        }
     }
     const auto clock = std::chrono::steady_clock::now();
     JobDisplay display{"write"};

@@ -95,9 +95,8 @@ private:
     int descriptor_ = -1;
 };
 
-} // namespace
-
-void write_atomically(const fs::path& path, std::string_view content)
+/// The file that a path stands for: links are followed.
+fs::path target_of(const fs::path& path)
 {
     std::error_code ignored;
     const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
@@ -106,7 +105,16 @@ void write_atomically(const fs::path& path, std::string_view content)
     if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) // a rename would replace the device
         throw ExchangeError(
             fmt::format("cannot write {}: it is not a regular file; choose another name", path.string()));
-    TemporaryFile file(target);
+    return target;
+}
+
+} // namespace
+
+void require_writable(const fs::path& path) { TemporaryFile{target_of(path)}; }
+
+void write_atomically(const fs::path& path, std::string_view content)
+{
+    TemporaryFile file(target_of(path));
     file.write(content);
     file.take_target_name();
 }

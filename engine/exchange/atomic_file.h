@@ -10,4 +10,8 @@ namespace spia {
 ///         nothing of the attempt is left behind
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Whether a file could be written there, found out before the work that fills it. Leaves nothing behind.
+/// @throws ExchangeError as write_atomically()
+void require_writable(const std::filesystem::path& path);
+
 } // namespace spia

@@ -11,6 +11,7 @@
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepShape_AdvancedFace.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shell.hxx>
@@ -126,6 +127,14 @@ std::string step_text(std::span<const NurbsSurface> surfaces, const std::string&
         throw ExchangeError("OpenCASCADE could not translate the surface to STEP");
     const Handle(StepData_StepModel) model = translator.Model();
     fill_header(model, file_name, part_name);
+    int faces = 0; // what is as small as the resolution is left out without a word
+    for (int i = 1; i <= model->NbEntities(); ++i)
+        faces += model->Value(i)->IsKind(STANDARD_TYPE(StepShape_AdvancedFace));
+    if (faces != int(surfaces.size()))
+        throw ExchangeError(
+            fmt::format("OpenCASCADE put {} of {} surfaces into the STEP file; they may be smaller than its "
+                        "resolution of {} mm: check the length unit of the part (--unit)",
+                        faces, surfaces.size(), resolution));
 
     StepData_StepWriter writer(model);
     writer.FloatWriter().SetFormat("%.16E", true); // the default has 12 digits

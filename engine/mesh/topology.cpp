@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <fmt/core.h>
+#include <utility>
 
 #include "engine/core/error.h"
+#include "engine/mesh/edge_uses.h"
 
 namespace spia {
 
@@ -30,23 +32,36 @@ HalfedgeMesh halfedges(const TriMesh& mesh)
 
 std::vector<std::vector<int>> boundary_loops(const TriMesh& mesh)
 {
-    // A boundary edge is a directed edge of a face without its opposite; next[v] is the head of the one that leaves v.
-    const HalfedgeMesh he = halfedges(mesh);
-    std::vector<char> seen(he.n_halfedges(), 0);
+    const auto refuse = [&](int f) {
+        const auto t = mesh.triangle.col(f);
+        throw InputError(fmt::format(
+            "face {} (vertices {}, {}, {}) shares an edge with two others, is turned against its neighbours or touches "
+            "them in a vertex only; run the mesh doctor (`spia info`) and mend the mesh there",
+            f, t[0], t[1], t[2]));
+    };
+    // A boundary edge is an edge of one face; the face runs along it with itself on the left.
+    std::vector<int> next(size_t(mesh.vertices()), -1);
+    const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        const EdgeUse& use = uses[begin];
+        if (end - begin > 2 || (end - begin == 2 && use.forward == uses[begin + 1].forward))
+            refuse(uses[end - 1].face);
+        if (end - begin == 2)
+            return;
+        const int from = use.forward ? use.low : use.high, to = use.forward ? use.high : use.low;
+        if (next[size_t(from)] >= 0)
+            refuse(use.face);
+        next[size_t(from)] = to;
+    });
     std::vector<std::vector<int>> loops;
-    for (const auto start : he.halfedges()) {
-        if (!start.is_boundary() || seen[size_t(start.idx())])
-            continue;
+    for (int start = 0; start < mesh.vertices(); ++start) {
         std::vector<int> loop;
-        for (auto h = start;; h = h.next()) {
-            if (seen[size_t(h.idx())])
-                break;
-            seen[size_t(h.idx())] = 1;
-            loop.push_back(h.to().idx());
+        for (int v = start; next[size_t(v)] >= 0;) { // each vertex is left once, so the way leads back to the start
+            loop.push_back(v);
+            v = std::exchange(next[size_t(v)], -1);
         }
-        std::reverse(loop.begin(), loop.end()); // the boundary halfedges run with the mesh on their right
-        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-        loops.push_back(std::move(loop));
+        if (!loop.empty())
+            loops.push_back(std::move(loop));
     }
     const auto length = [&](const std::vector<int>& loop) {
         double sum = 0;

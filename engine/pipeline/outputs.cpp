@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/blank_outline.h"
 #include "engine/exchange/picture.h"
 #include "engine/exchange/sheet_field_list.h"
@@ -16,7 +17,25 @@
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
 
+namespace fs = std::filesystem;
+
 namespace spia {
+namespace {
+
+bool needs_surface(const std::string& format) { return format == "iges" || format == "step"; }
+
+/// @throws InputError if the format is unknown
+std::vector<std::string> file_names(const std::string& format, const Session& session)
+{
+    if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
+        throw InputError(
+            fmt::format("the format \"{}\" is not known; known are {}", format, fmt::join(output_formats(), ", ")));
+    if (format == "csv")
+        return {"fields.csv", "outline.csv"};
+    return {session.file.stem().string() + "." + format};
+}
+
+} // namespace
 
 const std::vector<std::string>& output_formats()
 {
@@ -24,19 +43,42 @@ const std::vector<std::string>& output_formats()
     return formats;
 }
 
-std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
-                                                 const std::vector<std::string>& formats, const Progress& progress)
+void require_place(const Session& session, const fs::path& folder, const std::vector<std::string>& formats,
+                   const fs::path& other)
+{
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed || !fs::is_directory(folder))
+        throw ExchangeError(fmt::format("cannot make the folder {}: {}; choose another one", folder.string(),
+                                        failed ? failed.message() : "there is a file of that name"));
+    const auto same = [](const fs::path& a, const fs::path& b) {
+        std::error_code ignored;
+        return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
+    };
+    std::vector<fs::path> files;
+    for (const std::string& format : formats)
+        for (const std::string& file : file_names(format, session))
+            files.push_back(folder / file);
+    if (!other.empty()) {
+        for (const fs::path& file : files)
+            if (same(file, other))
+                throw ExchangeError(fmt::format("{} is wanted for two files; choose another name", other.string()));
+        files.push_back(other);
+    }
+    for (const fs::path& file : files) {
+        if (same(file, session.file))
+            throw ExchangeError(fmt::format(
+                "{} is the part itself and would be overwritten; choose another folder or name", file.string()));
+        require_writable(file);
+    }
+}
+
+std::vector<fs::path> write_outputs(const Session& session, const fs::path& folder,
+                                    const std::vector<std::string>& formats, const Progress& progress)
 {
     if (!session.blank)
         throw InputError("there is nothing to write yet: solve the part first");
-    for (const std::string& format : formats)
-        if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
-            throw InputError(
-                fmt::format("the format \"{}\" is not known; known are {}", format, fmt::join(output_formats(), ", ")));
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-        throw ExchangeError(fmt::format("cannot make the folder {}: {}", folder.string(), failed.message()));
+    require_place(session, folder, formats);
 
     const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
@@ -58,21 +100,22 @@ std::vector<std::filesystem::path> write_outputs(const Session& session, const s
         scene.control_net = surface;
     }
 
-    std::vector<std::filesystem::path> files;
-    const auto file = [&](const std::string& file_name) -> const std::filesystem::path& {
-        return files.emplace_back(folder / file_name);
-    };
+    std::vector<fs::path> files;
     for (size_t i = 0; i < formats.size(); ++i) {
         const std::string& format = formats[i];
+        if (!surface && needs_surface(format))
+            continue;
         progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
-        if (format == "iges") {
-            if (surface)
-                write_iges(file(name + ".iges"), *surface, name);
-        } else if (format == "step") {
-            if (surface)
-                write_step(file(name + ".step"), *surface, name);
-        } else if (format == "glb")
-            write_gltf(file(name + ".glb"), scene);
+        const size_t first = files.size();
+        for (const std::string& file : file_names(format, session))
+            files.push_back(folder / file);
+        const fs::path& path = files[first];
+        if (format == "iges")
+            write_iges(path, *surface, name);
+        else if (format == "step")
+            write_step(path, *surface, name);
+        else if (format == "glb")
+            write_gltf(path, scene);
         else if (format == "vtu") {
             Eigen::VectorXd deviation;
             std::vector<NamedField> extra;
@@ -80,14 +123,14 @@ std::vector<std::filesystem::path> write_outputs(const Session& session, const s
                 deviation = session.surface->deviation.at_vertex.head(part.vertices());
                 extra.push_back({"deviation", &deviation});
             }
-            write_vtu(file(name + ".vtu"), part, flat.blank, flat.face, flat.node, extra);
+            write_vtu(path, part, flat.blank, flat.face, flat.node, extra);
         } else if (format == "dxf")
-            write_dxf(file(name + ".dxf"), blank_outline(part, flat.blank));
+            write_dxf(path, blank_outline(part, flat.blank));
         else if (format == "csv") {
-            write_fields_csv(file("fields.csv"), part, flat.blank, flat.node, session.part->source_vertex);
-            write_outline_csv(file("outline.csv"), blank_outline(part, flat.blank));
-        } else if (format == "png")
-            write_picture(file(name + ".png"), scene);
+            write_fields_csv(path, part, flat.blank, flat.node, session.part->source_vertex);
+            write_outline_csv(files[first + 1], blank_outline(part, flat.blank));
+        } else
+            write_picture(path, scene);
     }
     return files;
 }

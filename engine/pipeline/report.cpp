@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/mesh/distortion.h"
+#include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 
@@ -81,6 +82,7 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping)
 {
     return {{"converged", report.converged},
             {"reason", report.reason},
+            {"system", name(report.system)},
             {"energy_iterations", report.energy.size()},
             {"newton_iterations", report.newton.size()},
             {"residual", report.residual},
@@ -101,7 +103,7 @@ Json blank_json(const TriMesh& part, const FlattenResult& flat)
     const auto loops = boundary_loops(part);
     const Eigen::Vector2d low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff();
     return {{"area_mm2", flat_area(part, X)},
-            {"perimeter_mm", length(loops[size_t(0)], X)},
+            {"perimeter_mm", length(loops[size_t(outer_loop(loops, X))], X)},
             {"bounding_box_mm", {low[0], low[1], high[0], high[1]}},
             {"flipped_triangles", flat.flipped_triangles},
             {"outline_self_intersections", crossings(loops, X)}};
@@ -158,8 +160,13 @@ std::vector<std::string> shortcomings(const Session& session)
     std::vector<std::string> list;
     if (session.blank) {
         const FlattenResult& flat = *session.blank;
-        if (flat.report.reason != "converged")
+        if (flat.report.system != SolvedSystem::strict)
             list.push_back(flat.report.reason);
+        if (flat.necking_triangles > 0)
+            list.push_back(
+                fmt::format("{} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear "
+                            "there",
+                            flat.necking_triangles, flat.report.trusted_strain));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
         if (const int n = crossings(boundary_loops(session.part->mesh), flat.blank.position))

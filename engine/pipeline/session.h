@@ -54,6 +54,10 @@ struct Session {
     std::map<Stage, double> seconds; ///< of each stage that has run
 };
 
+/// Finds out what would end a later stage, as soon as the part is read.
+/// @throws InputError if there is no part, or a corner that was asked for is no vertex of its boundary
+void require_possible(const Session& session);
+
 /// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are dropped.
 /// @throws InputError  if an earlier stage has not run; else what the stage throws
 Session run_stage(Stage stage, Session session, const Progress& progress = {});

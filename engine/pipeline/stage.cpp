@@ -4,6 +4,7 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/mesh/topology.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {
@@ -41,8 +42,10 @@ void grid(Session& session, const Progress& progress)
     const Blank& blank = session.blank->blank;
     const auto corners = session.options.corners ? corners_in_mesh(*session.part, *session.options.corners)
                                                  : propose_corners(blank, part);
-    BlankBoundary boundary = split_boundary(blank, part, corners);
-    GridResult result = coons_grid(part, blank, boundary, session.options.grid, progress);
+    BlankBoundary boundary = split_boundary(blank, part, corners, session.part->source_vertex);
+    GridOptions options = session.options.grid;
+    options.file_number = session.part->source_vertex;
+    GridResult result = coons_grid(part, blank, boundary, options, progress);
     session.grid = std::make_shared<GridStage>(GridStage{std::move(boundary), std::move(result)});
 }
 
@@ -81,6 +84,25 @@ std::string_view name(Stage stage)
     case Stage::fit: return "fit";
     }
     return "";
+}
+
+void require_possible(const Session& session)
+{
+    require(session.part != nullptr, "read a part");
+    if (!session.options.corners)
+        return;
+    const auto loops = boundary_loops(session.part->mesh);
+    const auto corners = corners_in_mesh(*session.part, *session.options.corners);
+    for (size_t k = 0; k < 4; ++k) {
+        if (std::none_of(loops.begin(), loops.end(), [&](const auto& loop) {
+                return std::find(loop.begin(), loop.end(), corners[k]) != loop.end();
+            }))
+            throw InputError(fmt::format("corner vertex {} is not on the boundary of the part; pick boundary vertices",
+                                         (*session.options.corners)[k]));
+        if (std::count(corners.begin(), corners.end(), corners[k]) > 1)
+            throw InputError(fmt::format("vertex {} is given as a corner twice; four different ones are needed",
+                                         (*session.options.corners)[k]));
+    }
 }
 
 Session run_stage(Stage stage, Session session, const Progress& progress)

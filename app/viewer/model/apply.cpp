@@ -1,0 +1,345 @@
+#include <algorithm>
+#include <fmt/core.h>
+#include <numeric>
+
+#include "app/viewer/model/viewer_model.h"
+#include "engine/core/error.h"
+#include "engine/forming/material_library.h"
+#include "engine/pipeline/outputs.h"
+
+namespace spia::viewer {
+
+/// One call per kind of action. What throws is told to the user by apply().
+struct ViewerModel::Apply {
+    ViewerModel& model;
+    ViewerState& state = model.state_;
+    Document& document = state.document;
+    Session& session = document.session;
+
+    /// Before every change that undo brings back.
+    void change(std::string name, bool merge = false)
+    {
+        state.history.remember(std::move(name), document, merge);
+        state.unsaved = true;
+    }
+    const PartFile& part() const
+    {
+        if (!session.part)
+            throw InputError("Open a part first.");
+        return *session.part;
+    }
+
+    // --- the chain
+    void operator()(const OpenPart& action)
+    {
+        if (model.chain_job_)
+            model.chain_job_.reset(); // cancels and waits for the next checkpoint
+        Document fresh;
+        fresh.display = document.display;
+        fresh.material = document.material;
+        fresh.session.options.flatten.material = session.options.flatten.material;
+        fresh.session.options.flatten.thickness = session.options.flatten.thickness;
+        fresh.session.options.interpolate = session.options.interpolate;
+        if (!action.unit.empty())
+            fresh.session.options.read.unit = length_unit(action.unit);
+        fresh.session.file = action.file;
+        if (!std::filesystem::exists(action.file))
+            throw InputError(fmt::format("There is no file {}.", action.file.string()));
+        document = std::move(fresh);
+        state.history = History{};
+        state.messages.clear();
+        state.project.clear();
+        state.unsaved = false;
+        model.next_.reset();
+        model.opening_ = true;
+        model.start(Stage::read, Stage::read, "Opening " + action.file.filename().string());
+    }
+    void operator()(const SetUnit& action)
+    {
+        part();
+        change("Change unit");
+        session.options.read.unit = length_unit(action.unit);
+        document.selected.clear();
+        document.probes.clear();
+        model.opening_ = true;
+        model.run_to(Stage::read, "Reading the part again");
+    }
+    void operator()(const RunTo& action)
+    {
+        if (!first_stale(document) || *first_stale(document) > action.stage) {
+            model.say(Severity::hint, "Everything is up to date.");
+            return;
+        }
+        part();
+        change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
+        model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
+    }
+    void operator()(const CancelJob&)
+    {
+        model.next_.reset();
+        if (model.chain_job_)
+            model.chain_job_->cancel();
+        if (model.export_job_)
+            model.export_job_->cancel();
+    }
+    void operator()(const SetMaterial& action)
+    {
+        const Material material = find_material(action.material, model.assets() / "materials");
+        change("Change material");
+        document.material = action.material;
+        session.options.flatten.material = material;
+    }
+    void operator()(const SetThickness& action)
+    {
+        if (!(action.thickness > 0 && action.thickness < 1000))
+            throw InputError("The thickness must be above 0 and below 1000 mm.");
+        change("Change thickness", true);
+        session.options.flatten.thickness = action.thickness;
+    }
+    void operator()(const SetDirection& action)
+    {
+        if (action.direction && !(action.direction->norm() > 0))
+            throw InputError("The stamping direction needs a length above 0.");
+        change("Change stamping direction");
+        session.options.flatten.direction = action.direction;
+    }
+    void operator()(const SetCorner& action)
+    {
+        if (!session.blank)
+            throw InputError("Unfold the part first; then its corners can be chosen.");
+        if (action.corner < 0 || action.corner > 3)
+            throw InputError(fmt::format("There is no corner {}; they count from 0 to 3.", action.corner));
+        if (action.vertex < 0 || action.vertex >= part().mesh.vertices())
+            throw InputError(fmt::format("The part has no vertex {}.", action.vertex));
+        std::array<int, 4> corners = corners_now();
+        const int in_file = part().source_vertex[size_t(action.vertex)];
+        for (int k = 0; k < 4; ++k)
+            if (k != action.corner && corners[size_t(k)] == in_file)
+                return; // two corners at one place: the mouse is on its way past the other one
+        change(fmt::format("Move corner {}", action.corner + 1), true);
+        if (!action.dragging)
+            state.history.close();
+        corners[size_t(action.corner)] = in_file;
+        session.options.corners = corners;
+        model.run_to(action.dragging ? Stage::grid : Stage::fit, "Making the grid");
+    }
+    void operator()(const ProposeCorners&)
+    {
+        change("Propose corners");
+        session.options.corners.reset();
+        if (session.blank)
+            model.run_to(Stage::fit, "Making the grid");
+    }
+    void operator()(const SetGrid& action)
+    {
+        const GridOptions& grid = action.grid;
+        if (grid.columns < 0 || grid.rows < 0 || grid.columns > 2000 || grid.rows > 2000 || grid.cells < 1 ||
+            grid.cells > 2000)
+            throw InputError("A grid has from 1 to 2000 cells each way (0: automatic).");
+        change("Change grid", true);
+        session.options.grid = grid;
+        if (session.blank)
+            model.run_to(Stage::fit, "Making the grid");
+    }
+    void operator()(const SetEnds& action)
+    {
+        change("Change ends of the surface");
+        session.options.interpolate.ends =
+            action.natural ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
+        if (session.lifted)
+            model.run_to(Stage::fit, "Fitting the surface");
+    }
+
+    // --- picking
+    void select(const std::vector<int>& faces, PickMode mode, const char* name)
+    {
+        std::vector<int> wanted = faces, result;
+        std::sort(wanted.begin(), wanted.end());
+        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+        if (!wanted.empty() && (wanted.front() < 0 || wanted.back() >= part().mesh.triangles()))
+            throw InputError(
+                fmt::format("The part has no face {}.", wanted.front() < 0 ? wanted.front() : wanted.back()));
+        const std::vector<int>& now = document.selected;
+        switch (mode) {
+        case PickMode::replace: result = wanted; break;
+        case PickMode::add:
+            std::set_union(now.begin(), now.end(), wanted.begin(), wanted.end(), std::back_inserter(result));
+            break;
+        case PickMode::remove:
+            std::set_difference(now.begin(), now.end(), wanted.begin(), wanted.end(), std::back_inserter(result));
+            break;
+        }
+        if (result == now)
+            return;
+        change(name, name == std::string_view("Brush faces"));
+        document.selected = std::move(result);
+    }
+    void operator()(const SelectFaces& action) { select(action.faces, action.mode, "Select faces"); }
+    void operator()(const InvertSelection&)
+    {
+        std::vector<int> all(size_t(part().mesh.triangles())), rest;
+        std::iota(all.begin(), all.end(), 0);
+        std::set_difference(all.begin(), all.end(), document.selected.begin(), document.selected.end(),
+                            std::back_inserter(rest));
+        select(rest, PickMode::replace, "Invert selection");
+    }
+    void operator()(const ClearSelection&) { select({}, PickMode::replace, "Clear selection"); }
+
+    size_t region(int number) const
+    {
+        if (number < 0 || size_t(number) >= document.regions.size())
+            throw InputError(fmt::format("There is no region {}.", number + 1));
+        return size_t(number);
+    }
+    void operator()(const MakeRegion& action)
+    {
+        constexpr size_t most = 62; // FaceMarks
+        static constexpr std::array<Colour, 6> colours = {Colour{0.96f, 0.76f, 0.18f, 1}, {0.30f, 0.69f, 0.36f, 1},
+                                                          {0.35f, 0.60f, 0.92f, 1},       {0.86f, 0.42f, 0.64f, 1},
+                                                          {0.55f, 0.47f, 0.85f, 1},       {0.30f, 0.72f, 0.74f, 1}};
+        if (document.selected.empty())
+            throw InputError("Select faces first; a region is made of them.");
+        if (document.regions.size() >= most)
+            throw InputError(fmt::format("There are {} regions already; remove one first.", most));
+        change("Make region");
+        FaceRegion made;
+        made.kind = action.kind;
+        made.name =
+            action.name.empty() ? fmt::format("{} {}", name(action.kind), document.regions.size() + 1) : action.name;
+        made.colour = colours[document.regions.size() % colours.size()];
+        made.faces = document.selected;
+        document.regions.push_back(std::move(made));
+    }
+    void operator()(const ChangeRegion& action)
+    {
+        const size_t number = region(action.region);
+        change("Change region", true);
+        FaceRegion& changed = document.regions[number];
+        changed.name = action.name;
+        changed.kind = action.kind;
+        if (action.colour[3] > 0)
+            changed.colour = action.colour;
+    }
+    void operator()(const RemoveRegion& action)
+    {
+        const size_t number = region(action.region);
+        change("Remove region");
+        document.regions.erase(document.regions.begin() + int(number));
+    }
+    void operator()(const SelectRegion& action)
+    {
+        select(document.regions[region(action.region)].faces, action.mode, "Select region");
+    }
+    void operator()(const AddProbe& action)
+    {
+        if (action.probe.face < 0 || action.probe.face >= part().mesh.triangles())
+            throw InputError(fmt::format("The part has no face {}.", action.probe.face));
+        change("Pin probe");
+        document.probes.push_back(action.probe);
+    }
+    void operator()(const RemoveProbe& action)
+    {
+        if (action.probe < 0 || size_t(action.probe) >= document.probes.size())
+            throw InputError(fmt::format("There is no probe {}.", action.probe + 1));
+        change("Remove probe");
+        document.probes.erase(document.probes.begin() + action.probe);
+    }
+    void operator()(const ClearProbes&)
+    {
+        change("Remove all probes");
+        document.probes.clear();
+    }
+
+    // --- looking
+    void operator()(const SetDisplay& action)
+    {
+        change("Change display", true);
+        document.display = action.display;
+    }
+    void operator()(const SetViewSettings& action)
+    {
+        state.view = action.view;
+        state.unsaved |= !session.file.empty();
+    }
+    void operator()(const FitView& action) { model.fit(action.view); }
+    void operator()(const LookFrom& action)
+    {
+        for (const View view : all_views)
+            if (view == action.view || (state.view.linked && view != View::blank && action.view != View::blank))
+                state.view.camera[size_t(view)] = look(state.view.camera[size_t(view)], action.from);
+    }
+    void operator()(const FlyTo& action)
+    {
+        const TriMesh& mesh = part().mesh;
+        if (action.face < 0 || action.face >= mesh.triangles())
+            throw InputError(fmt::format("The part has no face {}.", action.face));
+        const auto middle = [&](const auto& position) {
+            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+            for (int a = 0; a < 3; ++a)
+                sum.head(position.rows()) += position.col(mesh.triangle(a, action.face)) / 3;
+            return glm::dvec3(sum[0], sum[1], sum[2]);
+        };
+        const double size = 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
+        for (const View view : all_views) {
+            if (view == View::blank && !session.blank)
+                continue;
+            Camera& camera = state.view.camera[size_t(view)];
+            camera.target = view == View::blank ? middle(session.blank->blank.position) : middle(mesh.position);
+            camera.height = std::min(camera.height, size);
+        }
+        document.selected = {action.face};
+    }
+
+    // --- the document and files
+    void operator()(const Undo&) { go(&History::undo); }
+    void operator()(const Redo&) { go(&History::redo); }
+    void go(void (History::*way)(Document&))
+    {
+        if (model.chain_job_)
+            throw InputError("Cancel the running job first; then undo.");
+        (state.history.*way)(document);
+        state.unsaved = true;
+    }
+    void operator()(const ExportFiles& action)
+    {
+        if (model.chain_job_ || model.export_job_)
+            throw InputError("Wait for the running job to end, then export.");
+        if (!session.blank)
+            throw InputError("There is nothing to export yet: run the chain first.");
+        state.job = JobView{};
+        state.job.running = true;
+        state.job.title = "Exporting";
+        model.export_job_ = std::make_unique<Job<std::vector<std::filesystem::path>>>(
+            [session = session, action](const Progress& progress) {
+                return write_outputs(session, action.folder, action.formats, progress);
+            },
+            model.wake_);
+    }
+    void operator()(const DismissMessages&) { state.messages.clear(); }
+    void operator()(const Screenshot&) {}
+    void operator()(const WriteReport&) {}
+    void operator()(const Quit&) {}
+
+    std::array<int, 4> corners_now() const
+    {
+        if (session.options.corners)
+            return *session.options.corners;
+        if (!session.grid)
+            throw InputError("Make the grid first; then its corners can be moved.");
+        std::array<int, 4> corners{};
+        for (size_t k = 0; k < 4; ++k)
+            corners[k] = part().source_vertex[size_t(session.grid->boundary.corner[k])];
+        return corners;
+    }
+};
+
+void ViewerModel::apply(const Action& action)
+{
+    try {
+        std::visit(Apply{*this}, action);
+    } catch (const std::exception& error) {
+        say(Severity::error, error.what());
+    }
+}
+
+} // namespace spia::viewer

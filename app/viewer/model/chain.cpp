@@ -1,0 +1,108 @@
+#include "app/viewer/model/chain.h"
+
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+bool same(const ReadOptions& a, const ReadOptions& b) { return a.unit == b.unit && a.weld == b.weld; }
+
+bool same(const FlattenOptions& a, const FlattenOptions& b)
+{
+    return a.material == b.material && a.thickness == b.thickness && a.direction == b.direction &&
+           a.friction == b.friction;
+}
+
+bool same(const GridOptions& a, const GridOptions& b)
+{
+    return a.columns == b.columns && a.rows == b.rows && a.cells == b.cells && a.smoothing == b.smoothing &&
+           a.method == b.method;
+}
+
+/// Share of the whole chain's time, roughly; the solver takes most of it.
+double share(Stage stage)
+{
+    switch (stage) {
+    case Stage::read: return 0.05;
+    case Stage::solve: return 0.8;
+    case Stage::grid: return 0.06;
+    case Stage::lift: return 0.01;
+    case Stage::fit: return 0.08;
+    }
+    return 0;
+}
+
+void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
+{
+    switch (done) {
+    case Stage::read: made_with.read = options.read; break;
+    case Stage::solve: made_with.flatten = options.flatten; break;
+    case Stage::grid:
+        made_with.corners = options.corners;
+        made_with.grid = options.grid;
+        break;
+    case Stage::lift: break;
+    case Stage::fit: made_with.interpolate = options.interpolate; break;
+    }
+}
+
+} // namespace
+
+std::optional<Stage> first_stale(const Document& document)
+{
+    const Session& session = document.session;
+    const SessionOptions &wanted = session.options, &made = document.made_with;
+    if (!session.part || !same(wanted.read, made.read))
+        return Stage::read;
+    if (!session.blank || !same(wanted.flatten, made.flatten))
+        return Stage::solve;
+    if (!session.grid || wanted.corners != made.corners || !same(wanted.grid, made.grid))
+        return Stage::grid;
+    if (!session.lifted)
+        return Stage::lift;
+    if (!session.surface || wanted.interpolate.ends != made.interpolate.ends ||
+        wanted.interpolate.parameters != made.interpolate.parameters)
+        return Stage::fit;
+    return std::nullopt;
+}
+
+ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress)
+{
+    ChainResult result{std::move(session), std::move(made_with), {}, {}};
+    double whole = 0, done = 0;
+    for (const Stage stage : chain)
+        if (stage >= from && stage <= to)
+            whole += share(stage);
+    for (const Stage stage : chain) {
+        if (stage < from || stage > to)
+            continue;
+        try {
+            const double begin = done / whole;
+            done += share(stage);
+            result.session = run_stage(stage, result.session, progress.part(begin, done / whole));
+            note(stage, result.session.options, result.made_with);
+        } catch (const Cancelled&) {
+            result.cancelled = true;
+            return result;
+        } catch (const std::exception& error) {
+            result.failed = stage;
+            result.message = error.what();
+            return result;
+        }
+    }
+    return result;
+}
+
+std::string advice(Stage failed)
+{
+    switch (failed) {
+    case Stage::read: return "Choose another file, or mend the part and open it again.";
+    case Stage::solve: return "Look at the part's faces named above; a coarser or cleaner mesh often helps.";
+    case Stage::grid: return "Drag the corners to the sharp turns of the blank, or choose the harmonic method.";
+    case Stage::lift: return "Choose the automatic grid method.";
+    case Stage::fit: return "Choose a finer grid.";
+    }
+    return "";
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "app/viewer/model/document.h"
+#include "engine/core/progress.h"
+
+namespace spia::viewer {
+
+/// The first stage whose result is missing or was made with other options than are wanted now; none if all is up to date.
+/// Old results stay to be looked at until newer ones take their place.
+std::optional<Stage> first_stale(const Document& document);
+
+/// What a run of the chain left behind.
+struct ChainResult {
+    Session session;             ///< with every stage that has ended; of the others as it was
+    SessionOptions made_with;    ///< the options its results were made with
+    std::optional<Stage> failed; ///< the stage that has no result
+    std::string message;         ///< why, in words
+    bool cancelled = false;
+};
+
+/// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.
+ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress);
+
+/// What to do about a stage that failed, in one sentence.
+std::string advice(Stage failed);
+
+} // namespace spia::viewer

@@ -1,0 +1,222 @@
+#include "app/viewer/model/viewer_model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/core.h>
+#include <mutex>
+
+#include "engine/core/error.h"
+#include "engine/forming/material_library.h"
+#include "engine/mesh/topology.h"
+#include "engine/pipeline/outputs.h"
+#include "engine/pipeline/report.h"
+
+namespace spia::viewer {
+
+/// Filled on the solver's thread, emptied on the window's.
+struct ViewerModel::Live {
+    Mailbox<std::shared_ptr<const Eigen::Matrix2Xd>> blank;
+    std::mutex mutex;
+    std::vector<double> residual;
+    std::chrono::steady_clock::time_point last;
+
+    void see(const Eigen::Matrix2Xd& position, const NewtonStep& step)
+    {
+        {
+            const std::lock_guard lock(mutex);
+            residual.push_back(step.residual);
+        }
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last < std::chrono::milliseconds(50)) // nobody sees more
+            return;
+        last = now;
+        blank.post(std::make_shared<Eigen::Matrix2Xd>(position));
+    }
+};
+
+ViewerModel::ViewerModel(std::filesystem::path assets, std::function<void()> wake)
+    : assets_(std::move(assets)), wake_(std::move(wake))
+{
+    size_.fill({800, 600});
+    Document& document = state_.document;
+    document.session.options.flatten.material = find_material(document.material, assets_ / "materials");
+    state_.view.camera[size_t(View::blank)].flat = true;
+}
+
+ViewerModel::~ViewerModel() = default;
+
+void ViewerModel::say(Severity severity, std::string text)
+{
+    constexpr size_t most = 50;
+    const auto same = [&](const Message& message) { return message.severity == severity && message.text == text; };
+    std::erase_if(state_.messages, same); // said again, it is the newest once more
+    state_.messages.push_back({severity, std::move(text)});
+    if (state_.messages.size() > most)
+        state_.messages.erase(state_.messages.begin());
+}
+
+void ViewerModel::start(Stage from, Stage to, std::string title)
+{
+    live_ = std::make_shared<Live>();
+    Session session = state_.document.session;
+    session.options.flatten.watch = [live = live_](const Eigen::Matrix2Xd& X, const NewtonStep& step) {
+        live->see(X, step);
+    };
+    state_.job = JobView{};
+    state_.job.running = true;
+    state_.job.title = std::move(title);
+    chain_job_ = std::make_unique<Job<ChainResult>>(
+        [session = std::move(session), made_with = state_.document.made_with, from, to](const Progress& progress) {
+            return run_chain(session, made_with, from, to, progress);
+        },
+        wake_);
+}
+
+void ViewerModel::run_to(Stage to, const std::string& title)
+{
+    if (state_.document.session.file.empty()) {
+        say(Severity::hint, "Open a part first.");
+        return;
+    }
+    if (export_job_) {
+        say(Severity::hint, "Wait for the export to end.");
+        return;
+    }
+    if (chain_job_) { // the newest wish counts, from what is there then
+        next_ = std::max(next_.value_or(to), to);
+        return;
+    }
+    const std::optional<Stage> from = first_stale(state_.document);
+    if (from && *from <= to)
+        start(*from, to, title);
+}
+
+bool ViewerModel::poll()
+{
+    bool news = false;
+    JobView& view = state_.job;
+    if (chain_job_) {
+        view.fraction = chain_job_->fraction();
+        view.step = chain_job_->step();
+        view.cancelling = chain_job_->cancelling();
+        if (auto blank = live_->blank.fetch()) {
+            view.blank = std::move(*blank);
+            news = true;
+        }
+        {
+            const std::lock_guard lock(live_->mutex);
+            news |= live_->residual.size() != view.residual.size();
+            view.residual = live_->residual;
+        }
+        if (chain_job_->finished()) {
+            take_chain_result();
+            news = true;
+        }
+    }
+    if (export_job_) {
+        view.fraction = export_job_->fraction();
+        view.step = export_job_->step();
+        view.cancelling = export_job_->cancelling();
+        if (export_job_->finished()) {
+            take_export_result();
+            news = true;
+        }
+    }
+    return news;
+}
+
+void ViewerModel::take_chain_result()
+{
+    const auto job = std::move(chain_job_);
+    const std::string title = state_.job.title;
+    state_.job = JobView{};
+    ChainResult result;
+    try {
+        result = job->take();
+    } catch (const std::exception& error) { // no memory for a copy of the session
+        say(Severity::error, error.what());
+        return;
+    }
+    Document& document = state_.document;
+    const bool had_blank = document.session.blank != nullptr;
+    SessionOptions wanted = std::move(document.session.options); // may have changed meanwhile
+    document.session = std::move(result.session);
+    document.session.options = std::move(wanted);
+    document.made_with = std::move(result.made_with);
+    document.made_with.flatten.watch = nullptr;
+    if (std::exchange(opening_, false))
+        part_opened();
+    if (!had_blank && document.session.blank)
+        fit(View::blank);
+    if (result.cancelled)
+        say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title));
+    else if (result.failed)
+        say(Severity::error, fmt::format("{} {}", result.message, advice(*result.failed)));
+    else
+        for (const std::string& text : shortcomings(document.session))
+            say(Severity::warning, text);
+    if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
+        run_to(*next, title);
+}
+
+void ViewerModel::take_export_result()
+{
+    const auto job = std::move(export_job_);
+    state_.job = JobView{};
+    try {
+        const auto files = job->take();
+        std::string names;
+        for (const auto& file : files)
+            names += (names.empty() ? "" : ", ") + file.filename().string();
+        say(Severity::done, fmt::format("Wrote {} to {}", names, files.empty() ? "" : files[0].parent_path().string()));
+    } catch (const std::exception& error) {
+        say(Severity::error, error.what());
+    }
+}
+
+void ViewerModel::part_opened()
+{
+    Document& document = state_.document;
+    if (!document.session.part)
+        return;
+    state_.history = History{};
+    state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
+    fit(std::nullopt);
+    for (const std::string& note : document.session.part->notes)
+        say(Severity::hint, note);
+    for (const Finding& finding : document.session.part->doctor.findings)
+        say(finding.severity == spia::Severity::repaired ? Severity::warning : Severity::hint,
+            finding.text + (finding.advice.empty() ? "" : "; " + finding.advice));
+}
+
+void ViewerModel::fit(std::optional<View> only)
+{
+    const Session& session = state_.document.session;
+    if (!session.part)
+        return;
+    const auto box_of = [](const auto& position) {
+        Eigen::AlignedBox3d box;
+        for (Eigen::Index v = 0; v < position.cols(); ++v) {
+            Eigen::Vector3d p = Eigen::Vector3d::Zero();
+            p.head(position.rows()) = position.col(v);
+            box.extend(p);
+        }
+        return box;
+    };
+    for (const View view : all_views) {
+        if (only && *only != view)
+            continue;
+        Camera& camera = state_.view.camera[size_t(view)];
+        const glm::dvec2 size = size_[size_t(view)];
+        if (view == View::blank) {
+            if (session.blank)
+                camera = spia::viewer::fit(camera, box_of(session.blank->blank.position), size.x / size.y);
+            continue;
+        }
+        if (state_.view.linked && view != View::part)
+            camera = state_.view.camera[size_t(View::part)];
+        camera = spia::viewer::fit(camera, box_of(session.part->mesh.position), size.x / size.y);
+    }
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,65 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/viewer/model/actions.h"
+#include "app/viewer/model/chain.h"
+#include "engine/core/job.h"
+#include "engine/core/mailbox.h"
+
+namespace spia::viewer {
+
+/// The state and the only two things that change it: actions and finished jobs. Knows no window, so that tests do all that
+/// users do.
+class ViewerModel {
+public:
+    /// @param assets folder with materials/ and parts/
+    /// @param wake   called on a job's thread when there is news for poll()
+    explicit ViewerModel(
+        std::filesystem::path assets, std::function<void()> wake = [] {});
+    ~ViewerModel();
+
+    const ViewerState& state() const { return state_; }
+    const std::filesystem::path& assets() const { return assets_; }
+
+    /// Carries out one action. What goes wrong becomes a message, never an exception. Screenshot, WriteReport and Quit are
+    /// the window's.
+    void apply(const Action& action);
+
+    /// Takes over the news of the running job; call once per frame. @returns whether anything has changed
+    bool poll();
+
+    /// Says something to the user.
+    void say(Severity severity, std::string text);
+
+    /// What is under the mouse.
+    void hover(std::optional<int> face) { state_.hovered = face; }
+    /// The size of a view on the screen: what "fit" fills. Pixels.
+    void resized(View view, glm::dvec2 size) { size_[size_t(view)] = size; }
+
+private:
+    struct Live; ///< what the solver tells while it runs
+    struct Apply;
+    friend struct Apply;
+
+    void start(Stage from, Stage to, std::string title);
+    void run_to(Stage to, const std::string& title);
+    void take_chain_result();
+    void take_export_result();
+    void fit(std::optional<View> view);
+    void part_opened();
+
+    std::filesystem::path assets_;
+    std::function<void()> wake_;
+    ViewerState state_;
+    std::array<glm::dvec2, 4> size_;
+    std::shared_ptr<Live> live_;
+    std::unique_ptr<Job<ChainResult>> chain_job_;
+    std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
+    std::optional<Stage> next_; ///< run this far when the running job has ended
+    bool opening_ = false;      ///< the running job reads a new part
+};
+
+} // namespace spia::viewer
