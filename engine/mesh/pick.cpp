@@ -173,11 +173,10 @@ std::vector<int> RayPicker::near(const Eigen::Matrix4Xd& half_spaces) const
             for (int i = node.first; i < node.first + node.count; ++i)
                 result.push_back(tree_->face[size_t(i)]);
         } else {
-            stack.push_back(at + 1);
             stack.push_back(node.second);
+            stack.push_back(at + 1);
         }
     }
-    std::sort(result.begin(), result.end());
     return result;
 }
 

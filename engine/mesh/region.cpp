@@ -12,6 +12,8 @@
 namespace spia {
 namespace {
 
+constexpr double uneven = 0.1; ///< evenness() of the last faces before a bend is below; inside of one rarely
+
 std::vector<char> flags(const FaceSet& set, int faces)
 {
     std::vector<char> result(size_t(faces), 0);
@@ -170,16 +172,31 @@ FaceSet RegionSearch::flood(int face, double angle) const
 
 FaceSet RegionSearch::smooth_region(int face, const SmoothLimits& limits) const
 {
-    const double bend = limits.bend / diagonal_, here = face_curvature_[face];
-    const auto gentle = [&](int f) { return face_curvature_[f] * evenness_[f] <= bend; };
+    const double bend = limits.bend / diagonal_;
+    const auto gentle = [&](int f) { return face_curvature_[f] <= bend || evenness_[f] <= uneven; };
     if (gentle(face))
-        return reached(face,
-                       [&](int f, int k) { return angle_(k, f) <= limits.sharp && edge_curvature_(k, f) <= bend; });
+        return reached(face, [&](int f, int k) {
+            return angle_(k, f) <= limits.sharp &&
+                   (edge_curvature_(k, f) <= bend || face_curvature_[neighbour_(k, f)] <= bend);
+        });
+    // One face alone says little on an irregular mesh: the mean with its neighbours on the bend.
+    const auto around = [&](int f) {
+        double sum = face_curvature_[f];
+        int count = 1;
+        for (int k = 0; k < 3; ++k)
+            if (const int g = neighbour_(k, f); g >= 0 && angle_(k, f) <= limits.sharp && !gentle(g)) {
+                sum += face_curvature_[g];
+                ++count;
+            }
+        return sum / count;
+    };
+    const double here = around(face);
     return reached(face, [&](int f, int k) {
         const int g = neighbour_(k, f);
-        const double there = face_curvature_[g];
-        return angle_(k, f) <= limits.sharp && !gentle(g) && there >= limits.likeness * here &&
-               there <= here / limits.likeness;
+        if (angle_(k, f) > limits.sharp || gentle(g))
+            return false;
+        const double there = around(g);
+        return there >= limits.likeness * here && there <= here / limits.likeness;
     });
 }
 

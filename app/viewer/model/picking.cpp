@@ -164,6 +164,7 @@ FaceSet faces_seen(const Camera& camera, const TriMesh& mesh, const RayPicker& p
         if (taken[i])
             faces[kept++] = faces[i];
     faces.resize(kept);
+    std::sort(faces.begin(), faces.end());
     return faces;
 }
 
