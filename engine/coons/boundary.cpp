@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/fill_holes.h"
+#include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -28,46 +29,6 @@ std::vector<int> outline_of(const Blank& blank, const TriMesh& part)
     const auto loops = boundary_loops(part);
     return loops[size_t(outer_loop(loops, blank.position))];
 }
-
-/// A closed polygon measured by its length.
-class Outline {
-public:
-    Outline(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane)
-    {
-        start_.push_back(0);
-        for (size_t i = 0; i < loop.size(); ++i) {
-            point_.push_back(plane.col(loop[i]));
-            start_.push_back(start_.back() + (plane.col(loop[(i + 1) % loop.size()]) - plane.col(loop[i])).norm());
-        }
-    }
-
-    int size() const { return int(point_.size()); }
-    double perimeter() const { return start_.back(); }
-    double length_at(int i) const { return start_[size_t(i)]; }
-
-    /// How much the outline turns to the left at vertex i, -pi to pi, between the chords of the given lengths
-    /// of outline.
-    double turning(int i, double before, double after) const
-    {
-        const Eigen::Vector2d here = point_[size_t(i)];
-        const Eigen::Vector2d in = here - at(length_at(i) - before), out = at(length_at(i) + after) - here;
-        return std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
-    }
-
-private:
-    Eigen::Vector2d at(double length) const
-    {
-        length -= perimeter() * std::floor(length / perimeter());
-        const auto next = std::upper_bound(start_.begin() + 1, start_.end() - 1, length);
-        const size_t i = size_t(next - start_.begin()) - 1;
-        const double edge = start_[i + 1] - start_[i];
-        const double t = edge > 0 ? std::clamp((length - start_[i]) / edge, 0.0, 1.0) : 0;
-        return (1 - t) * point_[i] + t * point_[(i + 1) % point_.size()];
-    }
-
-    std::vector<Eigen::Vector2d> point_;
-    std::vector<double> start_; // length up to each vertex; one more than vertices
-};
 
 /// 1 where the outline turns by a right angle, less for blunt and for needle-like corners, below 0 where it
 /// cannot be one.

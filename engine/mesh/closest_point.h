@@ -6,6 +6,8 @@
 
 namespace spia {
 
+struct BoxTree;
+
 /// The place of a mesh that is nearest to a point.
 struct ClosestPoint {
     int face = -1;               ///< of several equally near ones, always the same one; -1 if none is within reach
@@ -30,8 +32,7 @@ public:
     ClosestPoint nearest(const Eigen::Vector3d& point, double within = std::numeric_limits<double>::infinity()) const;
 
 private:
-    struct Tree;
-    std::unique_ptr<const Tree> tree_;
+    std::unique_ptr<const BoxTree> tree_;
 };
 
 /// Barycentric coordinates of the place of the triangle (columns: its vertices) that is nearest to the point.

@@ -1,6 +1,7 @@
 #include "engine/mesh/outline.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace spia {
 namespace {
@@ -55,6 +56,32 @@ double length(const std::vector<int>& loop, const Eigen::Matrix2Xd& position)
     for (size_t i = 0; i < loop.size(); ++i)
         sum += (position.col(loop[(i + 1) % loop.size()]) - position.col(loop[i])).norm();
     return sum;
+}
+
+Outline::Outline(const std::vector<int>& loop, const Eigen::Matrix2Xd& position)
+{
+    start_.push_back(0);
+    for (size_t i = 0; i < loop.size(); ++i) {
+        point_.push_back(position.col(loop[i]));
+        start_.push_back(start_.back() + (position.col(loop[(i + 1) % loop.size()]) - position.col(loop[i])).norm());
+    }
+}
+
+double Outline::turning(int i, double before, double after) const
+{
+    const Eigen::Vector2d here = point_[size_t(i)];
+    const Eigen::Vector2d in = here - at(length_at(i) - before), out = at(length_at(i) + after) - here;
+    return std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+}
+
+Eigen::Vector2d Outline::at(double length) const
+{
+    length -= perimeter() * std::floor(length / perimeter());
+    const auto next = std::upper_bound(start_.begin() + 1, start_.end() - 1, length);
+    const size_t i = size_t(next - start_.begin()) - 1;
+    const double edge = start_[i + 1] - start_[i];
+    const double t = edge > 0 ? std::clamp((length - start_[i]) / edge, 0.0, 1.0) : 0;
+    return (1 - t) * point_[i] + t * point_[(i + 1) % point_.size()];
 }
 
 } // namespace spia

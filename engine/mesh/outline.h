@@ -12,4 +12,25 @@ int crossings(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd
 /// mm, of one closed polygon
 double length(const std::vector<int>& loop, const Eigen::Matrix2Xd& position);
 
+/// A closed polygon measured by its length.
+class Outline {
+public:
+    /// @param loop vertex indices; @param position 2 by #V, mm
+    Outline(const std::vector<int>& loop, const Eigen::Matrix2Xd& position);
+
+    int size() const { return int(point_.size()); }
+    double perimeter() const { return start_.back(); }
+    double length_at(int i) const { return start_[size_t(i)]; } ///< from the start of the loop to its vertex i, mm
+
+    /// How much the outline turns to the left at vertex i, -pi to pi, between the chords of the given lengths (mm)
+    /// of outline.
+    double turning(int i, double before, double after) const;
+
+private:
+    Eigen::Vector2d at(double length) const;
+
+    std::vector<Eigen::Vector2d> point_;
+    std::vector<double> start_; // length up to each vertex; one more than vertices
+};
+
 } // namespace spia

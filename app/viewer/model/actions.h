@@ -59,7 +59,7 @@ struct PickAt {
     glm::dvec2 pixel{0};
     glm::dvec2 size{0};
     PickMode mode = PickMode::replace;
-    std::optional<double> flood;
+    std::optional<double> flood = {};
     bool smooth = false;
 };
 /// "pick_area": all faces whose middle lies inside a polygon of pixels (a box has four). Hidden ones only with `through`.

@@ -28,10 +28,12 @@ struct Ray {
     Eigen::Vector3d origin, direction; ///< mm, unit
 };
 
-/// Through a pixel of a view of this size, from in front of everything in the box.
+/// Through a pixel of a view of this size, from in front of everything in the box (in perspective, of all of it that is
+/// shown: what lies between the eye and the near plane is not).
 Ray ray_through(const Camera& camera, const Eigen::AlignedBox3d& box, glm::dvec2 pixel, glm::dvec2 size);
 
-/// Pixel of a place, and its depth towards the viewer (larger is nearer).
+/// Pixel of a place, and its depth towards the viewer: mm, 0 at the target, larger is nearer. In perspective a place
+/// beside or behind the eye has no pixel: all three are NaN.
 glm::dvec3 pixel_of(const Camera& camera, const Eigen::Vector3d& place, glm::dvec2 size);
 
 /// Turns by a drag from one pixel to another: left and right about the vertical of the picture, up and down about its horizontal. A

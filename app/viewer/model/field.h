@@ -30,7 +30,7 @@ struct FieldInfo {
     Field field;
     std::string_view name;  ///< as in scripts and projects, e.g. "strain_major"
     std::string_view label; ///< for people, e.g. "Major strain"
-    std::string_view unit;  ///< "mm", "%", "MPa", "" (a pure number)
+    std::string_view unit;  ///< "mm", "%", "MPa", "°", "" (a pure number)
     bool diverging;         ///< zero matters: both signs
     std::string_view help;  ///< one sentence: what it is
 };

@@ -1,0 +1,167 @@
+#include "app/viewer/model/field.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "app/viewer/model/flat_mesh.h"
+#include "engine/core/error.h"
+#include "engine/mesh/topology.h"
+
+namespace spia::viewer {
+namespace {
+
+/// Area-weighted mean of the faces around each vertex, as the engine takes it.
+Eigen::VectorXd vertex_mean(const TriMesh& part, const Eigen::VectorXd& of_face)
+{
+    const Eigen::VectorXd area = area_vectors(part).colwise().norm();
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(part.vertices()), weight = sum;
+    for (int f = 0; f < part.triangles(); ++f)
+        for (const int v : part.triangle.col(f)) {
+            sum[v] += area[f] * of_face[f];
+            weight[v] += area[f];
+        }
+    return sum.cwiseQuotient(weight);
+}
+
+Eigen::VectorXd face_mean(const TriMesh& part, const Eigen::VectorXd& of_vertex)
+{
+    Eigen::VectorXd result(part.triangles());
+    for (int f = 0; f < part.triangles(); ++f)
+        result[f] = of_vertex(part.triangle.col(f)).mean();
+    return result;
+}
+
+/// %, per face
+Eigen::VectorXd area_change(const TriMesh& part, const Blank& blank)
+{
+    const Eigen::ArrayXd formed = area_vectors(part).colwise().norm();
+    const Eigen::ArrayXd flat = area_vectors(flat_mesh(part, blank)).colwise().norm();
+    return 100 * (formed / flat - 1);
+}
+
+/// radians, at each corner of a face
+Eigen::Vector3d corner_angles(const TriMesh& mesh, int face)
+{
+    Eigen::Vector3d result;
+    for (int k = 0; k < 3; ++k) {
+        const auto corner = [&](int i) { return mesh.position.col(mesh.triangle((k + i) % 3, face)); };
+        const Eigen::Vector3d a = corner(1) - corner(0), b = corner(2) - corner(0);
+        result[k] = std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+    return result;
+}
+
+/// degrees, per face
+Eigen::VectorXd angle_distortion(const TriMesh& part, const Blank& blank)
+{
+    const TriMesh flat = flat_mesh(part, blank);
+    Eigen::VectorXd result(part.triangles());
+    for (int f = 0; f < part.triangles(); ++f)
+        result[f] = (corner_angles(part, f) - corner_angles(flat, f)).cwiseAbs().maxCoeff() * 180 / std::numbers::pi;
+    return result;
+}
+
+/// The fields that the engine has itself, per face and per vertex.
+Eigen::VectorXd of_sheet(const SheetFields& sheet, Field field)
+{
+    switch (field) {
+    case Field::thickness: return sheet.thickness;
+    case Field::thinning: return 100 * sheet.thinning;
+    case Field::thickening: return -100 * sheet.thinning;
+    case Field::strain_major: return sheet.strain_major;
+    case Field::strain_minor: return sheet.strain_minor;
+    case Field::strain_equivalent: return sheet.strain_equivalent;
+    case Field::stress_major: return sheet.stress_major;
+    case Field::stress_minor: return sheet.stress_minor;
+    case Field::stress_equivalent: return sheet.stress_equivalent;
+    default: return sheet.necking.cast<double>();
+    }
+}
+
+} // namespace
+
+const std::vector<FieldInfo>& all_fields()
+{
+    // Major strain and stress and all lengths are positive but for rare spots; a map with a middle would waste half of
+    // its colours on them.
+    static const std::vector<FieldInfo> fields = {
+        {Field::none, "none", "No field", "", false, "The plain sheet."},
+        {Field::thickness, "thickness", "Thickness", "mm", false, "Thickness of the sheet after forming."},
+        {Field::thinning, "thinning", "Thinning", "%", true,
+         "Loss of thickness by forming; positive where the sheet became thinner and may tear, negative where thicker."},
+        {Field::thickening, "thickening", "Thickening", "%", true,
+         "Gain of thickness by forming; positive where the sheet was pushed together and may wrinkle."},
+        {Field::strain_major, "strain_major", "Major strain", "", false,
+         "Logarithmic strain in the direction in which the sheet was stretched most."},
+        {Field::strain_minor, "strain_minor", "Minor strain", "", true,
+         "Logarithmic strain in the sheet across the major one; negative where the sheet was drawn in."},
+        {Field::strain_equivalent, "strain_equivalent", "Equivalent strain", "", false,
+         "Plastic strain by Hill 1948, the measure of how far the material has hardened."},
+        {Field::stress_major, "stress_major", "Major stress", "MPa", false,
+         "Stress along the direction of the major strain; positive in tension."},
+        {Field::stress_minor, "stress_minor", "Minor stress", "MPa", true,
+         "Stress in the sheet across the major strain; negative in compression, where the sheet may wrinkle."},
+        {Field::stress_equivalent, "stress_equivalent", "Equivalent stress", "MPa", false,
+         "Flow stress by Hill 1948 at the end of forming."},
+        {Field::area_change, "area_change", "Area change", "%", true,
+         "Area on the part against the blank; positive where the sheet was expanded, negative where compressed."},
+        {Field::angle_distortion, "angle_distortion", "Angle distortion", "\u00b0", false,
+         "Largest change of a corner's angle of the triangle from blank to part: how much the sheet was sheared."},
+        {Field::necking, "necking", "Necking", "", false,
+         "1 where the strain is beyond what the hardening curve is trusted for and the sheet is likely to neck, else 0."},
+        {Field::deviation, "deviation", "Deviation", "mm", true,
+         "Distance from the part to the NURBS surface; positive where the surface runs on the outer side of the part."},
+    };
+    return fields;
+}
+
+const FieldInfo& info(Field field) { return all_fields()[size_t(field)]; }
+
+Field field_by_name(std::string_view name)
+{
+    std::string names;
+    for (const FieldInfo& field : all_fields()) {
+        if (field.name == name)
+            return field.field;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", field.name);
+    }
+    throw InputError(fmt::format("there is no field \"{}\"; choose one of {}", name, names));
+}
+
+bool available(const Session& session, Field field)
+{
+    switch (field) {
+    case Field::none: return true;
+    case Field::deviation: return session.part && session.surface;
+    default: return session.part && session.blank;
+    }
+}
+
+Eigen::VectorXd values(const Session& session, Field field, bool per_face)
+{
+    if (!available(session, field))
+        throw InputError(fmt::format("the field \"{}\" is not there yet; {} first", info(field).name,
+                                     !session.part               ? "open a part"
+                                     : field == Field::deviation ? "make the NURBS surface"
+                                                                 : "solve for the blank"));
+    if (field == Field::none)
+        return {};
+    const TriMesh& part = session.part->mesh;
+    if (field == Field::deviation) {
+        // The part's vertices come first, those of filled holes follow.
+        const Eigen::VectorXd at_vertex = session.surface->deviation.at_vertex.head(part.vertices());
+        return per_face ? face_mean(part, at_vertex) : at_vertex;
+    }
+    if (field == Field::area_change || field == Field::angle_distortion) {
+        const Blank& blank = session.blank->blank;
+        const Eigen::VectorXd of_face =
+            field == Field::area_change ? area_change(part, blank) : angle_distortion(part, blank);
+        return per_face ? of_face : vertex_mean(part, of_face);
+    }
+    return of_sheet(per_face ? session.blank->face : session.blank->node, field);
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,233 @@
+#include "app/viewer/model/camera.h"
+
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+namespace spia::viewer {
+namespace {
+
+const glm::dvec2 size(1280, 720);
+const Eigen::AlignedBox3d box(Eigen::Vector3d(-30, 10, -5), Eigen::Vector3d(90, 60, 55));
+
+std::vector<Camera> cameras()
+{
+    std::vector<Camera> result;
+    for (const bool perspective : {false, true})
+        for (const StandardView view :
+             {StandardView::top, StandardView::bottom, StandardView::front, StandardView::back, StandardView::left,
+              StandardView::right, StandardView::isometric}) {
+            Camera camera;
+            camera.perspective = perspective;
+            camera.target = {20, 30, 10};
+            camera.height = 140;
+            result.push_back(look(camera, view));
+            result.push_back(orbit(result.back(), {70, -130}, size));
+        }
+    return result;
+}
+
+Eigen::Vector3d random_place(std::mt19937& random)
+{
+    std::uniform_real_distribution<double> share(0, 1);
+    const Eigen::Vector3d at(share(random), share(random), share(random));
+    return box.min() + at.cwiseProduct(box.sizes());
+}
+
+Eigen::Vector3d towards_viewer(const Camera& camera)
+{
+    const glm::dvec3 z = camera.turn * glm::dvec3(0, 0, 1);
+    return {z.x, z.y, z.z};
+}
+
+/// Where the matrices that the renderer gets put a place.
+glm::dvec3 pixel_by_matrices(const Camera& camera, const Eigen::Vector3d& place)
+{
+    const Eigen::Vector3d origin(400, -700, 90), from_origin = place - origin;
+    const glm::dvec4 clip = projection_matrix(camera, size.x / size.y, box) * view_matrix(camera, origin) *
+                            glm::dvec4(from_origin.x(), from_origin.y(), from_origin.z(), 1);
+    const glm::dvec3 p = glm::dvec3(clip) / clip.w;
+    return {(p.x + 1) / 2 * size.x, (1 - p.y) / 2 * size.y, p.z};
+}
+
+double apart(glm::dvec2 a, glm::dvec2 b) { return glm::length(a - b); }
+
+} // namespace
+
+TEST(Camera, TheRayThroughThePixelOfAPlaceMeetsThePlace)
+{
+    std::mt19937 random(3);
+    for (const Camera& camera : cameras())
+        for (int i = 0; i < 50; ++i) {
+            const Eigen::Vector3d place = random_place(random);
+            const Ray ray = ray_through(camera, box, pixel_of(camera, place, size), size);
+            EXPECT_NEAR(ray.direction.norm(), 1, 1e-14);
+            EXPECT_LT(ray.direction.cross(place - ray.origin).norm(), 1e-9);
+            EXPECT_GT(ray.direction.dot(place - ray.origin), 0); // it starts in front
+        }
+}
+
+TEST(Camera, TheRendererSeesEveryPlaceWherePickingSeesIt)
+{
+    std::mt19937 random(4);
+    for (const Camera& camera : cameras())
+        for (int i = 0; i < 50; ++i) {
+            const Eigen::Vector3d place = random_place(random);
+            const glm::dvec3 drawn = pixel_by_matrices(camera, place), picked = pixel_of(camera, place, size);
+            EXPECT_LT(apart(drawn, picked), 1e-8);
+            EXPECT_LT(std::abs(drawn.z), 1); // between near and far
+            const Eigen::Vector3d nearer = place + 0.5 * towards_viewer(camera);
+            EXPECT_LT(pixel_by_matrices(camera, nearer).z, drawn.z);
+            EXPECT_NEAR(pixel_of(camera, nearer, size).z - picked.z, 0.5, 1e-12);
+        }
+}
+
+TEST(Camera, OneMillimetreAtTheTargetHasTheSameSizeWithAndWithoutPerspective)
+{
+    for (Camera camera : cameras()) {
+        const Eigen::Vector3d target(camera.target.x, camera.target.y, camera.target.z);
+        const glm::dvec3 up = camera.turn * glm::dvec3(0, 1, 0);
+        const Eigen::Vector3d above = target + Eigen::Vector3d(up.x, up.y, up.z);
+        for (int i = 0; i < 2; ++i, camera.perspective = !camera.perspective) {
+            EXPECT_LT(apart(pixel_of(camera, target, size), size / 2.), 1e-9);
+            EXPECT_LT(apart(pixel_of(camera, above, size), {640, 360 - 720. / 140}), 1e-9);
+        }
+    }
+}
+
+TEST(Camera, PerspectiveSpansThirtyDegreesFromBottomToTop)
+{
+    Camera camera;
+    camera.perspective = true;
+    const Ray top = ray_through(camera, box, {640, 0}, size), bottom = ray_through(camera, box, {640, 720}, size);
+    EXPECT_NEAR(std::acos(top.direction.dot(bottom.direction)) * 180 / M_PI, 30, 1e-10);
+}
+
+TEST(Camera, APlaceBehindTheEyeHasNoPixel)
+{
+    Camera camera;
+    camera.perspective = true; // the eye is 187 mm above the target
+    EXPECT_TRUE(std::isnan(pixel_of(camera, {1, 2, 190}, size).x));
+    camera.perspective = false;
+    EXPECT_NEAR(pixel_of(camera, {0, 0, 190}, size).x, 640, 1e-9);
+}
+
+TEST(Camera, FitShowsAllCornersAndLeavesLittleRoom)
+{
+    for (const Camera& camera : cameras())
+        for (const double aspect : {0.4, 1., 16. / 9}) {
+            const glm::dvec2 pixels(aspect * 900, 900);
+            const Camera fitted = fit(camera, box, aspect);
+            EXPECT_EQ(fitted.turn, camera.turn);
+            glm::dvec2 least(1e300), greatest(-1e300);
+            for (int i = 0; i < 8; ++i) {
+                const glm::dvec2 p = pixel_of(fitted, box.corner(Eigen::AlignedBox3d::CornerType(i)), pixels);
+                least = glm::min(least, p);
+                greatest = glm::max(greatest, p);
+            }
+            const glm::dvec2 filled = (greatest - least) / pixels;
+            EXPECT_GT(std::min(least.x, least.y), 0);
+            EXPECT_LT(std::max(greatest.x / pixels.x, greatest.y / pixels.y), 1);
+            EXPECT_GT(std::max(filled.x, filled.y), 0.9);
+        }
+}
+
+TEST(Camera, FitOfAPointALineOrNothingStaysFinite)
+{
+    const Eigen::Vector3d point(3, 4, 5);
+    for (const Camera& camera : cameras()) {
+        EXPECT_EQ(fit(camera, {}, 1.5), camera);
+        const Camera at_point = fit(camera, Eigen::AlignedBox3d(point, point), 1.5);
+        EXPECT_GT(at_point.height, 0);
+        EXPECT_LT(apart(pixel_of(at_point, point, size), size / 2.), 1e-6);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Camera at_line =
+                fit(camera, Eigen::AlignedBox3d(point, point + 50 * Eigen::Vector3d::Unit(axis)), 1.5);
+            EXPECT_GE(at_line.height, 0.05 - 1e-12);
+        }
+    }
+}
+
+TEST(Camera, ZoomKeepsThePlaceUnderThePixelThereAndScalesTheRest)
+{
+    const glm::dvec2 pixel(300, 500);
+    for (const Camera& camera : cameras())
+        for (const double factor : {0.5, 1.1, 20.}) {
+            const Camera nearer = zoom(camera, factor, pixel, size);
+            const Ray ray = ray_through(camera, box, pixel, size);
+            EXPECT_NEAR(nearer.height, camera.height / factor, 1e-12);
+            for (const double along : {20., 60.}) { // wherever on the ray the part is
+                if (const glm::dvec3 p = pixel_of(nearer, ray.origin + along * ray.direction, size); !std::isnan(p.x)) {
+                    EXPECT_LT(apart(p, pixel), 1e-7);
+                }
+            }
+        }
+}
+
+TEST(Camera, ZoomingWithoutEndStaysFinite)
+{
+    Camera camera;
+    for (int i = 0; i < 2000; ++i)
+        camera = zoom(camera, 2, {0, 0}, size);
+    EXPECT_GT(camera.height, 0);
+    for (int i = 0; i < 4000; ++i)
+        camera = zoom(camera, 0.5, {0, 0}, size);
+    EXPECT_TRUE(std::isfinite(camera.height) && std::isfinite(glm::length(camera.target)));
+}
+
+TEST(Camera, PanTakesThePlaceUnderTheMouseAlong)
+{
+    const glm::dvec2 pixel(300, 500), drag(-120, 45);
+    for (const Camera& camera : cameras()) {
+        const Ray ray = ray_through(camera, box, pixel, size);
+        const Eigen::Vector3d target(camera.target.x, camera.target.y, camera.target.z);
+        const Eigen::Vector3d z = towards_viewer(camera);
+        const Eigen::Vector3d place = ray.origin + (target - ray.origin).dot(z) / ray.direction.dot(z) * ray.direction;
+        EXPECT_LT(apart(pixel_of(pan(camera, drag, size), place, size), pixel + drag), 1e-8);
+    }
+}
+
+TEST(Camera, OrbitTurnsWhatIsInFrontWithTheMouseAboutTheTarget)
+{
+    for (const Camera& camera : cameras()) {
+        const Eigen::Vector3d target(camera.target.x, camera.target.y, camera.target.z);
+        const Eigen::Vector3d front = target + 10 * towards_viewer(camera);
+        const glm::dvec2 before = pixel_of(camera, front, size);
+        EXPECT_GT(pixel_of(orbit(camera, {30, 0}, size), front, size).x, before.x + 1);
+        EXPECT_NEAR(pixel_of(orbit(camera, {30, 0}, size), front, size).y, before.y, 1e-9);
+        EXPECT_GT(pixel_of(orbit(camera, {0, 30}, size), front, size).y, before.y + 1);
+        EXPECT_NEAR(pixel_of(orbit(camera, {0, 30}, size), front, size).x, before.x, 1e-9);
+        // across the shorter side, half a turn: what was in front is behind
+        EXPECT_NEAR(pixel_of(orbit(camera, {0, 720}, size), front, size).z, -10, 1e-9);
+    }
+}
+
+TEST(Camera, AFlatCameraNeverLeavesItsPlane)
+{
+    Camera camera;
+    camera.flat = true;
+    EXPECT_EQ(orbit(camera, {40, 25}, size), pan(camera, {40, 25}, size));
+    for (const StandardView view : {StandardView::front, StandardView::isometric, StandardView::bottom})
+        EXPECT_EQ(towards_viewer(look(camera, view)), Eigen::Vector3d(0, 0, 1));
+}
+
+TEST(Camera, StandardViewsStandWhereTheirNamesSayWithUpwardsUp)
+{
+    const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    const auto check = [&](StandardView view, const Eigen::Vector3d& viewer, const Eigen::Vector3d& up) {
+        const Camera camera = look(Camera{}, view);
+        EXPECT_LT((towards_viewer(camera) - viewer).norm(), 1e-15);
+        const glm::dvec3 place = pixel_of(camera, up, size);
+        EXPECT_NEAR(place.x, size.x / 2, 1e-9);
+        EXPECT_LT(place.y, size.y / 2);
+    };
+    check(StandardView::top, z, y);
+    check(StandardView::bottom, -z, -y);
+    check(StandardView::front, -y, z);
+    check(StandardView::back, y, z);
+    check(StandardView::right, x, z);
+    check(StandardView::left, -x, z);
+    check(StandardView::isometric, Eigen::Vector3d(1, -1, 1).normalized(), z);
+}
+
+} // namespace spia::viewer
