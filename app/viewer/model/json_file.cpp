@@ -1,0 +1,72 @@
+#include "app/viewer/model/json_file.h"
+
+#include <fmt/core.h>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+/// Without the library's "[json.exception.parse_error.101] ".
+std::string plain(const Json::exception& error)
+{
+    const std::string text = error.what();
+    const size_t end = text.find("] ");
+    return end == std::string::npos ? text : text.substr(end + 2);
+}
+
+} // namespace
+
+Json parse_json(std::string_view text, const std::string& name, bool comments)
+{
+    try {
+        return Json::parse(text, nullptr, true, comments);
+    } catch (const Json::exception& error) {
+        throw InputError(fmt::format("{}: {}", name, plain(error)));
+    }
+}
+
+Json read_json(const std::filesystem::path& file, bool comments)
+{
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) // a folder, or a device that never ends
+        throw InputError(fmt::format("{} is not there or is no file; choose another one", file.string()));
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream || !text)
+        throw InputError(fmt::format("cannot read {}; it is empty, or you may not read it", file.string()));
+    return parse_json(text.view(), file.string(), comments);
+}
+
+std::string lines_of(const Json& object, const std::string& what)
+{
+    try {
+        std::string text = "{";
+        for (const auto& [key, value] : object.items())
+            text += fmt::format("{}\n{}: {}", text.size() == 1 ? "" : ",", Json(key).dump(), value.dump());
+        return text + "\n}\n";
+    } catch (const Json::exception& error) {
+        throw ExchangeError(
+            fmt::format("cannot write {}: a name or path in it is not UTF-8 ({}); rename it", what, plain(error)));
+    }
+}
+
+std::string Place::text() const
+{
+    if (!parent_)
+        return std::string(name_);
+    std::string before = parent_->text();
+    if (!parent_->parent_)
+        before += before.empty() ? "/" : ": /";
+    else
+        before += '/';
+    return before + (entry_ >= 0 ? std::to_string(entry_) : std::string(name_));
+}
+
+void Place::fail(std::string_view what) const { throw InputError(fmt::format("{} {}", text(), what)); }
+
+} // namespace spia::viewer

@@ -1,0 +1,76 @@
+#pragma once
+#include <cmath>
+#include <tuple>
+
+#include "app/viewer/model/json_members.h"
+#include "app/viewer/model/state.h"
+
+/// The members of the structs that scripts, projects and reports share.
+namespace spia::viewer {
+
+/// Checks beyond a number's bounds: check(value, place) as in Member.
+inline constexpr auto rising_range = [](const std::optional<std::array<double, 2>>& range, const Place& place) {
+    if (range && !((*range)[0] < (*range)[1]))
+        place.fail("must rise: the least value first, then a greater one");
+};
+inline constexpr auto is_barycentric = [](const Eigen::Vector3d& b, const Place& place) {
+    constexpr double rounding = 1e-6; // of weights typed by hand
+    if (!(b.minCoeff() >= -rounding && std::abs(b.sum() - 1) <= rounding))
+        place.fail("must be three weights from 0 to 1 whose sum is 1");
+};
+inline constexpr auto is_rotation = [](const glm::dquat& turn, const Place& place) {
+    constexpr double rounding = 1e-3; // of a quaternion typed by hand
+    if (!(std::abs(glm::length(turn) - 1) <= rounding))
+        place.fail("must be a unit quaternion w, x, y, z");
+};
+inline constexpr auto in_space = [](const glm::dvec3& place_mm, const Place& place) {
+    for (int k = 0; k < 3; ++k)
+        Between{-most_mm, most_mm}(place_mm[k], place.entry(size_t(k)));
+};
+
+template <>
+inline constexpr auto members_of<GridOptions> = std::tuple{
+    member("columns", &GridOptions::columns, Between{0, 2000}), member("rows", &GridOptions::rows, Between{0, 2000}),
+    member("cells", &GridOptions::cells, Between{1, 2000}),
+    member("smoothing", &GridOptions::smoothing, Between{0, 100000}), member("method", &GridOptions::method)};
+
+template <>
+inline constexpr auto members_of<Probe> =
+    std::tuple{required("face", &Probe::face, any_index), member("barycentric", &Probe::barycentric, is_barycentric)};
+
+template <>
+inline constexpr auto members_of<FieldDisplay> = std::tuple{member("field", &FieldDisplay::field),
+                                                            member("per_face", &FieldDisplay::per_face),
+                                                            member("range", &FieldDisplay::range, rising_range),
+                                                            member("map", &FieldDisplay::map),
+                                                            member("bands", &FieldDisplay::bands, Between{0, 256}),
+                                                            member("isolines", &FieldDisplay::isolines),
+                                                            member("extremes", &FieldDisplay::extremes),
+                                                            member("directions", &FieldDisplay::directions)};
+
+template <>
+inline constexpr auto members_of<Camera> =
+    std::tuple{member("target", &Camera::target, in_space), member("turn", &Camera::turn, is_rotation),
+               member("height", &Camera::height, Between{1e-9, most_mm}), member("perspective", &Camera::perspective),
+               member("flat", &Camera::flat)};
+
+template <>
+inline constexpr auto members_of<ViewSettings> =
+    std::tuple{member("camera", &ViewSettings::camera),
+               member("linked", &ViewSettings::linked),
+               member("maximised", &ViewSettings::maximised),
+               member("split_x", &ViewSettings::split_x, Between{0, 1}),
+               member("split_y", &ViewSettings::split_y, Between{0, 1}),
+               member("tool", &ViewSettings::tool),
+               member("flood_angle", &ViewSettings::flood_angle, Between{0, 180}),
+               member("brush_radius", &ViewSettings::brush_radius, Between{0, 10000}),
+               member("through", &ViewSettings::through),
+               member("dark", &ViewSettings::dark),
+               member("edges", &ViewSettings::edges),
+               member("features", &ViewSettings::features),
+               member("control_net", &ViewSettings::control_net),
+               member("part_under_quads", &ViewSettings::part_under_quads),
+               member("surface_deviation", &ViewSettings::surface_deviation),
+               member("quad_quality", &ViewSettings::quad_quality)};
+
+} // namespace spia::viewer

@@ -1,0 +1,94 @@
+#pragma once
+#include <array>
+#include <fmt/core.h>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "app/viewer/model/actions.h"
+#include "engine/core/error.h"
+
+/// The names that enumerations have in scripts, projects and reports: one table each.
+namespace spia::viewer {
+
+struct NoNames {};
+template <class E> inline constexpr NoNames names_of{}; ///< specialised: an array of (value, name)
+template <class E> using Names = std::pair<E, std::string_view>;
+
+template <>
+inline constexpr std::array names_of<RegionKind>{
+    Names<RegionKind>{RegionKind::fixed, "fixed"}, Names<RegionKind>{RegionKind::binder, "binder"},
+    Names<RegionKind>{RegionKind::pad, "pad"}, Names<RegionKind>{RegionKind::material, "material"},
+    Names<RegionKind>{RegionKind::other, "other"}};
+template <>
+inline constexpr std::array names_of<View>{Names<View>{View::part, "part"}, Names<View>{View::blank, "blank"},
+                                           Names<View>{View::quads, "quads"}, Names<View>{View::surface, "surface"}};
+template <>
+inline constexpr std::array names_of<Tool>{Names<Tool>{Tool::look, "look"},
+                                           Names<Tool>{Tool::pick, "pick"},
+                                           Names<Tool>{Tool::box, "box"},
+                                           Names<Tool>{Tool::lasso, "lasso"},
+                                           Names<Tool>{Tool::brush, "brush"},
+                                           Names<Tool>{Tool::flood, "flood"},
+                                           Names<Tool>{Tool::smooth_region, "smooth_region"},
+                                           Names<Tool>{Tool::probe, "probe"},
+                                           Names<Tool>{Tool::corners, "corners"}};
+template <>
+inline constexpr std::array names_of<Stage>{Names<Stage>{Stage::read, "read"}, Names<Stage>{Stage::solve, "solve"},
+                                            Names<Stage>{Stage::grid, "grid"}, Names<Stage>{Stage::lift, "lift"},
+                                            Names<Stage>{Stage::fit, "fit"}};
+template <>
+inline constexpr std::array names_of<GridMethod>{Names<GridMethod>{GridMethod::automatic, "automatic"},
+                                                 Names<GridMethod>{GridMethod::coons, "coons"},
+                                                 Names<GridMethod>{GridMethod::harmonic, "harmonic"}};
+template <>
+inline constexpr std::array names_of<InterpolateOptions::Parameters>{
+    Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::chord, "chord"},
+    Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::centripetal, "centripetal"},
+    Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::uniform, "uniform"}};
+template <>
+inline constexpr std::array names_of<LengthUnit>{
+    Names<LengthUnit>{LengthUnit::mm, "mm"}, Names<LengthUnit>{LengthUnit::cm, "cm"},
+    Names<LengthUnit>{LengthUnit::m, "m"}, Names<LengthUnit>{LengthUnit::inch, "inch"}};
+template <>
+inline constexpr std::array names_of<PickMode>{Names<PickMode>{PickMode::replace, "replace"},
+                                               Names<PickMode>{PickMode::add, "add"},
+                                               Names<PickMode>{PickMode::remove, "remove"}};
+template <>
+inline constexpr std::array names_of<StandardView>{Names<StandardView>{StandardView::top, "top"},
+                                                   Names<StandardView>{StandardView::bottom, "bottom"},
+                                                   Names<StandardView>{StandardView::front, "front"},
+                                                   Names<StandardView>{StandardView::back, "back"},
+                                                   Names<StandardView>{StandardView::left, "left"},
+                                                   Names<StandardView>{StandardView::right, "right"},
+                                                   Names<StandardView>{StandardView::isometric, "isometric"}};
+template <>
+inline constexpr std::array names_of<ColourMap>{Names<ColourMap>{ColourMap::viridis, "viridis"},
+                                                Names<ColourMap>{ColourMap::diverging, "diverging"},
+                                                Names<ColourMap>{ColourMap::grey, "grey"}};
+template <>
+inline constexpr std::array names_of<Severity>{
+    Names<Severity>{Severity::hint, "hint"}, Names<Severity>{Severity::done, "done"},
+    Names<Severity>{Severity::warning, "warning"}, Names<Severity>{Severity::error, "error"}};
+
+template <class E> std::string_view name_in_table(E value)
+{
+    for (const auto& [each, name] : names_of<E>)
+        if (each == value)
+            return name;
+    return "";
+}
+
+/// @throws InputError  lists the names there are
+template <class E> E value_by_name(std::string_view name)
+{
+    std::string known;
+    for (const auto& [value, each] : names_of<E>) {
+        if (each == name)
+            return value;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", each);
+    }
+    throw InputError(fmt::format("\"{}\" is none of {}", name, known));
+}
+
+} // namespace spia::viewer

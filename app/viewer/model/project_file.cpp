@@ -1,0 +1,223 @@
+#include "app/viewer/model/project_file.h"
+
+#include <charconv>
+#include <fmt/core.h>
+
+#include "app/viewer/model/members.h"
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
+#include "engine/exchange/provenance.h"
+#include "engine/forming/material_library.h"
+
+namespace fs = std::filesystem;
+
+namespace spia::viewer {
+namespace {
+
+constexpr std::string_view schema_name = "spia-project/";
+constexpr int version = 1;
+
+/// Two ways to a file: they still lead there when the folder of the project, or the project alone, is moved.
+struct StoredPath {
+    fs::path file;   ///< relative to the project's folder
+    fs::path was_at; ///< absolute
+};
+
+struct StoredPart {
+    StoredPath path;
+    std::optional<LengthUnit> unit;
+    std::optional<bool> weld;
+};
+
+struct StoredProject {
+    std::string schema, program;
+    StoredPart part;
+    std::string material; ///< a grade; empty: of the file
+    std::optional<StoredPath> material_file;
+    double thickness = 1;
+    std::optional<Eigen::Vector3d> direction;
+    GridOptions grid;
+    bool natural_ends = false;
+    InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
+    std::optional<Stage> ran;
+    FieldDisplay display;
+    ViewSettings view;
+    StoredPicks picks;
+    fs::path recovers;
+};
+
+constexpr Between anywhere_in_space{-most_mm, most_mm};
+
+} // namespace
+
+template <>
+inline constexpr auto members_of<StoredPatch> =
+    std::tuple{member("face", &StoredPatch::face, any_index), member("piece", &StoredPatch::piece, any_index),
+               member("point", &StoredPatch::point, anywhere_in_space), member("triangle", &StoredPatch::triangle)};
+template <>
+inline constexpr auto members_of<StoredRegion> =
+    std::tuple{member("name", &StoredRegion::name), member("kind", &StoredRegion::kind),
+               member("colour", &StoredRegion::colour, Between{0, 1}), member("patch", &StoredRegion::patch)};
+template <>
+inline constexpr auto members_of<StoredProbe> =
+    std::tuple{required("face", &StoredProbe::face, any_index), member("piece", &StoredProbe::piece, any_index),
+               required("barycentric", &StoredProbe::barycentric, is_barycentric),
+               required("at", &StoredProbe::at, anywhere_in_space), required("normal", &StoredProbe::normal)};
+template <>
+inline constexpr auto members_of<StoredCorner> = std::tuple{required("vertex", &StoredCorner::vertex, any_index),
+                                                            required("at", &StoredCorner::at, anywhere_in_space)};
+template <>
+inline constexpr auto members_of<StoredPicks> =
+    std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),
+               member("regions", &StoredPicks::regions), member("probes", &StoredPicks::probes),
+               member("corners", &StoredPicks::corners)};
+template <>
+inline constexpr auto members_of<StoredPath> =
+    std::tuple{required("file", &StoredPath::file), member("was_at", &StoredPath::was_at)};
+template <>
+inline constexpr auto members_of<StoredPart> = std::tuple{
+    required("path", &StoredPart::path), member("unit", &StoredPart::unit), member("weld", &StoredPart::weld)};
+template <>
+inline constexpr auto members_of<StoredProject> =
+    std::tuple{required("schema", &StoredProject::schema),
+               member("program", &StoredProject::program),
+               required("part", &StoredProject::part),
+               member("material", &StoredProject::material),
+               member("material_file", &StoredProject::material_file),
+               required("thickness", &StoredProject::thickness, Between{1e-6, 1e6}),
+               member("direction", &StoredProject::direction),
+               member("grid", &StoredProject::grid),
+               member("natural_ends", &StoredProject::natural_ends),
+               member("parameters", &StoredProject::parameters),
+               member("ran", &StoredProject::ran),
+               member("display", &StoredProject::display),
+               member("view", &StoredProject::view),
+               member("picks", &StoredProject::picks),
+               member("recovers", &StoredProject::recovers)};
+
+namespace {
+
+StoredPath stored_path(const fs::path& path, const fs::path& folder)
+{
+    const fs::path whole = fs::weakly_canonical(fs::absolute(path));
+    return {whole.lexically_proximate(folder), whole};
+}
+
+fs::path found_path(const StoredPath& stored, const fs::path& folder)
+{
+    const fs::path near = (folder / stored.file).lexically_normal();
+    std::error_code ignored;
+    return !fs::exists(near, ignored) && fs::exists(stored.was_at, ignored) ? stored.was_at : near;
+}
+
+/// As find_material() tells a path from a grade.
+bool is_file(const std::string& material)
+{
+    const fs::path path(material);
+    return path.has_parent_path() || path.extension() == ".json";
+}
+
+std::optional<Stage> last_stage(const Session& session)
+{
+    const bool there[] = {session.part != nullptr, session.blank != nullptr, session.grid != nullptr,
+                          session.lifted != nullptr, session.surface != nullptr};
+    std::optional<Stage> last;
+    for (const Stage stage : chain)
+        if (there[size_t(stage)])
+            last = stage;
+    return last;
+}
+
+/// Before anything else is looked at: another version may look otherwise.
+void require_version(const Json& json, const fs::path& file)
+{
+    const auto found = json.is_object() ? json.find("schema") : json.end();
+    const std::string schema = found != json.end() && found->is_string() ? found->get<std::string>() : "";
+    int number = 0;
+    const char* end = schema.data() + schema.size();
+    const char* digits = schema.data() + std::min(schema.size(), schema_name.size());
+    const auto [rest, error] = std::from_chars(digits, end, number);
+    if (!schema.starts_with(schema_name) || error != std::errc() || rest != end || number < 1)
+        throw InputError(fmt::format("{} is no project of SPIA: it does not begin with \"schema\": \"{}{}\"",
+                                     file.string(), schema_name, version));
+    if (number > version)
+        throw InputError(
+            fmt::format("{} was saved by a newer version of the program ({}); this one reads projects up to "
+                        "{}{}: install the newer version to open it",
+                        file.string(), schema, schema_name, version));
+}
+
+void require_direction(const StoredProject& stored, const Place& place)
+{
+    if (stored.direction && !(stored.direction->norm() > 0))
+        place.member("direction").fail("must have a length; null stands for the automatic direction");
+}
+
+Document document_of(const StoredProject& stored, const fs::path& file, const fs::path& folder,
+                     const fs::path& materials)
+{
+    Document document;
+    Session& session = document.session;
+    session.file = found_path(stored.part.path, folder);
+    session.options.read.unit = stored.part.unit;
+    session.options.read.weld = stored.part.weld;
+    document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
+    try {
+        session.options.flatten.material = find_material(document.material, materials);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: its material is not to be had: {}", file.string(), error.what()));
+    }
+    session.options.flatten.thickness = stored.thickness;
+    session.options.flatten.direction = stored.direction;
+    session.options.grid = stored.grid;
+    session.options.interpolate.ends =
+        stored.natural_ends ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
+    session.options.interpolate.parameters = stored.parameters;
+    document.display = stored.display;
+    return document;
+}
+
+} // namespace
+
+void save_project(const fs::path& file, const Document& document, const ViewSettings& view, const fs::path& recovers)
+{
+    const Session& session = document.session;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file)).parent_path();
+    StoredProject stored;
+    stored.schema = fmt::format("{}{}", schema_name, version);
+    stored.program = program_name();
+    stored.picks = store_picks(document);
+    stored.part = {stored_path(session.file, folder), session.options.read.unit, session.options.read.weld};
+    if (is_file(document.material))
+        stored.material_file = stored_path(document.material, folder);
+    else
+        stored.material = document.material;
+    stored.thickness = session.options.flatten.thickness;
+    stored.direction = session.options.flatten.direction;
+    stored.grid = session.options.grid;
+    stored.natural_ends = session.options.interpolate.ends == InterpolateOptions::Ends::natural;
+    stored.parameters = session.options.interpolate.parameters;
+    stored.ran = last_stage(session);
+    stored.display = document.display;
+    stored.view = view;
+    stored.recovers = recovers;
+    write_atomically(file, lines_of(written(stored), file.string()));
+}
+
+Project open_project(const fs::path& file, const fs::path& materials)
+{
+    const Json json = read_json(file);
+    require_version(json, file);
+    StoredProject stored;
+    const std::string name = file.string();
+    const Place place(name);
+    read(json, stored, place);
+    require_direction(stored, place);
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
+    const fs::path folder = (error ? file : whole).parent_path();
+    return {document_of(stored, file, folder, materials), stored.view, std::move(stored.picks), stored.ran,
+            stored.recovers};
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,50 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/model/state.h"
+#include "app/viewer/model/stored_picks.h"
+
+/// Project files (*.spia): JSON of the schema "spia-project/1". They keep what the user made and chose, not the results:
+/// opening runs the chain again. Any change of the form raises the version; a file of a newer one is refused.
+///
+/// | member | what |
+/// |---|---|
+/// | `part.path` | `file`: relative to the project's folder; `was_at`: where it was when saved, tried second |
+/// | `part.unit`, `part.weld` | of the file; null: as its format has it |
+/// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
+/// | `thickness`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
+/// | `ran` | the last stage that had been run, or null |
+/// | `display`, `view` | as in the script actions set_display and set_view |
+/// | `picks` | StoredPicks: numbers of the part's file and geometry; matrices column by column |
+/// | `recovers` | only in an autosave: the project that it stands for |
+namespace spia::viewer {
+
+inline constexpr std::string_view project_ending = ".spia";
+
+/// What a project file holds. The part is not read yet, and the picks wait for it:
+///
+///     Project project = open_project(file, materials);
+///     project.document.session = run_stage(Stage::read, project.document.session);
+///     const auto lost = restore_picks(project.document, project.picks);
+///     // run the stages up to project.ran
+struct Project {
+    Document document; ///< file and options of the session, material, display; no results, no picks
+    ViewSettings view;
+    StoredPicks picks;
+    std::optional<Stage> ran;
+    std::filesystem::path recovers;
+};
+
+/// Writes the whole file or nothing. @param recovers of an autosave: the project it stands for
+/// @throws InputError if no part is open; ExchangeError if the file cannot be written
+void save_project(const std::filesystem::path& file, const Document& document, const ViewSettings& view,
+                  const std::filesystem::path& recovers = {});
+
+/// @param materials  folder of the built-in grades
+/// @throws InputError  names the file and the place in it: no project, a newer version, damaged, or its material is missing
+Project open_project(const std::filesystem::path& file, const std::filesystem::path& materials);
+
+} // namespace spia::viewer

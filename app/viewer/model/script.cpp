@@ -1,0 +1,359 @@
+#include "app/viewer/model/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <type_traits>
+
+#include "app/viewer/model/members.h"
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+
+template <> inline constexpr auto members_of<Wait> = std::tuple{member("seconds", &Wait::seconds, Between{0, 1e6})};
+template <>
+inline constexpr auto members_of<Expect> =
+    std::tuple{required("at", &Expect::at),           member("equals", &Expect::equals),
+               member("above", &Expect::above),       member("below", &Expect::below),
+               member("near", &Expect::near),         member("tolerance", &Expect::tolerance, Between{0, 1e300}),
+               member("contains", &Expect::contains), member("exists", &Expect::exists)};
+
+namespace {
+
+constexpr std::string_view schema = "spia-script/1";
+
+/// An action's name and members; `inner`, if it is not null, is the only member of the action, and the members are its.
+template <class T, class Inner, class... M> struct Form {
+    std::string_view name;
+    Inner T::*inner;
+    std::tuple<M...> members;
+};
+struct Nothing {};
+template <class T, class... M> constexpr Form<T, Nothing, M...> form(std::string_view name, M... members)
+{
+    return {name, nullptr, std::tuple{members...}};
+}
+template <class T, class Inner> constexpr auto form_of_inner(std::string_view name, Inner T::*inner)
+{
+    return std::apply(
+        [&](auto... m) {
+            return Form<T, Inner, decltype(m)...>{name, inner, std::tuple{m...}};
+        },
+        members_of<Inner>);
+}
+
+constexpr auto has_a_direction = [](const std::optional<Eigen::Vector3d>& direction, const Place& place) {
+    if (direction && !(direction->norm() > 0))
+        place.fail("must have a length; null stands for the automatic direction");
+};
+constexpr auto not_empty = [](const auto& list, const Place& place) {
+    if (list.empty())
+        place.fail("must not be empty");
+};
+constexpr auto has_extent = [](const glm::dvec2& size, const Place& place) {
+    if (!(size.x > 0 && size.y > 0))
+        place.fail("must be the width and height of the view in pixels");
+};
+constexpr auto encloses = [](const std::vector<glm::dvec2>& polygon, const Place& place) {
+    if (polygon.size() < 3)
+        place.fail("must have at least three corners");
+};
+constexpr Between share{0, 1}, pixels{0, 16384};
+
+// Every action, in the order of the variant.
+constexpr std::tuple forms{
+    form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit)),
+    form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
+    form<RunTo>("run_to", member("stage", &RunTo::stage)),
+    form<CancelJob>("cancel_job"),
+    form<SetMaterial>("set_material", required("material", &SetMaterial::material, not_empty)),
+    form<SetThickness>("set_thickness", required("thickness", &SetThickness::thickness, Between{1e-6, 1e6})),
+    form<SetDirection>("set_direction", member("direction", &SetDirection::direction, has_a_direction)),
+    form<SetCorner>("set_corner", required("corner", &SetCorner::corner, Between{0, 3}),
+                    required("vertex", &SetCorner::vertex, any_index), member("dragging", &SetCorner::dragging)),
+    form<ProposeCorners>("propose_corners"),
+    form_of_inner("set_grid", &SetGrid::grid),
+    form<SetEnds>("set_ends", required("natural", &SetEnds::natural)),
+    form<SelectFaces>("select_faces", required("faces", &SelectFaces::faces, any_index),
+                      member("mode", &SelectFaces::mode)),
+    form<PickAt>("pick_at", member("view", &PickAt::view), required("pixel", &PickAt::pixel),
+                 required("size", &PickAt::size, has_extent), member("mode", &PickAt::mode),
+                 member("flood", &PickAt::flood, Between{0, 180}), member("smooth", &PickAt::smooth)),
+    form<PickArea>("pick_area", member("view", &PickArea::view), required("polygon", &PickArea::polygon, encloses),
+                   required("size", &PickArea::size, has_extent), member("mode", &PickArea::mode),
+                   member("through", &PickArea::through)),
+    form<PickBrush>("pick_brush", member("view", &PickBrush::view), required("pixel", &PickBrush::pixel),
+                    member("radius", &PickBrush::radius, pixels), required("size", &PickBrush::size, has_extent),
+                    member("mode", &PickBrush::mode), member("through", &PickBrush::through)),
+    form<GrowSelection>("grow_selection"),
+    form<ShrinkSelection>("shrink_selection"),
+    form<InvertSelection>("invert_selection"),
+    form<ClearSelection>("clear_selection"),
+    form<MakeRegion>("make_region", member("name", &MakeRegion::name), member("kind", &MakeRegion::kind)),
+    form<ChangeRegion>("change_region", required("region", &ChangeRegion::region, any_index),
+                       member("name", &ChangeRegion::name), member("kind", &ChangeRegion::kind),
+                       member("colour", &ChangeRegion::colour, share)),
+    form<RemoveRegion>("remove_region", required("region", &RemoveRegion::region, any_index)),
+    form<SelectRegion>("select_region", required("region", &SelectRegion::region, any_index),
+                       member("mode", &SelectRegion::mode)),
+    form_of_inner("add_probe", &AddProbe::probe),
+    form<RemoveProbe>("remove_probe", required("probe", &RemoveProbe::probe, any_index)),
+    form<ClearProbes>("clear_probes"),
+    form_of_inner("set_display", &SetDisplay::display),
+    form_of_inner("set_view", &SetViewSettings::view),
+    form<FitView>("fit_view", member("view", &FitView::view)),
+    form<LookFrom>("look_from", member("view", &LookFrom::view), required("from", &LookFrom::from)),
+    form<FlyTo>("fly_to", required("face", &FlyTo::face, any_index)),
+    form<Undo>("undo"),
+    form<Redo>("redo"),
+    form<OpenProject>("open_project", required("file", &OpenProject::file, not_empty)),
+    form<SaveProject>("save_project", member("file", &SaveProject::file)),
+    form<ExportFiles>("export", required("folder", &ExportFiles::folder, not_empty),
+                      required("formats", &ExportFiles::formats, not_empty)),
+    form<WriteReport>("write_report", required("file", &WriteReport::file, not_empty)),
+    form<Screenshot>("screenshot", required("file", &Screenshot::file, not_empty), member("view", &Screenshot::view),
+                     member("width", &Screenshot::width, pixels), member("height", &Screenshot::height, pixels)),
+    form<DismissMessages>("dismiss_messages"),
+    form<Quit>("quit")};
+
+template <class T>
+constexpr size_t place_in_variant = [] {
+    return []<class... Each>(std::type_identity<std::variant<Each...>>) {
+        size_t i = 0;
+        (void)((std::is_same_v<T, Each> || (++i, false)) || ...);
+        return i;
+    }(std::type_identity<Action>{});
+}();
+template <class T> constexpr const auto& form_of = std::get<place_in_variant<T>>(forms);
+
+/// Calls visit(T{}) for every kind of action until it answers true.
+template <class Visit> bool any_action(const Visit& visit)
+{
+    return [&]<class... T>(std::type_identity<std::variant<T...>>) {
+        return (visit(T{}) || ...);
+    }(std::type_identity<Action>{});
+}
+
+/// What has the members: the action, or the struct in it.
+template <class T, class Inner, class... M> auto& holder(const Form<T, Inner, M...>& form, auto& action)
+{
+    if constexpr (std::is_same_v<Inner, Nothing>)
+        return action;
+    else
+        return action.*form.inner;
+}
+
+/// What the members that are not given keep.
+template <class T> T before(const Json&, const ViewerState&) { return {}; }
+template <> SetGrid before(const Json&, const ViewerState& state) { return {state.document.session.options.grid}; }
+template <> SetDisplay before(const Json&, const ViewerState& state) { return {state.document.display}; }
+template <> SetViewSettings before(const Json&, const ViewerState& state) { return {state.view}; }
+template <> ChangeRegion before(const Json& json, const ViewerState& state)
+{
+    const auto& regions = state.document.regions;
+    const auto number = json.find("region");
+    if (number == json.end() || !number->is_number_unsigned() || number->get<size_t>() >= regions.size())
+        return {}; // reading complains, or carrying it out
+    const FaceRegion& region = regions[number->get<size_t>()];
+    return {number->get<int>(), region.name, region.kind, region.colour};
+}
+
+template <class T> T read_action(const Json& json, const ViewerState& base, const Place& place)
+{
+    constexpr const auto& form = form_of<T>;
+    T action = before<T>(json, base);
+    read_members(json, holder(form, action), form.members, place, "do");
+    return action;
+}
+
+std::string known_actions()
+{
+    std::string list = "wait, expect";
+    any_action([&]<class T>(const T&) {
+        list += fmt::format(", {}", form_of<T>.name);
+        return false;
+    });
+    return list;
+}
+
+/// The name of a step: its member "do".
+std::string name_of_step(const Json& json, const Place& place)
+{
+    if (!json.is_object() || !json.contains("do") || !json["do"].is_string())
+        place.fail("must be an object with the member \"do\": the name of an action");
+    return json["do"].get<std::string>();
+}
+
+Action read_any_action(const Json& json, const ViewerState& base, const Place& place)
+{
+    const std::string name = name_of_step(json, place);
+    Action action;
+    const bool known = any_action([&]<class T>(const T&) {
+        if (form_of<T>.name != name)
+            return false;
+        action = read_action<T>(json, base, place);
+        return true;
+    });
+    if (!known)
+        place.fail(fmt::format("is no action: \"{}\"; there are: {}", name, known_actions()));
+    return action;
+}
+
+Expect read_expect(const Json& json, const Place& place)
+{
+    Expect expect;
+    read_members(json, expect, members_of<Expect>, place, "do");
+    try {
+        Json::json_pointer pointer(expect.at);
+    } catch (const Json::exception&) {
+        place.member("at").fail("must be a JSON pointer like \"/selection/faces\"");
+    }
+    if (expect.near.has_value() != expect.tolerance.has_value())
+        place.fail("needs \"near\" and \"tolerance\" together");
+    if (!expect.equals && !expect.above && !expect.below && !expect.near && !expect.contains && !expect.exists)
+        place.fail("expects nothing; give equals, above, below, near with tolerance, contains or exists");
+    return expect;
+}
+
+Step read_step(const Json& json, const Place& place)
+{
+    const std::string name = name_of_step(json, place);
+    if (name == "wait") {
+        Wait wait;
+        read_members(json, wait, members_of<Wait>, place, "do");
+        return {wait, place.text()};
+    }
+    if (name == "expect")
+        return {read_expect(json, place), place.text()};
+    ViewerState any;
+    read_any_action(json, any, place); // only to check it
+    return {Perform{json}, place.text()};
+}
+
+std::vector<Step> read_script(const Json& json, const std::string& name)
+{
+    const Place place(name);
+    if (!json.is_object() || !json.contains("schema") || json["schema"] != schema)
+        place.fail(fmt::format("is no script of this version; it must begin with {{\"schema\": \"{}\"", schema));
+    for (const auto& [key, unused] : json.items())
+        if (key != "schema" && key != "actions")
+            place.fail(fmt::format("has no member \"{}\"; there are: schema, actions", key));
+    if (!json.contains("actions"))
+        place.fail("needs the member \"actions\"");
+    std::vector<Step> steps;
+    const Place list = place.member("actions");
+    read_list(json["actions"], list, -1,
+              [&](size_t, const Json& each, const Place& at) { steps.push_back(read_step(each, at)); });
+    return steps;
+}
+
+/// What a failed expectation shows of a long value.
+std::string shortened(const Json& json)
+{
+    constexpr size_t most = 200;
+    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text.size() > most ? text.substr(0, most) + " ..." : text;
+}
+
+bool contains(const Json& whole, const Json& piece)
+{
+    if (whole.is_string() && piece.is_string())
+        return whole.get_ref<const std::string&>().find(piece.get_ref<const std::string&>()) != std::string::npos;
+    if (whole.is_array())
+        return std::find(whole.begin(), whole.end(), piece) != whole.end();
+    return whole.is_object() && piece.is_string() && whole.contains(piece.get_ref<const std::string&>());
+}
+
+/// Says how far the pointer leads, and what is there.
+std::string nothing_there(const std::string& at, const Json& report)
+{
+    Json::json_pointer known(at);
+    while (!known.empty() && !report.contains(known))
+        known.pop_back();
+    const Json& last = report.at(known);
+    std::string there;
+    if (last.is_object())
+        for (const auto& [key, unused] : last.items())
+            there += (there.empty() ? "" : ", ") + key;
+    else
+        there = last.is_array() ? fmt::format("a list of {}", last.size()) : shortened(last);
+    return fmt::format("there is nothing at {}; at \"{}\" there is: {}", at, known.to_string(), there);
+}
+
+} // namespace
+
+Action action_from_json(const Json& json, const ViewerState& present, const std::string& place)
+{
+    return read_any_action(json, present, Place(place));
+}
+
+Action action_from_json(const Json& json)
+{
+    ViewerState new_program;
+    return action_from_json(json, new_program);
+}
+
+Json to_json(const Action& action)
+{
+    return std::visit(
+        []<class T>(const T& each) {
+            constexpr const auto& form = form_of<T>;
+            Json json = {{"do", form.name}};
+            write_members(holder(form, each), form.members, json);
+            return json;
+        },
+        action);
+}
+
+std::vector<Step> parse_script(const std::filesystem::path& file)
+{
+    return read_script(read_json(file, true), file.string());
+}
+
+std::vector<Step> parse_script(std::string_view text, const std::string& name)
+{
+    return read_script(parse_json(text, name, true), name);
+}
+
+Action action(const Perform& perform, const ViewerState& state, const std::string& place)
+{
+    return action_from_json(perform.action, state, place);
+}
+
+std::optional<std::string> unmet(const Expect& expect, const Json& report)
+{
+    const Json::json_pointer pointer(expect.at);
+    bool there = false;
+    try {
+        there = report.contains(pointer);
+    } catch (const Json::exception&) { // "/list/word"
+    }
+    if (expect.exists == false)
+        return there ? std::optional(
+                           fmt::format("{} is {} but should not be there", expect.at, shortened(report.at(pointer))))
+                     : std::nullopt;
+    if (!there)
+        return nothing_there(expect.at, report);
+    const Json& value = report.at(pointer);
+    const auto failed = [&](const std::string& wish) {
+        return fmt::format("{} is {} but should {}", expect.at, shortened(value), wish);
+    };
+    if (expect.equals && value != *expect.equals)
+        return failed(fmt::format("equal {}", shortened(*expect.equals)));
+    if (expect.contains && !contains(value, *expect.contains))
+        return failed(fmt::format("contain {}", shortened(*expect.contains)));
+    if (!expect.above && !expect.below && !expect.near)
+        return {};
+    if (!value.is_number())
+        return failed("be a number");
+    const double number = value.get<double>();
+    if (expect.above && !(number > *expect.above))
+        return failed(fmt::format("be above {}", *expect.above));
+    if (expect.below && !(number < *expect.below))
+        return failed(fmt::format("be below {}", *expect.below));
+    if (expect.near && !(std::abs(number - *expect.near) <= *expect.tolerance))
+        return failed(fmt::format("be {} give or take {}", *expect.near, *expect.tolerance));
+    return {};
+}
+
+} // namespace spia::viewer

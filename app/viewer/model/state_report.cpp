@@ -1,0 +1,157 @@
+#include "app/viewer/model/state_report.h"
+
+#include <algorithm>
+
+#include "app/viewer/model/members.h"
+#include "engine/pipeline/report.h"
+
+namespace spia::viewer {
+namespace {
+
+template <class Vector> Json vector_json(const Vector& v)
+{
+    return written(Eigen::Vector<double, Vector::RowsAtCompileTime>(v));
+}
+
+Json faces_json(const std::vector<int>& faces)
+{
+    constexpr size_t shown = 10;
+    return {{"faces", faces.size()},
+            {"first", std::vector<int>(faces.begin(), faces.begin() + long(std::min(shown, faces.size())))}};
+}
+
+Json part_json(const Session& session)
+{
+    if (!session.part)
+        return nullptr;
+    return {{"file", session.file.string()},
+            {"vertices", session.part->mesh.vertices()},
+            {"triangles", session.part->mesh.triangles()},
+            {"format", session.part->format},
+            {"unit", name(session.part->unit)}};
+}
+
+Json options_json(const Document& document)
+{
+    const SessionOptions& options = document.session.options;
+    return {{"material", document.material},
+            {"thickness", options.flatten.thickness},
+            {"direction", written(options.flatten.direction)},
+            {"corners", written(options.corners)},
+            {"grid", written(options.grid)},
+            {"natural_ends", options.interpolate.ends == InterpolateOptions::Ends::natural}};
+}
+
+Json stages_json(const Session& session)
+{
+    return {{"read", session.part != nullptr},
+            {"solve", session.blank != nullptr},
+            {"grid", session.grid != nullptr},
+            {"lift", session.lifted != nullptr},
+            {"fit", session.surface != nullptr}};
+}
+
+Json figures_json(const Session& session)
+{
+    Json figures = parse_json(report_json(session, {}, 0), "figures");
+    figures.erase("files");
+    return figures;
+}
+
+Json regions_json(const std::vector<FaceRegion>& regions)
+{
+    Json list = Json::array();
+    for (const FaceRegion& region : regions) {
+        Json json = {{"name", region.name}, {"kind", name(region.kind)}, {"colour", region.colour}};
+        json.update(faces_json(region.faces));
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+/// The field shown, one value per face or vertex; empty if none is.
+Eigen::VectorXd shown_field(const Document& document)
+{
+    const FieldDisplay& display = document.display;
+    if (display.field == Field::none || !available(document.session, display.field))
+        return {};
+    return values(document.session, display.field, display.per_face);
+}
+
+Json field_json(const Document& document, const Eigen::VectorXd& field)
+{
+    if (field.size() == 0)
+        return nullptr;
+    return {{"unit", info(document.display.field).unit}, {"least", field.minCoeff()}, {"greatest", field.maxCoeff()}};
+}
+
+Json probes_json(const Document& document, const Eigen::VectorXd& field)
+{
+    Json list = Json::array();
+    for (const Probe& probe : document.probes) {
+        Json json = written(probe);
+        if (document.session.part && probe.face >= 0 && probe.face < document.session.part->mesh.triangles()) {
+            const TriMesh& mesh = document.session.part->mesh;
+            const Eigen::Vector3i corner = mesh.triangle.col(probe.face);
+            json["at"] = vector_json(mesh.position(Eigen::all, corner) * probe.barycentric);
+            json["value"] = field.size() == 0           ? Json(nullptr)
+                            : document.display.per_face ? Json(field[probe.face])
+                                                        : Json(field(corner).dot(probe.barycentric));
+        }
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+Json corners_json(const Session& session)
+{
+    if (!session.grid)
+        return nullptr;
+    Json list = Json::array();
+    for (const int vertex : session.grid->boundary.corner)
+        list.push_back({{"vertex", vertex},
+                        {"at", vector_json(session.part->mesh.position.col(vertex))},
+                        {"blank", vector_json(session.blank->blank.position.col(vertex))}});
+    return list;
+}
+
+Json messages_json(const std::vector<Message>& messages)
+{
+    Json list = Json::array();
+    for (const Message& message : messages)
+        list.push_back({{"severity", name_in_table(message.severity)}, {"text", message.text}});
+    return list;
+}
+
+} // namespace
+
+Json state_report(const ViewerState& state)
+{
+    const Document& document = state.document;
+    const Eigen::VectorXd field = shown_field(document);
+    return {{"schema", "spia-state/1"},
+            {"part", part_json(document.session)},
+            {"options", options_json(document)},
+            {"stages", stages_json(document.session)},
+            {"figures", figures_json(document.session)},
+            {"selection", faces_json(document.selected)},
+            {"regions", regions_json(document.regions)},
+            {"probes", probes_json(document, field)},
+            {"display", written(document.display)},
+            {"field", field_json(document, field)},
+            {"view", written(state.view)},
+            {"corners", corners_json(document.session)},
+            {"history", {{"undo", state.history.undo_name()}, {"redo", state.history.redo_name()}}},
+            {"messages", messages_json(state.messages)},
+            {"job",
+             {{"running", state.job.running},
+              {"cancelling", state.job.cancelling},
+              {"title", state.job.title},
+              {"step", state.job.step},
+              {"fraction", state.job.fraction},
+              {"steps", state.job.residual.size()}}},
+            {"project", {{"file", state.project.string()}, {"unsaved", state.unsaved}}},
+            {"hovered", state.hovered ? Json(*state.hovered) : Json(nullptr)}};
+}
+
+} // namespace spia::viewer

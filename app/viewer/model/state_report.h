@@ -1,0 +1,31 @@
+#pragma once
+#include "app/viewer/model/json_file.h"
+#include "app/viewer/model/state.h"
+
+namespace spia::viewer {
+
+/// The state of the program as tests and --report see it (schema "spia-state/1"; expectations of scripts point into it):
+///
+/// | member | what |
+/// |---|---|
+/// | `part` | null, or `file`, `vertices`, `triangles`, `format`, `unit` |
+/// | `options` | `material`, `thickness`, `direction` (null: automatic), `corners` (vertices of the file; null: automatic), `grid`, `natural_ends` |
+/// | `stages.{read,solve,grid,lift,fit}` | whether the result of the stage is there |
+/// | `figures` | what the chain found: the JSON of `spia run --json` without `files`, see engine/pipeline/README.md |
+/// | `selection` | `faces`: how many; `first`: the first ten of them |
+/// | `regions[]` | `name`, `kind`, `colour`, `faces`, `first` |
+/// | `probes[]` | `face`, `barycentric`, `at` (mm), `value` of the field shown, in its unit (null: none) |
+/// | `display` | as in the script action set_display |
+/// | `field` | null, or of the field shown: `unit`, `least`, `greatest` |
+/// | `view` | as in the script action set_view |
+/// | `corners` | of the grid: null, or four `vertex` (of the part), `at` (mm, on the part), `blank` (mm) |
+/// | `history` | `undo`, `redo`: names of the changes; "" where there is none |
+/// | `messages[]` | `severity` (hint, done, warning, error), `text`; the newest last |
+/// | `job` | `running`, `cancelling`, `title`, `step`, `fraction`, `steps` (residuals so far) |
+/// | `project` | `file` ("" if none), `unsaved` |
+/// | `hovered` | face under the mouse, or null |
+///
+/// Faces and vertices are numbers of the part in the program, from 0. Members are only added within a version.
+Json state_report(const ViewerState& state);
+
+} // namespace spia::viewer

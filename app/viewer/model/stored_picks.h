@@ -1,0 +1,62 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/model/document.h"
+
+/// What the user picked on a part, kept so that it is found again: on the same part exactly, by the numbers of the
+/// part's file; on a part that was changed (meshed anew, renumbered, a flange moved) by its geometry.
+namespace spia::viewer {
+
+/// Some faces of a part.
+struct StoredPatch {
+    std::vector<int> face;     ///< numbers in the file, ascending
+    std::vector<int> piece;    ///< per face: which triangle, where the file's face was split; empty: 0 for all
+    Eigen::Matrix3Xd point;    ///< mm, the corners of the triangles
+    Eigen::Matrix3Xi triangle; ///< per face, into `point`
+};
+
+struct StoredRegion {
+    std::string name;
+    RegionKind kind = RegionKind::other;
+    Colour colour{};
+    StoredPatch patch;
+};
+
+struct StoredProbe {
+    int face = 0, piece = 0; ///< as in StoredPatch
+    Eigen::Vector3d barycentric{1. / 3, 1. / 3, 1. / 3};
+    Eigen::Vector3d at{0, 0, 0};     ///< mm
+    Eigen::Vector3d normal{0, 0, 1}; ///< unit, of the face
+};
+
+struct StoredCorner {
+    int vertex = 0;              ///< number in the file
+    Eigen::Vector3d at{0, 0, 0}; ///< mm
+};
+
+struct StoredPicks {
+    std::string fingerprint; ///< of the part they were made on, see fingerprint()
+    StoredPatch selected;
+    std::vector<StoredRegion> regions;
+    std::vector<StoredProbe> probes;
+    std::optional<std::array<StoredCorner, 4>> corners; ///< of the grid, where the user chose them
+};
+
+/// The same for two meshes with the same coordinates, triangles and numbers in the file, and practically only for these.
+std::string fingerprint(const PartFile& part);
+
+/// @throws InputError if the document has no part, or a pick names a face or corner that the part does not have
+StoredPicks store_picks(const Document& document);
+
+/// Puts the picks into a document whose part has been read: selection, regions, probes, and the corners of the session's
+/// options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
+/// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
+/// the outer boundary.
+/// @returns in words what was not found (again); empty if the part is the same, or all was found
+/// @throws InputError if the document has no part, or the picks make no sense
+std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks);
+
+} // namespace spia::viewer

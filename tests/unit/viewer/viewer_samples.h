@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+
+#include "app/viewer/model/document.h"
+#include "engine/forming/material_library.h"
+#include "engine/pipeline/session.h"
+
+namespace spia::viewer {
+
+inline const std::filesystem::path materials_folder = SPIA_SOURCE_DIR "/assets/materials";
+
+/// A document with this part, run up to a stage.
+inline Document document_of(const std::filesystem::path& part, Stage last)
+{
+    Document document;
+    document.session.file = part;
+    document.session.options.flatten.material = find_material(document.material, materials_folder);
+    for (const Stage stage : chain)
+        if (stage <= last)
+            document.session = run_stage(stage, document.session);
+    return document;
+}
+
+inline const std::filesystem::path dome = SPIA_SOURCE_DIR "/assets/parts/dome.obj";
+
+} // namespace spia::viewer
