@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <fmt/core.h>
-#include <numeric>
 
 #include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
@@ -151,37 +150,58 @@ struct ViewerModel::Apply {
     }
 
     // --- picking
-    void select(const std::vector<int>& faces, PickMode mode, const char* name)
+    void select(std::vector<int> faces, PickMode mode, const char* name)
     {
-        std::vector<int> wanted = faces, result;
-        std::sort(wanted.begin(), wanted.end());
-        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-        if (!wanted.empty() && (wanted.front() < 0 || wanted.back() >= part().mesh.triangles()))
-            throw InputError(
-                fmt::format("The part has no face {}.", wanted.front() < 0 ? wanted.front() : wanted.back()));
-        const std::vector<int>& now = document.selected;
-        switch (mode) {
-        case PickMode::replace: result = wanted; break;
-        case PickMode::add:
-            std::set_union(now.begin(), now.end(), wanted.begin(), wanted.end(), std::back_inserter(result));
-            break;
-        case PickMode::remove:
-            std::set_difference(now.begin(), now.end(), wanted.begin(), wanted.end(), std::back_inserter(result));
-            break;
-        }
-        if (result == now)
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        if (!faces.empty() && (faces.front() < 0 || faces.back() >= part().mesh.triangles()))
+            throw InputError(fmt::format("The part has no face {}.", faces.front() < 0 ? faces.front() : faces.back()));
+        FaceSet result = picked(document.selected, faces, mode);
+        if (result == document.selected)
             return;
         change(name, name == std::string_view("Brush faces"));
         document.selected = std::move(result);
     }
     void operator()(const SelectFaces& action) { select(action.faces, action.mode, "Select faces"); }
+    /// What a picking tool needs of the view it is used in.
+    const RayPicker& picker(View view)
+    {
+        if (const RayPicker* found = model.pickers_.picker(session, view))
+            return *found;
+        throw InputError(view == View::blank ? "Unfold the part first." : "Open a part first.");
+    }
+    const Camera& camera(View view) const { return state.view.camera[size_t(view)]; }
+    void operator()(const PickAt& action)
+    {
+        const RayPicker& on = picker(action.view);
+        select(faces_at(action, camera(action.view), on, model.pickers_.regions(session)), action.mode,
+               action.flood    ? "Flood fill"
+               : action.smooth ? "Select smooth region"
+                               : "Pick face");
+    }
+    void operator()(const PickArea& action)
+    {
+        const RayPicker& on = picker(action.view);
+        select(faces_in(action, camera(action.view), *model.pickers_.mesh(session, action.view), on), action.mode,
+               action.polygon.size() == 4 ? "Select by box" : "Select by lasso");
+    }
+    void operator()(const PickBrush& action)
+    {
+        const RayPicker& on = picker(action.view);
+        select(faces_under(action, camera(action.view), *model.pickers_.mesh(session, action.view), on), action.mode,
+               "Brush faces");
+    }
+    void operator()(const GrowSelection&)
+    {
+        select(grown(part().mesh, document.selected), PickMode::replace, "Grow selection");
+    }
+    void operator()(const ShrinkSelection&)
+    {
+        select(shrunk(part().mesh, document.selected), PickMode::replace, "Shrink selection");
+    }
     void operator()(const InvertSelection&)
     {
-        std::vector<int> all(size_t(part().mesh.triangles())), rest;
-        std::iota(all.begin(), all.end(), 0);
-        std::set_difference(all.begin(), all.end(), document.selected.begin(), document.selected.end(),
-                            std::back_inserter(rest));
-        select(rest, PickMode::replace, "Invert selection");
+        select(inverted(document.selected, part().mesh.triangles()), PickMode::replace, "Invert selection");
     }
     void operator()(const ClearSelection&) { select({}, PickMode::replace, "Clear selection"); }
 
@@ -299,6 +319,31 @@ struct ViewerModel::Apply {
             throw InputError("Cancel the running job first; then undo.");
         (state.history.*way)(document);
         state.unsaved = true;
+    }
+    void operator()(const OpenProject& action)
+    {
+        if (model.chain_job_)
+            model.chain_job_.reset();
+        Project project = open_project(action.file, model.assets() / "materials");
+        state.messages.clear();
+        state.history = History{};
+        document = project.document;
+        state.project = project.recovers.empty() ? action.file : project.recovers;
+        state.unsaved = !project.recovers.empty();
+        model.next_.reset();
+        model.project_ = std::move(project);
+        model.opening_ = true;
+        model.start(Stage::read, Stage::read, "Opening " + action.file.filename().string());
+    }
+    void operator()(const SaveProject& action)
+    {
+        const std::filesystem::path file = action.file.empty() ? state.project : action.file;
+        if (file.empty())
+            throw InputError("Give the project a name: Save project as.");
+        save_project(file, document, state.view);
+        state.project = file;
+        state.unsaved = false;
+        model.say(Severity::done, fmt::format("Saved {}", file.string()));
     }
     void operator()(const ExportFiles& action)
     {

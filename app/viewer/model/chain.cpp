@@ -10,7 +10,7 @@ bool same(const ReadOptions& a, const ReadOptions& b) { return a.unit == b.unit 
 bool same(const FlattenOptions& a, const FlattenOptions& b)
 {
     return a.material == b.material && a.thickness == b.thickness && a.direction == b.direction &&
-           a.friction == b.friction;
+           a.friction.size() == b.friction.size() && a.friction == b.friction;
 }
 
 bool same(const GridOptions& a, const GridOptions& b)

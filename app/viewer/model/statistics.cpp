@@ -45,7 +45,8 @@ std::vector<int> worst_spots(const TriMesh& part, const Eigen::VectorXd& value, 
     const double apart = 0.1 * bounding_diagonal(part);
     const auto middle = [&](int f) -> Eigen::Vector3d {
         return (part.position.col(part.triangle(0, f)) + part.position.col(part.triangle(1, f)) +
-                part.position.col(part.triangle(2, f))) / 3;
+                part.position.col(part.triangle(2, f))) /
+               3;
     };
     std::vector<int> spots;
     for (const int f : order) {

@@ -146,6 +146,8 @@ void ViewerModel::take_chain_result()
     document.made_with.flatten.watch = nullptr;
     if (std::exchange(opening_, false))
         part_opened();
+    if (project_)
+        project_opened();
     if (!had_blank && document.session.blank)
         fit(View::blank);
     if (result.cancelled)
@@ -187,6 +189,39 @@ void ViewerModel::part_opened()
     for (const Finding& finding : document.session.part->doctor.findings)
         say(finding.severity == spia::Severity::repaired ? Severity::warning : Severity::hint,
             finding.text + (finding.advice.empty() ? "" : "; " + finding.advice));
+}
+
+/// The picks of a project on its part, which may have changed since; then the stages it had.
+void ViewerModel::project_opened()
+{
+    const Project project = std::move(*std::exchange(project_, std::nullopt));
+    Document& document = state_.document;
+    if (!document.session.part)
+        return;
+    for (const std::string& lost : restore_picks(document, project.picks))
+        say(Severity::warning, lost);
+    state_.view = project.view;
+    if (project.ran && *project.ran > Stage::read)
+        next_ = project.ran;
+}
+
+void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size)
+{
+    hover_nothing();
+    const RayPicker* picker = pickers_.picker(state_.document.session, view);
+    if (!picker)
+        return;
+    const RayHit hit = hit_at(state_.view.camera[size_t(view)], *picker, pixel, size);
+    if (hit.face < 0)
+        return;
+    state_.hovered = hit.face;
+    under_mouse_ = Probe{hit.face, hit.barycentric};
+}
+
+void ViewerModel::hover_nothing()
+{
+    state_.hovered.reset();
+    under_mouse_.reset();
 }
 
 void ViewerModel::fit(std::optional<View> only)

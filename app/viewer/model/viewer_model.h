@@ -6,6 +6,8 @@
 
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/pickers.h"
+#include "app/viewer/model/project_file.h"
 #include "engine/core/job.h"
 #include "engine/core/mailbox.h"
 
@@ -34,8 +36,14 @@ public:
     /// Says something to the user.
     void say(Severity severity, std::string text);
 
-    /// What is under the mouse.
-    void hover(std::optional<int> face) { state_.hovered = face; }
+    /// What a view shows at a pixel: the face there becomes the hovered one.
+    void hover(View view, glm::dvec2 pixel, glm::dvec2 size);
+    void hover_nothing();
+    /// The place of the part under the mouse.
+    const std::optional<Probe>& under_mouse() const { return under_mouse_; }
+    Pickers& pickers() { return pickers_; }
+    /// Whether a job is running; closing the window then cancels it.
+    bool busy() const { return chain_job_ || export_job_; }
     /// The size of a view on the screen: what "fit" fills. Pixels.
     void resized(View view, glm::dvec2 size) { size_[size_t(view)] = size; }
 
@@ -50,6 +58,7 @@ private:
     void take_export_result();
     void fit(std::optional<View> view);
     void part_opened();
+    void project_opened();
 
     std::filesystem::path assets_;
     std::function<void()> wake_;
@@ -58,8 +67,11 @@ private:
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
-    std::optional<Stage> next_; ///< run this far when the running job has ended
-    bool opening_ = false;      ///< the running job reads a new part
+    std::optional<Stage> next_;      ///< run this far when the running job has ended
+    bool opening_ = false;           ///< the running job reads a new part
+    std::optional<Project> project_; ///< waits for its part
+    Pickers pickers_;
+    std::optional<Probe> under_mouse_;
 };
 
 } // namespace spia::viewer
