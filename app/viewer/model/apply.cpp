@@ -65,6 +65,10 @@ struct ViewerModel::Apply {
     }
     void operator()(const RunTo& action)
     {
+        if (model.opening_) { // as soon as the part is there
+            model.next_ = action.stage;
+            return;
+        }
         if (!first_stale(document) || *first_stale(document) > action.stage) {
             model.say(Severity::hint, "Everything is up to date.");
             return;

@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
+#include "engine/mesh/topology.h"
+
+namespace spia::viewer {
+namespace {
+
+Status status(const Frame& frame, Stage stage, bool there)
+{
+    const auto stale = first_stale(frame.state.document);
+    if (!there)
+        return Status::nothing;
+    return stale && *stale <= stage ? Status::stale : Status::done;
+}
+
+void part_step(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    step_heading(frame, 1, "Part", status(frame, Stage::read, session.part != nullptr));
+    if (ImGui::Button("Open..."))
+        frame.ui.files.open(FileDialog::Purpose::open_part, session.file);
+    tooltip("STL, OBJ, PLY, OFF, glTF or GLB. You can also drop a file on the window.");
+    if (!session.part)
+        return;
+    const PartFile& part = *session.part;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(70 * frame.ui.scale);
+    static constexpr const char* units[] = {"mm", "cm", "m", "inch"};
+    int unit = int(part.unit);
+    if (ImGui::Combo("##unit", &unit, units, 4))
+        frame.actions.push(SetUnit{units[unit]});
+    tooltip("Length unit of the file");
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(session.file.filename().string().c_str());
+    ImGui::PopTextWrapPos();
+    const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
+    figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
+    figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
+    if (!part.doctor.findings.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).warning);
+        const bool open = ImGui::TreeNode("doctor", "%d notes on the mesh", int(part.doctor.findings.size()));
+        ImGui::PopStyleColor();
+        if (open) {
+            for (const Finding& finding : part.doctor.findings) {
+                ImGui::PushTextWrapPos(0);
+                ImGui::TextUnformatted(finding.text.c_str());
+                ImGui::PopTextWrapPos();
+                if (finding.first >= 0) {
+                    const auto face = std::find(part.source_face.begin(), part.source_face.end(), finding.first);
+                    ImGui::PushID(&finding);
+                    if (face != part.source_face.end() && ImGui::SmallButton("Show"))
+                        frame.actions.push(FlyTo{int(face - part.source_face.begin())});
+                    ImGui::PopID();
+                }
+                if (!finding.advice.empty())
+                    muted(frame, finding.advice);
+            }
+            ImGui::TreePop();
+        }
+    }
+}
+
+void sheet_step(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    step_heading(frame, 2, "Sheet", document.session.part ? Status::done : Status::nothing);
+    ImGui::SetNextItemWidth(-1);
+    const auto shown = std::filesystem::path(document.material).filename().string();
+    if (ImGui::BeginCombo("##material", shown.c_str())) {
+        for (const std::string& grade : frame.ui.grades)
+            if (ImGui::Selectable(grade.c_str(), grade == document.material))
+                frame.actions.push(SetMaterial{grade});
+        ImGui::Separator();
+        if (ImGui::Selectable("Own material file..."))
+            frame.ui.files.open(FileDialog::Purpose::open_material, frame.model.assets() / "materials");
+        ImGui::EndCombo();
+    }
+    const Material& material = document.session.options.flatten.material;
+    tooltip(fmt::format("{}\n{}", material.name, material.source));
+    double thickness = document.session.options.flatten.thickness;
+    ImGui::SetNextItemWidth(110 * frame.ui.scale);
+    if (ImGui::InputDouble("Thickness, mm", &thickness, 0.05, 0.2, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue) ||
+        (ImGui::IsItemDeactivatedAfterEdit() && thickness != document.session.options.flatten.thickness))
+        frame.actions.push(SetThickness{thickness});
+    tooltip("Of the flat sheet, before forming");
+}
+
+void unfold_step(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    step_heading(frame, 3, "Unfold", status(frame, Stage::solve, session.blank != nullptr));
+    const auto stale = first_stale(frame.state.document);
+    ImGui::BeginDisabled(!session.part || !stale || *stale > Stage::solve || frame.state.job.running);
+    if (ImGui::Button("Unfold"))
+        frame.actions.push(RunTo{Stage::solve});
+    ImGui::EndDisabled();
+    tooltip("Finds the flat blank that one forming step turns into the part  (F6)");
+    if (!session.blank)
+        return;
+    const FlattenResult& flat = *session.blank;
+    const Palette p = palette_of(frame.state.view.dark);
+    const bool fine = flat.report.system == SolvedSystem::strict;
+    ImGui::SameLine();
+    ImGui::TextColored(fine ? p.good : p.warning, fine                    ? "converged"
+                                                  : flat.report.converged ? "converged, relaxed"
+                                                                          : "not converged");
+    tooltip(flat.report.reason);
+    const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
+    figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
+    figure(
+        frame, "Thinning",
+        fmt::format("{:+.1f} to {:+.1f} %", 100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff()));
+    figure(frame, "Equivalent strain", fmt::format("up to {:.3f}", flat.face.strain_equivalent.maxCoeff()));
+    if (flat.necking_triangles > 0) {
+        ImGui::PushStyleColor(ImGuiCol_Text, p.warning);
+        figure(frame, "Beyond trusted strain", fmt::format("{} triangles", flat.necking_triangles));
+        ImGui::PopStyleColor();
+    }
+    figure(
+        frame, "Steps",
+        fmt::format("{} + {} in {:.2g} s", flat.report.energy.size(), flat.report.newton.size(), flat.report.seconds));
+}
+
+void grid_step(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    step_heading(frame, 4, "Corners and grid", status(frame, Stage::grid, session.grid != nullptr));
+    if (!session.blank) {
+        muted(frame, "Comes after the blank.");
+        return;
+    }
+    ImGui::BeginDisabled(!session.options.corners);
+    if (ImGui::Button("Propose corners"))
+        frame.actions.push(ProposeCorners{});
+    ImGui::EndDisabled();
+    tooltip("Chooses the four corners anew. Or drag them along the outline of the blank.");
+    GridOptions grid = session.options.grid;
+    bool changed = false;
+    const float width = 110 * frame.ui.scale;
+    const bool automatic = grid.columns == 0 && grid.rows == 0;
+    bool square = automatic;
+    if (ImGui::Checkbox("Square cells", &square)) {
+        grid.columns = square || !session.grid ? 0 : session.grid->result.planar.columns;
+        grid.rows = square || !session.grid ? 0 : session.grid->result.planar.rows;
+        changed = true;
+    }
+    tooltip("Only the cells on the longer sides are chosen, the others follow");
+    ImGui::SetNextItemWidth(width);
+    const auto edited = [&] { return ImGui::IsItemDeactivatedAfterEdit(); };
+    if (automatic) {
+        ImGui::InputInt("Cells", &grid.cells, 5, 20);
+        grid.cells = std::clamp(grid.cells, 1, 2000);
+        changed |= edited() || (grid.cells != session.options.grid.cells && !ImGui::IsItemActive());
+    } else {
+        int counts[2] = {grid.columns, grid.rows};
+        ImGui::InputInt2("Columns, rows", counts);
+        changed |= edited();
+        grid.columns = std::clamp(counts[0], 1, 2000);
+        grid.rows = std::clamp(counts[1], 1, 2000);
+    }
+    static constexpr const char* methods[] = {"automatic", "Coons", "harmonic"};
+    int method = int(grid.method);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::Combo("Method", &method, methods, 3)) {
+        grid.method = GridMethod(method);
+        changed = true;
+    }
+    tooltip(
+        "Coons is the paper's patch, smoothed if it folds; automatic falls back on the harmonic map, which folds no cell");
+    if (changed)
+        frame.actions.push(SetGrid{grid});
+    if (session.grid) {
+        const GridResult& result = session.grid->result;
+        const Palette p = palette_of(frame.state.view.dark);
+        figure(frame, "Cells", fmt::format("{} x {}", result.planar.columns, result.planar.rows));
+        figure(frame, "Way", std::string(name(result.route)));
+        ImGui::PushStyleColor(ImGuiCol_Text,
+                              result.quality.folded_cells ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+        figure(frame, "Folded cells", fmt::format("{}", result.quality.folded_cells));
+        ImGui::PopStyleColor();
+        figure(frame, "Worst scaled Jacobian", fmt::format("{:.3f}", result.quality.min_scaled_jacobian));
+        std::string lengths;
+        for (const auto& side : session.grid->boundary.side) {
+            double length = 0;
+            for (size_t i = 1; i < side.size(); ++i)
+                length += (session.blank->blank.position.col(side[i]) - session.blank->blank.position.col(side[i - 1]))
+                              .norm();
+            lengths += fmt::format("{}{:.0f}", lengths.empty() ? "" : ", ", length);
+        }
+        figure(frame, "Sides", lengths + " mm");
+    }
+}
+
+void surface_step(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    step_heading(frame, 5, "NURBS surface", status(frame, Stage::fit, session.surface != nullptr));
+    if (!session.surface) {
+        muted(frame, "Comes after the grid.");
+        return;
+    }
+    const SurfaceStage& surface = *session.surface;
+    static constexpr const char* ends[] = {"averaged knots", "natural (paper)"};
+    int natural = session.options.interpolate.ends == InterpolateOptions::Ends::natural;
+    ImGui::SetNextItemWidth(150 * frame.ui.scale);
+    if (ImGui::Combo("Ends", &natural, ends, 2))
+        frame.actions.push(SetEnds{natural == 1});
+    tooltip("Averaged knots keep order 4 up to the border; natural ends, as in the paper, lose two orders there");
+    figure(frame, "Control points",
+           fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
+    figure(frame, "Deviation, max", fmt::format("{:.3g} mm", surface.deviation.max()));
+    figure(frame, "rms",
+           fmt::format("{:.3g} mm",
+                       std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
+    figure(frame, "95 % within",
+           fmt::format("{:.3g} mm",
+                       std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
+}
+
+void regions_section(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (!document.session.part || !ImGui::CollapsingHeader("Regions", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    static constexpr const char* kinds[] = {"fixed", "binder", "pad", "material", "other"};
+    const Palette p = palette_of(frame.state.view.dark);
+    for (size_t k = 0; k < document.regions.size(); ++k) {
+        const FaceRegion& region = document.regions[k];
+        ImGui::PushID(int(k));
+        Colour colour = region.colour;
+        if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
+            frame.actions.push(ChangeRegion{int(k), region.name, region.kind, colour});
+        ImGui::SameLine();
+        if (ImGui::Selectable(fmt::format("{}  ({})", region.name, region.faces.size()).c_str(), false, 0,
+                              {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
+            frame.actions.push(SelectRegion{int(k), ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
+        tooltip(fmt::format("{} region of {} faces; click selects them", name(region.kind), region.faces.size()));
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x"))
+            frame.actions.push(RemoveRegion{int(k)});
+        tooltip("Remove this region (its faces stay)");
+        ImGui::PopID();
+    }
+    if (document.selected.empty()) {
+        coloured(p.muted, document.regions.empty()
+                              ? "Select faces with a picking tool, then name them here: fixed region, binder, pad."
+                              : "Select faces to make another region.");
+        return;
+    }
+    int kind = int(frame.ui.region_kind);
+    ImGui::SetNextItemWidth(90 * frame.ui.scale);
+    if (ImGui::Combo("##kind", &kind, kinds, 5))
+        frame.ui.region_kind = RegionKind(kind);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    text_input("##regionname", frame.ui.region_name, false, "name (optional)");
+    if (ImGui::Button(fmt::format("Make region of {} faces", document.selected.size()).c_str(), {-1, 0})) {
+        frame.actions.push(MakeRegion{frame.ui.region_name, frame.ui.region_kind});
+        frame.ui.region_name.clear();
+    }
+}
+
+} // namespace
+
+void steps_panel(Frame& frame)
+{
+    const float footer = ImGui::GetFrameHeight() * 1.15f + 2 * ImGui::GetStyle().ItemSpacing.y;
+    ImGui::BeginChild("steps", {0, -footer});
+    part_step(frame);
+    sheet_step(frame);
+    unfold_step(frame);
+    grid_step(frame);
+    surface_step(frame);
+    ImGui::Dummy({0, 4 * frame.ui.scale});
+    regions_section(frame);
+    ImGui::EndChild();
+    const Document& document = frame.state.document;
+    ImGui::Dummy({0, 1});
+    if (frame.state.job.running) {
+        if (primary_button(frame, frame.state.job.cancelling ? "Stopping..." : "Cancel", !frame.state.job.cancelling))
+            frame.actions.push(CancelJob{});
+    } else if (!document.session.part) {
+        if (primary_button(frame, "Open a part..."))
+            frame.ui.files.open(FileDialog::Purpose::open_part);
+    } else if (first_stale(document)) {
+        if (primary_button(frame, document.session.surface ? "Update all" : "Unfold and fit a surface"))
+            frame.actions.push(RunTo{Stage::fit});
+        tooltip("Runs every step that is missing or out of date  (F5)");
+    } else if (primary_button(frame, "Export..."))
+        frame.ui.show_export = true;
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <imgui.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/model/actions.h"
+#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/panels/file_dialog.h"
+#include "app/viewer/panels/theme.h"
+#include "app/viewer/views/scene_cache.h"
+
+namespace spia::viewer {
+
+/// What the panels remember from frame to frame and nobody else needs to know.
+struct Ui {
+    Fonts fonts;
+    float scale = 1; ///< of the screen: 1 for 96 dots per inch
+    float left_width = 300, right_width = 320;
+    bool show_left = true, show_right = true, show_shortcuts = false, show_export = false;
+    FileDialog files;
+    std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
+
+    // the view the mouse is busy in
+    std::optional<View> busy;
+    bool turning = false, panning = false;
+    std::optional<int> dragged_corner;
+    std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
+    std::array<ImVec2, 4> view_from{}, view_size{};
+
+    // the export dialog
+    std::string export_folder = "spia-out";
+    std::vector<std::string> export_formats = {"iges", "step", "glb"};
+
+    std::string region_name;
+    RegionKind region_kind = RegionKind::fixed;
+    bool brushing_diagram = false;
+    ImVec2 brush_from{};
+
+    std::vector<std::filesystem::path> recent;
+};
+
+/// Everything a panel may look at and act through.
+struct Frame {
+    ViewerModel& model;
+    const ViewerState& state;
+    ActionQueue& actions;
+    Ui& ui;
+    SceneCache& cache;
+    /// Draws a view of this size (pixels) and gives its texture for ImGui.
+    std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
+};
+
+void menu_bar(Frame& frame);
+void steps_panel(Frame& frame);
+void inspect_panel(Frame& frame);
+void view_area(Frame& frame);
+void status_bar(Frame& frame);
+void dialogs(Frame& frame);
+/// Keyboard shortcuts, unless a text is being typed.
+void shortcuts(Frame& frame);
+
+/// The whole window.
+void workbench(Frame& frame);
+
+} // namespace spia::viewer

@@ -1,0 +1,393 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/widgets.h"
+#include "app/viewer/views/colour_scale.h"
+#include "app/viewer/views/colours.h"
+#include "app/viewer/views/views.h"
+
+namespace spia::viewer {
+namespace {
+
+const char* title(View view)
+{
+    switch (view) {
+    case View::part: return "Part";
+    case View::blank: return "Blank";
+    case View::quads: return "Quad mesh";
+    case View::surface: return "NURBS surface";
+    }
+    return "";
+}
+
+glm::dvec2 vec(ImVec2 v) { return {v.x, v.y}; }
+
+/// Text with an outline that is read on any ground.
+void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* text)
+{
+    for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1), ImVec2(-1, -1), ImVec2(1, 1),
+                           ImVec2(1, -1), ImVec2(-1, 1)})
+        draw->AddText({at.x + d.x, at.y + d.y}, halo, text);
+    draw->AddText(at, colour, text);
+}
+
+/// Name and unit of what the colours of a view mean; empty: nothing.
+std::string legend_title(const Frame& frame, View view)
+{
+    switch (view) {
+    case View::part:
+    case View::blank: {
+        const FieldInfo& field = info(frame.state.document.display.field);
+        return field.unit.empty() ? std::string(field.label) : fmt::format("{}, {}", field.label, field.unit);
+    }
+    case View::quads: return "Scaled Jacobian";
+    case View::surface: return "Deviation, mm";
+    }
+    return "";
+}
+
+void legend(const Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw)
+{
+    const auto layer =
+        std::find_if(scene.layers.begin(), scene.layers.end(), [](const SceneLayer& l) { return l.field != nullptr; });
+    if (layer == scene.layers.end() || size.y < 180 * frame.ui.scale || size.x < 200 * frame.ui.scale)
+        return;
+    const ColourScale& scale = layer->scale;
+    const float s = frame.ui.scale, height = std::min(200 * s, size.y - 110 * s), width = 13 * s;
+    const ImVec2 low{from.x + 14 * s, from.y + size.y - 18 * s}, high{low.x + width, low.y - height};
+    const bool dark = frame.state.view.dark;
+    const ImU32 text = dark ? IM_COL32(235, 238, 242, 255) : IM_COL32(24, 28, 34, 255),
+                halo = dark ? IM_COL32(20, 24, 30, 200) : IM_COL32(255, 255, 255, 200);
+    constexpr int strips = 64;
+    for (int k = 0; k < strips; ++k) {
+        const float value = scale.least + (float(k) + 0.5f) / strips * (scale.greatest - scale.least);
+        draw->AddRectFilled({low.x, low.y - height * float(k + 1) / strips},
+                            {high.x, low.y - height * float(k) / strips + 0.5f}, ink(colour_of(scale, value)));
+    }
+    draw->AddRect({low.x, high.y}, {high.x, low.y}, text);
+    ImGui::PushFont(frame.ui.fonts.small);
+    const int ticks = scale.bands > 0 ? scale.bands : scale.ticks;
+    const int every = std::max(1, int(std::ceil(double(ticks) * 18 * s / height)));
+    for (int k = 0; k <= ticks; k += every) {
+        const float y = low.y - height * float(k) / float(ticks);
+        double value = scale.least + double(k) / ticks * (scale.greatest - scale.least);
+        if (std::abs(value) < 1e-6 * (scale.greatest - scale.least))
+            value = 0;
+        draw->AddLine({high.x, y}, {high.x + 4 * s, y}, text);
+        haloed(draw, {high.x + 7 * s, y - ImGui::GetTextLineHeight() / 2}, text, halo,
+               fmt::format("{:.4g}", value).c_str());
+    }
+    haloed(draw, {low.x, high.y - 1.5f * ImGui::GetTextLineHeight()}, text, halo, legend_title(frame, view).c_str());
+    ImGui::PopFont();
+}
+
+struct Mouse {
+    glm::dvec2 pixel, size;
+    bool inside;
+};
+
+/// All cameras that turn together with this one.
+void take_camera(ViewSettings& settings, View view, const Camera& camera)
+{
+    settings.camera[size_t(view)] = camera;
+    if (settings.linked && view != View::blank)
+        for (const View other : all_views)
+            if (other != View::blank)
+                settings.camera[size_t(other)] = camera;
+}
+
+/// Turning, panning and zooming.
+void navigate(Frame& frame, View view, const Mouse& mouse)
+{
+    ImGuiIO& io = ImGui::GetIO();
+    Ui& ui = frame.ui;
+    const Tool tool = frame.state.view.tool;
+    if (mouse.inside && !ui.busy) {
+        const bool left_turns = tool == Tool::look && !ui.dragged_corner;
+        if (ImGui::IsMouseClicked(2) || (ImGui::IsMouseClicked(1) && io.KeyShift)) {
+            ui.busy = view;
+            ui.panning = true;
+        } else if (ImGui::IsMouseClicked(1) || (left_turns && ImGui::IsMouseClicked(0))) {
+            ui.busy = view;
+            ui.turning = true;
+        }
+    }
+    Camera camera = frame.state.view.camera[size_t(view)];
+    const Camera before = camera;
+    const glm::dvec2 drag(io.MouseDelta.x, io.MouseDelta.y);
+    if (ui.busy == view && (ui.turning || ui.panning)) {
+        if (drag != glm::dvec2(0))
+            camera = ui.panning ? pan(camera, drag, mouse.size) : orbit(camera, drag, mouse.size);
+        if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
+            ui.busy.reset();
+            ui.turning = ui.panning = false;
+        }
+    }
+    if (mouse.inside && io.MouseWheel != 0)
+        camera = zoom(camera, std::pow(1.15, io.MouseWheel), mouse.pixel, mouse.size);
+    if (camera != before) {
+        ViewSettings settings = frame.state.view;
+        take_camera(settings, view, camera);
+        frame.actions.push(SetViewSettings{settings});
+    }
+}
+
+PickMode mode()
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    return io.KeyShift ? PickMode::add : io.KeyCtrl ? PickMode::remove : PickMode::replace;
+}
+
+/// The corners of the blank follow the mouse along the outline.
+void drag_corners(Frame& frame, const Mouse& mouse)
+{
+    const Session& session = frame.state.document.session;
+    Ui& ui = frame.ui;
+    if (!session.blank || !session.grid)
+        return;
+    const Camera& camera = frame.state.view.camera[size_t(View::blank)];
+    if (!ui.dragged_corner && mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy)
+        for (int k = 0; k < 4; ++k) {
+            const Eigen::Vector2d at = session.blank->blank.position.col(session.grid->boundary.corner[size_t(k)]);
+            const glm::dvec3 pixel = pixel_of(camera, {at[0], at[1], 0}, mouse.size);
+            if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale)
+                ui.dragged_corner = k;
+        }
+    if (!ui.dragged_corner)
+        return;
+    const int vertex = nearest_boundary_vertex(frame.model.pickers().track(session), camera, mouse.pixel, mouse.size);
+    const bool down = ImGui::IsMouseDown(0);
+    const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
+    if (!down || vertex != now)
+        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, down});
+    if (!down)
+        ui.dragged_corner.reset();
+}
+
+void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
+{
+    Ui& ui = frame.ui;
+    const ViewSettings& settings = frame.state.view;
+    if (view == View::blank && (settings.tool == Tool::corners || settings.tool == Tool::look))
+        drag_corners(frame, mouse);
+    if (settings.tool == Tool::look || settings.tool == Tool::corners || !frame.state.document.session.part)
+        return;
+    const bool clicked = mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy;
+    const Palette p = palette_of(settings.dark);
+    switch (settings.tool) {
+    case Tool::pick:
+    case Tool::flood:
+    case Tool::smooth_region:
+        if (clicked)
+            frame.actions.push(PickAt{view, mouse.pixel, mouse.size, mode(),
+                                      settings.tool == Tool::flood ? std::optional(settings.flood_angle) : std::nullopt,
+                                      settings.tool == Tool::smooth_region});
+        return;
+    case Tool::probe:
+        if (clicked)
+            if (const auto probe = probe_at(
+                    settings.camera[size_t(view)], *frame.model.pickers().mesh(frame.state.document.session, view),
+                    *frame.model.pickers().picker(frame.state.document.session, view), mouse.pixel, mouse.size))
+                frame.actions.push(AddProbe{*probe});
+        return;
+    case Tool::brush:
+        if (clicked) {
+            ui.busy = view;
+            if (mode() == PickMode::replace)
+                frame.actions.push(ClearSelection{});
+        }
+        if (mouse.inside)
+            draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
+                            float(settings.brush_radius), ink(p.accent), 32, 1.5f);
+        if (ui.busy == view && !ui.turning && !ui.panning) {
+            if (ImGui::IsMouseDown(0))
+                frame.actions.push(PickBrush{view, mouse.pixel, settings.brush_radius, mouse.size,
+                                             mode() == PickMode::remove ? PickMode::remove : PickMode::add,
+                                             settings.through});
+            else
+                ui.busy.reset();
+        }
+        return;
+    case Tool::box:
+    case Tool::lasso:
+        if (clicked) {
+            ui.busy = view;
+            ui.trail = {mouse.pixel};
+        }
+        if (ui.busy != view || ui.trail.empty())
+            return;
+        if (settings.tool == Tool::box) {
+            const glm::dvec2 a = ui.trail[0], b = mouse.pixel;
+            ui.trail = {a, {b.x, a.y}, b, {a.x, b.y}};
+        } else if (glm::length(ui.trail.back() - mouse.pixel) > 3)
+            ui.trail.push_back(mouse.pixel);
+        {
+            std::vector<ImVec2> shown;
+            for (const glm::dvec2& point : ui.trail)
+                shown.push_back({from.x + float(point.x), from.y + float(point.y)});
+            draw->AddPolyline(shown.data(), int(shown.size()), ink(p.accent), ImDrawFlags_Closed, 1.5f);
+        }
+        if (!ImGui::IsMouseDown(0)) {
+            frame.actions.push(PickArea{view, ui.trail, mouse.size, mode(), settings.through});
+            ui.trail.clear();
+            ui.busy.reset();
+        } else if (settings.tool == Tool::box)
+            ui.trail.resize(1);
+        return;
+    default: return;
+    }
+}
+
+void view_buttons(Frame& frame, View view)
+{
+    const auto button = [&](const char* label, const char* help, auto action) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton(label))
+            action();
+        tooltip(help);
+    };
+    const bool maximised = frame.state.view.maximised == view;
+    const float s = frame.ui.scale;
+    const char* names[] = {"Fit", "Iso", "Top", "Front", "Right"};
+    float width = ImGui::CalcTextSize(maximised ? "Four views" : "Enlarge").x + 12 * s;
+    for (size_t k = 0; k < (view == View::blank ? 1u : 5u); ++k)
+        width += ImGui::CalcTextSize(names[k]).x + 20 * s;
+    if (ImGui::GetContentRegionAvail().x < width + 110 * s) { // a narrow view keeps the two that matter
+        width = ImGui::CalcTextSize("Fit").x + ImGui::CalcTextSize(maximised ? "Four views" : "Enlarge").x + 30 * s;
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+        ImGui::Dummy({0, 0});
+        button("Fit", "Show all of it  (F)", [&] { frame.actions.push(FitView{view}); });
+    } else {
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+        ImGui::Dummy({0, 0});
+        button("Fit", "Show all of it  (F)", [&] { frame.actions.push(FitView{view}); });
+        if (view != View::blank) {
+            button("Iso", "From the front right above", [&] {
+                frame.actions.push(LookFrom{view, StandardView::isometric});
+            });
+            button("Top", "From above", [&] { frame.actions.push(LookFrom{view, StandardView::top}); });
+            button("Front", "From the front", [&] { frame.actions.push(LookFrom{view, StandardView::front}); });
+            button("Right", "From the right", [&] { frame.actions.push(LookFrom{view, StandardView::right}); });
+        }
+    }
+    button(maximised ? "Four views" : "Enlarge", "Or double-click the title", [&] {
+        ViewSettings settings = frame.state.view;
+        settings.maximised = maximised ? std::nullopt : std::optional(view);
+        frame.actions.push(SetViewSettings{settings});
+    });
+}
+
+void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    const float bar = ImGui::GetTextLineHeight() + 10 * frame.ui.scale;
+    ImGui::SetNextWindowPos(at);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * frame.ui.scale, 4 * frame.ui.scale});
+    ImGui::BeginChild(title(view), whole, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                          ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted(title(view));
+    ImGui::PopFont();
+    ImGui::PushFont(frame.ui.fonts.small);
+    view_buttons(frame, view);
+    ImGui::PopFont();
+    const bool in_title = ImGui::IsMouseHoveringRect(at, {at.x + whole.x, at.y + bar}) && ImGui::IsWindowHovered();
+    if (in_title && ImGui::IsMouseDoubleClicked(0)) {
+        ViewSettings settings = frame.state.view;
+        settings.maximised = settings.maximised == view ? std::nullopt : std::optional(view);
+        frame.actions.push(SetViewSettings{settings});
+    }
+
+    const ImVec2 from{at.x, at.y + bar}, size{whole.x, std::max(1.f, whole.y - bar)};
+    frame.ui.view_from[size_t(view)] = from;
+    frame.ui.view_size[size_t(view)] = size;
+    frame.model.resized(view, vec(size));
+    const Scene shown = scene(view, frame.state, frame.cache);
+    const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
+    ImGui::SetCursorScreenPos(from);
+    ImGui::Image(frame.draw(shown, view, std::max(1, int(size.x * dots.x)), std::max(1, int(size.y * dots.y))), size,
+                 {0, 1}, {1, 0});
+    ImGui::SetCursorScreenPos(from);
+    ImGui::InvisibleButton("canvas", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    const Mouse mouse{vec(ImGui::GetMousePos()) - vec(from), vec(size), ImGui::IsItemHovered()};
+
+    draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
+    const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
+    for (const SceneLabel& label : shown.labels) {
+        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], label.place, mouse.size);
+        haloed(draw, {from.x + float(pixel.x) + 7, from.y + float(pixel.y) - 7 - ImGui::GetTextLineHeight() / 2},
+               ink(label.colour), halo, label.text.c_str());
+    }
+    if (!shown.empty.empty()) {
+        const float wrap = std::min(size.x - 40, 320 * frame.ui.scale);
+        const ImVec2 text = ImGui::CalcTextSize(shown.empty.c_str(), nullptr, false, wrap);
+        draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2}, ink(p.muted),
+                      shown.empty.c_str(), nullptr, wrap);
+    }
+    legend(frame, view, shown, from, size, draw);
+    use_tool(frame, view, mouse, from, draw);
+    draw->PopClipRect();
+    navigate(frame, view, mouse);
+    if (mouse.inside && !ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
+        frame.model.hover(view, mouse.pixel, mouse.size);
+    ImGui::EndChild();
+    draw->AddRect(at, {at.x + whole.x, at.y + whole.y}, ink(p.line));
+}
+
+/// A line between views that can be dragged. @returns the new share
+float splitter(const Frame& frame, const char* id, ImVec2 at, ImVec2 size, bool vertical, float share, float start,
+               float length)
+{
+    ImGui::SetCursorScreenPos(at);
+    ImGui::InvisibleButton(id, size);
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+        ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    if (ImGui::IsItemActive()) {
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y},
+                                                  ink(palette_of(frame.state.view.dark).accent));
+        const ImVec2 mouse = ImGui::GetMousePos();
+        return std::clamp(((vertical ? mouse.x : mouse.y) - start) / length, 0.15f, 0.85f);
+    }
+    return share;
+}
+
+} // namespace
+
+void view_area(Frame& frame)
+{
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+    frame.model.hover_nothing();
+    if (const auto only = frame.state.view.maximised) {
+        one_view(frame, *only, at, size);
+        return;
+    }
+    const float gap = 4 * frame.ui.scale;
+    ViewSettings settings = frame.state.view;
+    const float x = std::floor(size.x * settings.split_x), y = std::floor(size.y * settings.split_y);
+    const float split_x =
+        splitter(frame, "split_x", {at.x + x - gap / 2, at.y}, {gap, size.y}, true, settings.split_x, at.x, size.x);
+    const float split_y =
+        splitter(frame, "split_y", {at.x, at.y + y - gap / 2}, {size.x, gap}, false, settings.split_y, at.y, size.y);
+    if (split_x != settings.split_x || split_y != settings.split_y) {
+        settings.split_x = split_x;
+        settings.split_y = split_y;
+        frame.actions.push(SetViewSettings{settings});
+    }
+    const float left = x - gap / 2, right = size.x - x - gap / 2, upper = y - gap / 2, lower = size.y - y - gap / 2;
+    const auto place = [&](View view, float dx, float dy, float w, float h) {
+        ImGui::SetCursorScreenPos({at.x + dx, at.y + dy});
+        one_view(frame, view, {at.x + dx, at.y + dy}, {w, h});
+    };
+    place(View::part, 0, 0, left, upper);
+    place(View::blank, x + gap / 2, 0, right, upper);
+    place(View::quads, 0, y + gap / 2, left, lower);
+    place(View::surface, x + gap / 2, y + gap / 2, right, lower);
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,91 @@
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+
+bool primary_button(const Frame& frame, const char* label, bool enabled)
+{
+    const ImVec4 accent = palette_of(frame.state.view.dark).accent;
+    const auto shade = [&](float f) { return ImVec4(accent.x * f, accent.y * f, accent.z * f, 1); };
+    ImGui::BeginDisabled(!enabled);
+    ImGui::PushStyleColor(ImGuiCol_Button, shade(0.9f));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(1));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(0.8f));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 1, 1, 1));
+    ImGui::PushFont(frame.ui.fonts.bold);
+    const bool pressed = ImGui::Button(label, {-1, ImGui::GetFrameHeight() * 1.15f});
+    ImGui::PopFont();
+    ImGui::PopStyleColor(4);
+    ImGui::EndDisabled();
+    return pressed;
+}
+
+void step_heading(const Frame& frame, int number, const char* title, Status status)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    const float r = 10 * frame.ui.scale;
+    ImGui::Dummy({0, 3 * frame.ui.scale});
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const ImVec4 colour = status == Status::done     ? p.good
+                          : status == Status::stale  ? p.warning
+                          : status == Status::failed ? p.error
+                                                     : p.line;
+    draw->AddCircleFilled({at.x + r, at.y + r}, r, ink(colour), 24);
+    const std::string digit = std::to_string(number);
+    const ImVec2 size = ImGui::CalcTextSize(digit.c_str());
+    const bool dark_ink = status == Status::nothing ? !frame.state.view.dark : frame.state.view.dark;
+    draw->AddText({at.x + r - size.x / 2, at.y + r - size.y / 2},
+                  dark_ink ? IM_COL32(20, 24, 30, 255) : IM_COL32(255, 255, 255, 255), digit.c_str());
+    ImGui::SetCursorScreenPos({at.x + 2 * r + 8 * frame.ui.scale, at.y + r - ImGui::GetTextLineHeight() / 2});
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted(title);
+    ImGui::PopFont();
+    if (status == Status::stale) {
+        ImGui::SameLine();
+        ImGui::PushFont(frame.ui.fonts.small);
+        ImGui::TextColored(p.warning, "out of date");
+        ImGui::PopFont();
+    }
+    ImGui::SetCursorScreenPos({at.x, at.y + 2 * r + 4 * frame.ui.scale});
+}
+
+void muted(const Frame& frame, const std::string& text) { coloured(palette_of(frame.state.view.dark).muted, text); }
+
+void coloured(const ImVec4& colour, const std::string& text)
+{
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void figure(const Frame& frame, const char* name, const std::string& value)
+{
+    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+    ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
+    ImGui::TextUnformatted(name);
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    const float width = ImGui::CalcTextSize(value.c_str()).x;
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), right - width));
+    ImGui::TextUnformatted(value.c_str());
+}
+
+void tooltip(const std::string& text)
+{
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+ImU32 ink(const Colour& colour, float opacity)
+{
+    return ImGui::ColorConvertFloat4ToU32({colour[0], colour[1], colour[2], colour[3] * opacity});
+}
+
+} // namespace spia::viewer

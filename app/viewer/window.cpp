@@ -1,0 +1,426 @@
+#include "app/viewer/window.h"
+
+#include <epoxy/gl.h>
+// after epoxy
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <fmt/core.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+
+#include "app/viewer/model/html_report.h"
+#include "app/viewer/model/recent_files.h"
+#include "app/viewer/model/script.h"
+#include "app/viewer/model/state_report.h"
+#include "app/viewer/panels/ui.h"
+#include "app/viewer/render/picture_file.h"
+#include "app/viewer/render/renderer.h"
+#include "app/viewer/views/views.h"
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
+#include "engine/forming/material_library.h"
+
+namespace spia::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// GLFW, its window and the context of OpenGL.
+class GlWindow {
+public:
+    GlWindow(int width, int height, bool visible)
+    {
+        glfwSetErrorCallback([](int, const char* text) { last_error() = text; });
+        if (!glfwInit())
+            throw Error(
+                fmt::format("no window can be opened ({}); is there a display? Without one, use the command line: "
+                            "spia run PART",
+                            last_error()));
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        glfwWindowHint(GLFW_VISIBLE, visible);
+        glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+        window_ = glfwCreateWindow(width, height, "SPIA", nullptr, nullptr);
+        if (!window_) {
+            glfwTerminate();
+            throw Error(
+                fmt::format("this display offers no OpenGL 3.3 ({}); update the graphics driver, or use the command "
+                            "line: spia run PART",
+                            last_error()));
+        }
+        glfwMakeContextCurrent(window_);
+        glfwSwapInterval(1);
+    }
+    ~GlWindow()
+    {
+        glfwDestroyWindow(window_);
+        glfwTerminate();
+    }
+    GlWindow(const GlWindow&) = delete;
+    GlWindow& operator=(const GlWindow&) = delete;
+    GLFWwindow* get() const { return window_; }
+
+private:
+    static std::string& last_error()
+    {
+        static std::string text;
+        return text;
+    }
+    GLFWwindow* window_;
+};
+
+struct ImGuiContextOwner {
+    explicit ImGuiContextOwner(GLFWwindow* window)
+    {
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr; // what is kept is in the project
+        ImGui_ImplGlfw_InitForOpenGL(window, true);
+        ImGui_ImplOpenGL3_Init("#version 330 core");
+    }
+    ~ImGuiContextOwner()
+    {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+};
+
+/// How long the window was busy with each frame.
+struct FrameTimes {
+    std::vector<double> all, solving; ///< ms
+    static Json figures(std::vector<double> times)
+    {
+        if (times.empty())
+            return {{"frames", 0}};
+        std::sort(times.begin(), times.end());
+        const auto at = [&](double share) {
+            return times[std::min(times.size() - 1, size_t(share * double(times.size())))];
+        };
+        return {{"frames", times.size()}, {"p50_ms", at(0.5)}, {"p99_ms", at(0.99)}, {"max_ms", times.back()}};
+    }
+};
+
+class Program {
+public:
+    explicit Program(const WindowOptions& options)
+        : options_(options), window_(options.width, options.height, true), gui_(window_.get()),
+          model_(options.assets, [] { glfwPostEmptyEvent(); })
+    {
+        float scale = 1;
+        glfwGetWindowContentScale(window_.get(), &scale, nullptr);
+        ui_.scale = std::max(1.f, scale);
+        ui_.fonts = load_fonts(ui_.scale);
+        if (!ui_.fonts.missing.empty())
+            model_.say(Severity::warning,
+                       fmt::format("The font {} is missing (Debian package fonts-inter).", ui_.fonts.missing));
+        for (const auto& file : material_files(options.assets / "materials"))
+            ui_.grades.push_back(file.stem().string());
+        ui_.recent = recent_files();
+        glfwSetWindowUserPointer(window_.get(), this);
+        glfwSetDropCallback(window_.get(), [](GLFWwindow* window, int count, const char** paths) {
+            for (int k = 0; k < count; ++k)
+                static_cast<Program*>(glfwGetWindowUserPointer(window))->open(paths[k], "");
+        });
+        ViewSettings settings = model_.state().view;
+        settings.dark = !options.light;
+        model_.apply(SetViewSettings{settings});
+        if (!options.script.empty())
+            for (Step& step : parse_script(options.script))
+                steps_.push_back(std::move(step));
+        begin();
+    }
+
+    int run()
+    {
+        int settle = 3; // frames after the last event until everything has its place
+        while (!quit_) {
+            if (!steps_.empty() || settle > 0 || finishing())
+                glfwPollEvents();
+            else if (model_.busy())
+                glfwWaitEventsTimeout(0.1);
+            else
+                glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? 0.4 : 60);
+            settle = settle > 0 ? settle - 1 : 2;
+            frame();
+            next_step();
+            if (glfwWindowShouldClose(window_.get()))
+                quit_ = true;
+        }
+        if (!options_.report.empty())
+            write_atomically(options_.report, report().dump(2) + "\n");
+        autosave_.clear();
+        return exit_code_;
+    }
+
+private:
+    void open(const std::filesystem::path& file, const std::string& unit)
+    {
+        if (file.extension() == project_ending)
+            queue_.push(OpenProject{file});
+        else
+            queue_.push(OpenPart{file, unit});
+    }
+
+    void begin()
+    {
+        if (!options_.script.empty())
+            return;
+        if (!options_.file.empty())
+            open(options_.file, options_.unit);
+        else if (auto left = unfinished_session()) {
+            queue_.push(OpenProject{left->file()});
+            recovered_ = std::move(left);
+            model_.say(Severity::warning, "The program ended without saving last time; its work is opened again.");
+        } else {
+            queue_.push(OpenPart{options_.assets / "parts" / "inner-panel.obj", ""});
+            hint_ = true;
+        }
+        if (options_.run_all)
+            queue_.push(RunTo{Stage::fit});
+    }
+
+    /// Whether --exit waits for nothing any more, and the last frames are drawn.
+    bool finishing() const { return options_.exit && steps_.empty() && !model_.busy() && queue_.empty(); }
+
+    void frame()
+    {
+        const auto start = Clock::now();
+        const bool solving = model_.busy();
+        model_.poll();
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(window_.get(), &width, &height);
+        if (dark_ != model_.state().view.dark) {
+            dark_ = model_.state().view.dark;
+            apply_theme(*dark_, ui_.scale);
+        }
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+        Frame now{model_, model_.state(), queue_, ui_, cache_, [&](const Scene& shown, View view, int w, int h) {
+                      return reinterpret_cast<ImTextureID>(uintptr_t(renderer_.draw(
+                          images_[size_t(view)], shown, model_.state().view.camera[size_t(view)], w, h, look())));
+                  }};
+        workbench(now);
+        ImGui::Render();
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glViewport(0, 0, width, height);
+        glClearColor(0, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        take_pictures(width, height);
+        const double busy = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        times_.all.push_back(busy);
+        if (solving)
+            times_.solving.push_back(busy);
+        glfwSwapBuffers(window_.get());
+        for (const Action& action : queue_.take())
+            carry_out(action);
+        follow_part();
+        save_now_and_then();
+    }
+
+    Look look() const
+    {
+        Look result;
+        result.dark = model_.state().view.dark;
+        result.content_scale = ui_.scale;
+        return result;
+    }
+
+    void carry_out(const Action& action)
+    {
+        try {
+            if (const auto* picture = std::get_if<Screenshot>(&action))
+                pictures_.push_back(*picture);
+            else if (const auto* wanted = std::get_if<WriteReport>(&action))
+                write_report(wanted->file);
+            else if (std::get_if<Quit>(&action))
+                quit_ = true;
+            else
+                model_.apply(action);
+        } catch (const std::exception& error) {
+            model_.say(Severity::error, error.what());
+        }
+    }
+
+    /// At the end of a frame, when the window shows what the actions before have changed.
+    void take_pictures(int width, int height)
+    {
+        for (const Screenshot& wanted : std::exchange(pictures_, {}))
+            try {
+                if (wanted.view) {
+                    const glm::dvec2 size(ui_.view_size[size_t(*wanted.view)].x, ui_.view_size[size_t(*wanted.view)].y);
+                    const int w = wanted.width > 0 ? wanted.width : int(size.x),
+                              h = wanted.height > 0 ? wanted.height : int(size.y);
+                    write_png(wanted.file, view_picture(*wanted.view, w, h));
+                } else
+                    write_png(wanted.file, window_picture(width, height));
+                model_.say(Severity::done, fmt::format("Wrote {}", wanted.file.string()));
+            } catch (const std::exception& error) {
+                model_.say(Severity::error, error.what());
+            }
+    }
+
+    Picture view_picture(View view, int width, int height)
+    {
+        return renderer_.picture(scene(view, model_.state(), cache_), model_.state().view.camera[size_t(view)], width,
+                                 height, look());
+    }
+
+    static Picture window_picture(int width, int height)
+    {
+        Picture picture{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+        const size_t row = size_t(width) * 4;
+        for (size_t low = 0, high = size_t(height) - 1; low < high; ++low, --high)
+            std::swap_ranges(picture.rgba.begin() + long(low * row), picture.rgba.begin() + long((low + 1) * row),
+                             picture.rgba.begin() + long(high * row));
+        for (size_t k = 3; k < picture.rgba.size(); k += 4)
+            picture.rgba[k] = 255;
+        return picture;
+    }
+
+    void write_report(const std::filesystem::path& file)
+    {
+        const Session& session = model_.state().document.session;
+        if (!session.blank)
+            throw InputError("There is nothing to report yet: unfold the part first.");
+        std::vector<ReportPicture> pictures;
+        const char* titles[] = {"Part", "Blank", "Quad mesh", "NURBS surface"};
+        for (const View view : all_views)
+            if (view == View::part || view == View::blank || (view == View::quads && session.lifted) ||
+                (view == View::surface && session.surface))
+                pictures.push_back({titles[size_t(view)], png(view_picture(view, 1000, 700))});
+        write_html_report(file, session, pictures);
+        model_.say(Severity::done, fmt::format("Wrote {}", file.string()));
+    }
+
+    /// A new part belongs into the list of recent files.
+    void follow_part()
+    {
+        const ViewerState& state = model_.state();
+        if (state.document.session.part == known_part_)
+            return;
+        known_part_ = state.document.session.part;
+        if (!known_part_)
+            return;
+        if (std::exchange(hint_, false))
+            model_.say(
+                Severity::hint,
+                "This is the sample part. 1. Press \"Unfold and fit a surface\" (F5).  2. Look at thinning on part and "
+                "blank, drag the corners.  3. Export. Or drop your own part on the window.");
+        else if (options_.script.empty())
+            try {
+                remember_recent(state.project.empty() ? state.document.session.file : state.project);
+                ui_.recent = recent_files();
+            } catch (const std::exception& error) {
+                model_.say(Severity::hint, error.what());
+            }
+    }
+
+    void save_now_and_then()
+    {
+        const auto now = Clock::now();
+        const ViewerState& state = model_.state();
+        if (!state.unsaved || !state.document.session.part || model_.busy() || !options_.script.empty() ||
+            now - last_save_ < std::chrono::seconds(30))
+            return;
+        last_save_ = now;
+        try {
+            autosave_.save(state.document, state.view, state.project);
+            if (recovered_) {
+                recovered_->discard(); // it lives on in the new one
+                recovered_.reset();
+            }
+        } catch (const std::exception& error) {
+            model_.say(Severity::warning, fmt::format("Autosave failed: {}", error.what()));
+        }
+    }
+
+    /// One step of the script per frame; at its end, what was asked for on the command line.
+    void next_step()
+    {
+        if (!queue_.empty() || !pictures_.empty())
+            return;
+        if (steps_.empty()) {
+            if (finishing() && ++idle_frames_ > 4) {
+                if (!options_.screenshot.empty()) {
+                    pictures_.push_back(
+                        {std::exchange(const_cast<std::filesystem::path&>(options_.screenshot), {}), {}, 0, 0});
+                    idle_frames_ = 0;
+                } else
+                    quit_ = true;
+            }
+            return;
+        }
+        const Step& step = steps_.front();
+        try {
+            if (const auto* perform = std::get_if<Perform>(&step.what)) {
+                queue_.push(action(*perform, model_.state(), step.place));
+            } else if (const auto* wait = std::get_if<Wait>(&step.what)) {
+                const auto now = Clock::now();
+                if (!waiting_since_)
+                    waiting_since_ = now;
+                if (model_.busy()) {
+                    if (wait->seconds && now - *waiting_since_ > std::chrono::duration<double>(*wait->seconds))
+                        return fail(1, fmt::format("{}: the job has not ended after {} s", step.place, *wait->seconds));
+                    return;
+                }
+                waiting_since_.reset();
+            } else if (const auto* expect = std::get_if<Expect>(&step.what)) {
+                if (const auto text = unmet(*expect, report()))
+                    return fail(1, fmt::format("{}: {}", step.place, *text));
+            }
+            steps_.pop_front();
+        } catch (const std::exception& error) {
+            fail(2, error.what());
+        }
+    }
+
+    void fail(int code, const std::string& text)
+    {
+        fmt::print(stderr, "spia-viewer: {}\n", text);
+        exit_code_ = code;
+        quit_ = true;
+    }
+
+    Json report() const
+    {
+        Json json = state_report(model_.state());
+        json["frames"] = FrameTimes::figures(times_.all);
+        json["frames_while_solving"] = FrameTimes::figures(times_.solving);
+        return json;
+    }
+
+    WindowOptions options_;
+    GlWindow window_;
+    ImGuiContextOwner gui_;
+    ViewerModel model_;
+    Renderer renderer_;
+    std::array<Renderer::Image, 4> images_;
+    SceneCache cache_;
+    ActionQueue queue_;
+    Ui ui_;
+    std::optional<bool> dark_;
+    std::deque<Step> steps_;
+    std::vector<Screenshot> pictures_;
+    std::optional<Clock::time_point> waiting_since_;
+    Clock::time_point last_save_ = Clock::now();
+    Autosave autosave_;
+    std::optional<UnfinishedSession> recovered_;
+    std::shared_ptr<const PartFile> known_part_;
+    FrameTimes times_;
+    int idle_frames_ = 0, exit_code_ = 0;
+    bool quit_ = false, hint_ = false;
+};
+
+} // namespace
+
+int show_window(const WindowOptions& options) { return Program(options).run(); }
+
+} // namespace spia::viewer
