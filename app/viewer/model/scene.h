@@ -22,6 +22,7 @@ struct SceneMesh {
     Eigen::Matrix<uint32_t, 3, Eigen::Dynamic> triangle;
     Eigen::Matrix<uint32_t, 2, Eigen::Dynamic> edge;    ///< every edge once
     Eigen::Matrix<uint32_t, 2, Eigen::Dynamic> feature; ///< of these the boundary and the sharp ones
+    std::vector<uint32_t> repeated; ///< the last vertices repeat these, with the normal of another side of a sharp edge
 };
 
 /// A scalar over a SceneMesh, one value per vertex (smooth) or per face.
@@ -71,6 +72,13 @@ struct SceneLabel {
     Colour colour{0, 0, 0, 1};
 };
 
+/// What the colours of a scene mean; the panels draw it.
+struct SceneLegend {
+    std::string title; ///< e.g. "Thinning"
+    std::string unit;  ///< "" for a pure number
+    ColourScale scale;
+};
+
 /// One layer of triangles and how it is drawn.
 struct SceneLayer {
     std::shared_ptr<const SceneMesh> mesh;
@@ -91,6 +99,7 @@ struct Scene {
     std::vector<std::shared_ptr<const SceneLines>> lines;
     std::vector<std::shared_ptr<const ScenePoints>> points;
     std::vector<SceneLabel> labels;
+    std::optional<SceneLegend> legend;  ///< of the field that is shown
     std::vector<Colour> region_colours; ///< by number of region
     Eigen::AlignedBox3d box;            ///< mm, around everything worth seeing: what "fit" shows
     std::string empty;                  ///< if there is nothing to show: what to do about it

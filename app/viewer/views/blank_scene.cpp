@@ -1,0 +1,164 @@
+#include <algorithm>
+
+#include "app/viewer/views/grid_shapes.h"
+#include "app/viewer/views/marking.h"
+#include "app/viewer/views/palette.h"
+#include "app/viewer/views/scene_mesh.h"
+#include "app/viewer/views/sheet_shapes.h"
+#include "app/viewer/views/strain_glyphs.h"
+#include "app/viewer/views/views.h"
+#include "engine/coons/boundary.h"
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+/// The shape so far of a running job, if it is one of this part.
+SceneCache::LiveBlank live_blank(const ViewerState& state)
+{
+    const auto& live = state.job.blank;
+    const bool fits = state.job.running && live && live->cols() == state.document.session.part->mesh.vertices();
+    return fits ? live : nullptr;
+}
+
+const FlatShape& flat_shape(const ViewerState& state, const SceneCache::LiveBlank& live, SceneCache& cache)
+{
+    const Session& session = state.document.session;
+    return cache.flat.of({session.part, live ? nullptr : session.blank, live}, [&] {
+        const Eigen::Matrix2Xd& plane = live ? *live : session.blank->blank.position;
+        FlatShape shape;
+        shape.mesh =
+            std::make_shared<SceneMesh>(flat_scene_mesh(session.part->mesh, *part_shape(state, cache).mesh, plane));
+        shape.position = Eigen::Matrix3Xd::Zero(3, plane.cols());
+        shape.position.topRows<2>() = plane;
+        shape.box = {shape.position.rowwise().minCoeff(), shape.position.rowwise().maxCoeff()};
+        return shape;
+    });
+}
+
+/// Corners as vertices of the part: those the user has set, else those of the grid; while corners are being chosen, those the
+/// grid would get. Nothing if there are none.
+std::optional<std::array<int, 4>> corners(const ViewerState& state, SceneCache& cache)
+{
+    const Session& session = state.document.session;
+    if (session.options.corners) {
+        std::array<int, 4> result;
+        const std::vector<int>& in_file = session.part->source_vertex; // never decreases
+        for (size_t k = 0; k < 4; ++k) {
+            const auto found = std::lower_bound(in_file.begin(), in_file.end(), (*session.options.corners)[k]);
+            if (found == in_file.end() || *found != (*session.options.corners)[k])
+                return std::nullopt; // of another file; making the grid says so
+            result[k] = int(found - in_file.begin());
+        }
+        return result;
+    }
+    if (session.grid)
+        return session.grid->boundary.corner;
+    if (state.view.tool != Tool::corners)
+        return std::nullopt;
+    return cache.proposed_corners.of({session.part, session.blank}, [&]() -> std::optional<std::array<int, 4>> {
+        try {
+            return propose_corners(session.blank->blank, session.part->mesh);
+        } catch (const Error&) {
+            return std::nullopt; // making the grid gives the reason
+        }
+    });
+}
+
+/// Each side of the boundary in its colour.
+LineList side_lines(const BlankBoundary& boundary, const Eigen::Matrix3Xd& position)
+{
+    LineList result;
+    const std::array<Colour, 4> colour = palette::sides();
+    for (size_t k = 0; k < 4; ++k) {
+        const std::vector<int>& side = boundary.side[k];
+        Eigen::Matrix2Xi ends(2, Eigen::Index(side.size()) - 1);
+        for (size_t i = 0; i + 1 < side.size(); ++i)
+            ends.col(Eigen::Index(i)) << side[i], side[i + 1];
+        const auto lines = scene_lines(position, ends);
+        lines->colour = colour[k];
+        lines->width = 5;
+        result.push_back(lines);
+    }
+    return result;
+}
+
+LineList outline_lines(const Eigen::Matrix3Xd& position, const Eigen::Matrix<uint32_t, 2, Eigen::Dynamic>& boundary,
+                       bool dark)
+{
+    const auto lines = scene_lines(position, boundary);
+    lines->colour = palette::outline(dark);
+    lines->width = 2.4f;
+    return {lines};
+}
+
+} // namespace
+
+Scene blank_scene(const ViewerState& state, SceneCache& cache)
+{
+    Scene result;
+    const Session& session = state.document.session;
+    if (!session.part) {
+        result.empty = "The flat blank appears here once a part is open and solved.";
+        return result;
+    }
+    const SceneCache::LiveBlank live = live_blank(state);
+    if (!session.blank && !live) {
+        result.empty = state.job.running ? "The blank appears as soon as there is a first guess."
+                                         : "Solve to see the flat blank of this part.";
+        return result;
+    }
+    const PartShape& part = part_shape(state, cache);
+    const FlatShape& flat = flat_shape(state, live, cache);
+    const FieldDisplay& display = state.document.display;
+    result.box = flat.box;
+    result.region_colours = region_colours(state.document.regions);
+
+    SceneLayer sheet;
+    sheet.mesh = flat.mesh;
+    sheet.marks = marks_of(state, cache);
+    sheet.lit = false;
+    sheet.edges = state.view.edges;
+    sheet.features = state.view.features;
+    const FieldValues* const values = live ? nullptr : field_values(state, cache);
+    if (values) {
+        result.legend = legend_of(state, *values);
+        sheet.scale = result.legend->scale;
+        sheet.field = cache.field_on_blank.of(
+            {flat.mesh, session.part, session.blank, session.surface, display.field, display.per_face},
+            [&] { return scene_field(*flat.mesh, values->value, display.per_face); });
+    }
+    result.layers.push_back(std::move(sheet));
+
+    const auto add = [&](const LineList& lines) {
+        result.lines.insert(result.lines.end(), lines.begin(), lines.end());
+    };
+    add(cache.outline.of({flat.mesh, state.view.dark},
+                         [&] { return outline_lines(flat.position, part.boundary, state.view.dark); }));
+    if (!live && session.grid) {
+        const bool choosing = state.view.tool == Tool::corners;
+        const StageShape& grid = cache.planar_grid.of(
+            {session.grid, choosing}, [&] { return planar_grid_shape(session.grid->result.planar, choosing); });
+        result.layers.insert(result.layers.end(), grid.layers.begin(), grid.layers.end());
+        add(grid.lines);
+        add(cache.sides.of({flat.mesh, session.grid},
+                           [&] { return side_lines(session.grid->boundary, flat.position); }));
+    }
+    if (display.directions && session.blank && !live)
+        add(cache.glyphs_on_blank.of({session.part, session.blank},
+                                     [&] { return strain_glyphs(session.part->mesh, *session.blank, flat.position); }));
+    add(cache.selection_on_blank.of({flat.mesh, state.document.selected}, [&] {
+        return outline_of_faces(*flat.mesh, state.document.selected, 1.5f, false);
+    }));
+    add(cache.hover_on_blank.of({flat.mesh, state.hovered}, [&] {
+        return state.hovered ? outline_of_faces(*flat.mesh, {*state.hovered}, 2, false) : LineList{};
+    }));
+    if (live)
+        return result;
+    add_watched_places(result, state, values, flat.position);
+    if (const auto corner = corners(state, cache))
+        add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
+    return result;
+}
+
+} // namespace spia::viewer

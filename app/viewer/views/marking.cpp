@@ -1,0 +1,130 @@
+#include "app/viewer/views/marking.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <map>
+
+#include "app/viewer/views/colour_scale.h"
+#include "app/viewer/views/palette.h"
+#include "app/viewer/views/scene_mesh.h"
+
+namespace spia::viewer {
+namespace {
+
+constexpr size_t most_regions = FaceMarks::region; // more share the last colour
+
+} // namespace
+
+std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& selected,
+                                            const std::vector<FaceRegion>& regions, std::optional<int> hovered)
+{
+    const auto there = [&](int face) { return face >= 0 && face < faces; };
+    auto marks = std::make_shared<FaceMarks>();
+    marks->mark.assign(size_t(faces), 0);
+    for (size_t r = 0; r < regions.size(); ++r)
+        for (const int face : regions[r].faces)
+            if (there(face))
+                marks->mark[size_t(face)] = uint8_t(std::min(r + 1, most_regions));
+    for (const int face : selected)
+        if (there(face))
+            marks->mark[size_t(face)] |= FaceMarks::selected;
+    if (hovered && there(*hovered))
+        marks->mark[size_t(*hovered)] |= FaceMarks::hovered;
+    if (std::all_of(marks->mark.begin(), marks->mark.end(), [](uint8_t mark) { return mark == 0; }))
+        return nullptr;
+    return marks;
+}
+
+std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions)
+{
+    std::vector<Colour> colours;
+    for (size_t r = 0; r < std::min(regions.size(), most_regions); ++r)
+        colours.push_back(regions[r].colour);
+    return colours;
+}
+
+LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top)
+{
+    // A repeated vertex is the one it repeats, or sharp edges inside would count as outline.
+    const Eigen::Index vertices = mesh.position.cols() - Eigen::Index(mesh.repeated.size());
+    const auto original = [&](uint32_t v) { return v < vertices ? v : mesh.repeated[size_t(v - vertices)]; };
+    std::map<std::pair<uint32_t, uint32_t>, int> uses;
+    for (const int f : faces)
+        if (f >= 0 && f < mesh.triangle.cols())
+            for (int k = 0; k < 3; ++k)
+                ++uses[std::minmax(original(mesh.triangle(k, f)), original(mesh.triangle((k + 1) % 3, f)))];
+    std::vector<Eigen::Vector3f> ends;
+    for (const auto& [edge, count] : uses)
+        if (count == 1) {
+            ends.emplace_back(mesh.position.col(edge.first));
+            ends.emplace_back(mesh.position.col(edge.second));
+        }
+    if (ends.empty())
+        return {};
+    auto casing = std::make_shared<SceneLines>();
+    casing->origin = mesh.origin;
+    casing->point.resize(3, Eigen::Index(ends.size()));
+    for (size_t i = 0; i < ends.size(); ++i)
+        casing->point.col(Eigen::Index(i)) = ends[i];
+    casing->colour = palette::casing;
+    casing->width = width + 2;
+    casing->on_top = on_top;
+    auto core = std::make_shared<SceneLines>(*casing);
+    core->colour = {1, 1, 1, 1};
+    core->width = width;
+    return {casing, core};
+}
+
+Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,
+                         const Eigen::Vector3d& barycentric)
+{
+    return position(Eigen::all, triangle.col(face)) * barycentric;
+}
+
+void add_watched_places(Scene& scene, const ViewerState& state, const FieldValues* values,
+                        const Eigen::Matrix3Xd& position)
+{
+    const Eigen::Matrix3Xi& triangle = state.document.session.part->mesh.triangle;
+    const FieldDisplay& display = state.document.display;
+    const std::string_view unit = info(display.field).unit;
+    const Colour text = palette::text(state.view.dark);
+    const auto centre = [&](int face) { return place_on(position, triangle, face, Eigen::Vector3d::Constant(1. / 3)); };
+    const auto dots = [&](const std::vector<Eigen::Vector3d>& places, const Colour& colour) {
+        if (places.empty())
+            return;
+        Eigen::Matrix3Xd all(3, Eigen::Index(places.size()));
+        for (size_t i = 0; i < places.size(); ++i)
+            all.col(Eigen::Index(i)) = places[i];
+        const auto points = scene_points(all);
+        points->colour = colour;
+        points->size = 9;
+        scene.points.push_back(points);
+    };
+
+    if (values && display.extremes && values->least >= 0 && values->least != values->greatest) {
+        std::vector<Eigen::Vector3d> places;
+        for (const auto& [word, at] : {std::pair("min", values->least), std::pair("max", values->greatest)}) {
+            places.push_back(display.per_face ? centre(at) : Eigen::Vector3d(position.col(at)));
+            scene.labels.push_back(
+                {places.back(), fmt::format("{} {}", word, value_text(values->value[at], unit)), text});
+        }
+        dots(places, palette::extreme);
+    }
+
+    std::vector<Eigen::Vector3d> places;
+    for (const Probe& probe : state.document.probes) {
+        if (probe.face < 0 || probe.face >= triangle.cols())
+            continue; // of another part; the user sees it in the list of probes
+        places.push_back(place_on(position, triangle, probe.face, probe.barycentric));
+        double value = 0;
+        if (values && display.per_face)
+            value = values->value[probe.face];
+        else if (values)
+            value = values->value(triangle.col(probe.face)).dot(probe.barycentric);
+        scene.labels.push_back(
+            {places.back(), values ? value_text(value, unit) : fmt::format("face {}", probe.face), text});
+    }
+    dots(places, palette::probe);
+}
+
+} // namespace spia::viewer

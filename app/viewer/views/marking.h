@@ -1,0 +1,27 @@
+#pragma once
+#include "app/viewer/views/scene_cache.h"
+
+/// What is drawn onto a sheet: marked faces, their outlines, watched places, extreme values.
+namespace spia::viewer {
+
+/// @return null if no face is marked
+std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& selected,
+                                            const std::vector<FaceRegion>& regions, std::optional<int> hovered);
+
+/// Colours of the regions by number, as many as face_marks() tells apart.
+std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions);
+
+/// Lines around a set of faces, light with a dark casing: seen on every colour.
+/// @param faces ascending; numbers that the mesh does not have are left out
+LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top);
+
+/// Place of barycentric coordinates on a face, mm.
+Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,
+                         const Eigen::Vector3d& barycentric);
+
+/// Dots and texts of the pinned probes and, if asked for, of the least and the greatest value.
+/// @param position 3 by #V of the part, mm: on the part or flat
+void add_watched_places(Scene& scene, const ViewerState& state, const FieldValues* values,
+                        const Eigen::Matrix3Xd& position);
+
+} // namespace spia::viewer

@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+
+#include "app/viewer/model/scene.h"
+
+/// The colours of what is drawn on and around the sheet. Those of the sheet itself are in scene.h and colours.h.
+namespace spia::viewer::palette {
+
+inline constexpr Colour casing{0.04f, 0.05f, 0.07f, 0.85f}; ///< around light lines
+inline constexpr Colour extreme{0.98f, 0.98f, 0.98f, 1};
+inline constexpr Colour probe{0.93f, 0.75f, 0.16f, 1};
+inline constexpr Colour stretched{0.80f, 0.16f, 0.10f, 1}; ///< principal strains, positive
+inline constexpr Colour squeezed{0.07f, 0.27f, 0.72f, 1};  ///< negative
+inline constexpr Colour corner{0.98f, 0.98f, 0.98f, 1};
+inline constexpr Colour folded{0.90f, 0.12f, 0.16f, 1};
+inline constexpr Colour quads{0.80f, 0.83f, 0.86f, 1};
+inline constexpr Colour surface{0.60f, 0.72f, 0.84f, 1};
+inline constexpr Colour ghost{0.62f, 0.66f, 0.72f, 0.22f};
+
+constexpr Colour text(bool dark) { return dark ? Colour{0.93f, 0.94f, 0.96f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }
+constexpr Colour outline(bool dark) { return dark ? Colour{0.88f, 0.90f, 0.93f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }
+constexpr Colour net(bool dark)
+{
+    return dark ? Colour{0.95f, 0.80f, 0.45f, 0.75f} : Colour{0.55f, 0.24f, 0.05f, 0.75f};
+}
+
+/// Of the sides v = 0, u = 1, v = 1, u = 0: equally light, a quarter of the colour circle apart.
+std::array<Colour, 4> sides();
+
+} // namespace spia::viewer::palette

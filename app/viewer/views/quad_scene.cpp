@@ -1,0 +1,63 @@
+#include <fmt/core.h>
+
+#include "app/viewer/views/grid_shapes.h"
+#include "app/viewer/views/palette.h"
+#include "app/viewer/views/sheet_shapes.h"
+#include "app/viewer/views/views.h"
+
+namespace spia::viewer {
+namespace {
+
+std::string what_is_missing(const Session& session)
+{
+    if (!session.part)
+        return "The quad mesh appears here once a part is open and solved.";
+    if (!session.blank)
+        return "Solve first; then the blank can be filled with a grid of quads.";
+    if (!session.grid)
+        return "Make the grid to see the quad mesh on the part.";
+    if (const int folded = session.grid->result.quality.folded_cells; folded > 0)
+        return fmt::format(
+            "{} cells of the grid fold, so it does not fit onto the part. See them in red on the blank, and "
+            "move the corners or choose another method.",
+            folded);
+    return "The grid is not on the part yet: carry on with the chain.";
+}
+
+} // namespace
+
+Scene quad_scene(const ViewerState& state, SceneCache& cache)
+{
+    Scene result;
+    const Session& session = state.document.session;
+    if (!session.part || !session.grid || !session.lifted) {
+        result.empty = what_is_missing(session);
+        return result;
+    }
+    const QuadGrid& lifted = session.lifted->lifted;
+    const bool by_quality = state.view.quad_quality;
+    const StageShape& quads = cache.quads.of({session.grid, session.lifted, by_quality}, [&] {
+        return lifted_grid_shape(lifted, session.grid->result.planar, by_quality);
+    });
+    result.layers = quads.layers;
+    result.lines = quads.lines;
+    result.box = quads.box;
+    if (by_quality)
+        result.legend = {"Scaled Jacobian", "", quality_scale()};
+    if (state.view.part_under_quads) {
+        const PartShape& part = part_shape(state, cache);
+        SceneLayer ghost;
+        ghost.mesh = part.mesh;
+        ghost.colour = ghost.back = palette::ghost;
+        result.layers.push_back(ghost);
+        result.box.extend(part.box);
+    }
+    add_part_outlines(result, state, cache);
+    Eigen::Matrix3Xd corner(3, 4);
+    corner << lifted.position.col(lifted.node(0, 0)), lifted.position.col(lifted.node(lifted.columns, 0)),
+        lifted.position.col(lifted.node(lifted.columns, lifted.rows)), lifted.position.col(lifted.node(0, lifted.rows));
+    add_corners(result, corner, state.view.dark);
+    return result;
+}
+
+} // namespace spia::viewer

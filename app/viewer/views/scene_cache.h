@@ -1,0 +1,96 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "app/viewer/model/scene.h"
+#include "app/viewer/model/state.h"
+
+namespace spia::viewer {
+
+/// Remembers the last thing that was made and what of. Session results in the key are shared pointers: as long as the memo
+/// holds one, its address cannot become that of another result.
+template <class Value, class... From> class Memo {
+public:
+    /// @param make  from what the key says, if it is not the key of the last time
+    template <class Make> const Value& of(std::tuple<From...> from, const Make& make)
+    {
+        if (!value_ || *from_ != from) {
+            value_ = make();
+            from_ = std::move(from);
+        }
+        return *value_;
+    }
+
+private:
+    std::optional<std::tuple<From...>> from_;
+    std::optional<Value> value_;
+};
+
+/// The part as it is drawn.
+struct PartShape {
+    std::shared_ptr<const SceneMesh> mesh;
+    Eigen::AlignedBox3d box;                             ///< mm
+    Eigen::Matrix<uint32_t, 2, Eigen::Dynamic> boundary; ///< 2 by #edges
+};
+
+/// The part laid out in the plane.
+struct FlatShape {
+    std::shared_ptr<const SceneMesh> mesh;
+    Eigen::AlignedBox3d box;   ///< mm, z = 0
+    Eigen::Matrix3Xd position; ///< 3 by #V, mm, z = 0
+};
+
+/// A field of the sheet.
+struct FieldValues {
+    Eigen::VectorXd value;         ///< per vertex or face of the part
+    int least = -1, greatest = -1; ///< where; -1: there is no value that is a number
+    std::array<double, 2> extremes() const
+    {
+        return least < 0 ? std::array{0., 1.} : std::array{value[least], value[greatest]};
+    }
+};
+
+using LineList = std::vector<std::shared_ptr<const SceneLines>>;
+
+/// What a later stage of the chain looks like.
+struct StageShape {
+    std::vector<SceneLayer> layers;
+    LineList lines;
+    std::vector<std::shared_ptr<const ScenePoints>> points;
+    Eigen::AlignedBox3d box; ///< mm
+};
+
+/// What the scenes of a window have in common and what they are made of, so that nothing is made again in each frame.
+/// One per window.
+struct SceneCache {
+    using Part = std::shared_ptr<const PartFile>;
+    using Blank = std::shared_ptr<const FlattenResult>;
+    using Grid = std::shared_ptr<const GridStage>;
+    using Lifted = std::shared_ptr<const LiftResult>;
+    using Surface = std::shared_ptr<const SurfaceStage>;
+    using LiveBlank = std::shared_ptr<const Eigen::Matrix2Xd>;
+
+    Memo<PartShape, Part> part;
+    Memo<FlatShape, Part, Blank, LiveBlank> flat;
+    Memo<FieldValues, Part, Blank, Surface, Field, bool> values;
+    Memo<std::shared_ptr<const SceneField>, std::shared_ptr<const SceneMesh>, Part, Blank, Surface, Field, bool>
+        field_on_part, field_on_blank;
+    Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>, std::optional<int>> marks;
+    Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_on_part, selection_on_blank,
+        selection_elsewhere;
+    Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_on_part, hover_on_blank, hover_elsewhere;
+    Memo<LineList, Part, Blank> glyphs_on_part, glyphs_on_blank;
+    Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
+    Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;
+    Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
+    Memo<StageShape, Grid, bool> planar_grid;
+    Memo<StageShape, Grid, Lifted, bool> quads;
+    Memo<StageShape, Part, Grid, Surface, bool> surface;
+    Memo<StageShape, Surface, bool> control_net;
+};
+
+} // namespace spia::viewer

@@ -1,0 +1,119 @@
+#version 330 core
+// Colour of a field or a plain one, bands and isolines, light, and what is marked.
+in vec3 place; // mm, in the axes of the camera: x right, y up, z towards the viewer
+in vec3 turned_normal;
+in float vertex_value;
+out vec4 colour;
+
+uniform vec4 front, back; // plain colours of the outer and the inner side
+uniform bool lit;
+uniform float pixel; // pixels of the screen per pixel of the design
+uniform vec2 corner; // pixels, of the tile that is drawn in the picture
+
+uniform bool has_field, per_face;
+uniform samplerBuffer face_value;
+uniform sampler1D map;
+uniform float least, greatest;
+uniform int bands, ticks; // bands 0: smooth
+uniform bool isolines;
+uniform vec4 no_value;
+
+uniform bool has_marks;
+uniform usamplerBuffer face_mark;
+uniform vec4 region_colour[64];
+uniform vec4 selected_colour;
+const uint region = 0x3fu, hovered = 0x40u, selected = 0x80u;
+
+float slope(float x) { return max(length(vec2(dFdx(x), dFdy(x))), 1e-12); } // per pixel
+
+/// 0..1 across the picture in slanted stripes, so many pixels wide together.
+float stripes(float width)
+{
+    vec2 at = (gl_FragCoord.xy + corner) / pixel;
+    float wave = abs(fract((at.x + at.y) / width) - 0.5) * width; // pixels from the middle of a stripe
+    return clamp(wave - 0.25 * width + 0.5, 0.0, 1.0);
+}
+
+vec3 map_colour(float t)
+{
+    float texels = float(textureSize(map, 0));
+    return texture(map, (clamp(t, 0.0, 1.0) * (texels - 1.0) + 0.5) / texels).rgb;
+}
+
+/// The outer bands have the colours of the map's ends.
+vec3 band_colour(float band)
+{
+    float last = float(bands - 1);
+    return map_colour(last > 0.0 ? clamp(band, 0.0, last) / last : 0.5);
+}
+
+bool is_number(float x) { return (floatBitsToUint(x) & 0x7fffffffu) <= 0x7f800000u; } // isnan() is often optimised away
+
+vec3 field_colour()
+{
+    float value = per_face ? texelFetch(face_value, gl_PrimitiveID).r : vertex_value;
+    float t = greatest > least ? (value - least) / (greatest - least) : 0.5;
+    float along = t * float(ticks), steepness = slope(along), band_slope = slope(t * float(max(bands, 1)));
+    if (!is_number(value))
+        return no_value.rgb * mix(0.86, 1.06, stripes(7.0));
+
+    vec3 result;
+    if (bands > 0 && !per_face) { // the border of two bands blends over one pixel
+        float x = t * float(bands), border = clamp(round(x), 1.0, max(1.0, float(bands) - 1.0));
+        result = mix(band_colour(border - 1.0), band_colour(border), clamp((x - border) / band_slope + 0.5, 0.0, 1.0));
+        if (abs(x - border) > 0.5)
+            result = band_colour(floor(x));
+    } else {
+        result = bands > 0 ? band_colour(floor(t * float(bands))) : map_colour(t);
+    }
+    if (isolines && !per_face) {
+        float tick = clamp(round(along), 0.0, float(ticks));
+        float ink = clamp(0.5 * 1.3 * pixel + 0.5 - abs(along - tick) / steepness, 0.0, 1.0);
+        ink *= clamp(2.0 - 4.0 * steepness, 0.0, 1.0); // lines closer than two to four pixels would be a black patch
+        result = mix(result, vec3(0.05, 0.06, 0.08), 0.8 * ink);
+    }
+    return result;
+}
+
+/// A light above the viewer's left shoulder, a soft one from the right below, and some from everywhere.
+float light(vec3 normal)
+{
+    float key = max(dot(normal, normalize(vec3(-0.35, 0.55, 0.80))), 0.0);
+    float soft = max(dot(normal, normalize(vec3(0.70, -0.35, 0.45))), 0.0);
+    return 0.40 + 0.54 * key + 0.17 * soft;
+}
+
+void main()
+{
+    vec3 flat_normal = normalize(cross(dFdx(place), dFdy(place)));
+    vec3 normal = gl_FrontFacing ? turned_normal : -turned_normal;
+    normal = dot(normal, normal) > 0.01 ? normalize(normal) : flat_normal;
+
+    colour = gl_FrontFacing ? front : back;
+    if (has_field) {
+        colour.rgb = field_colour();
+        if (!gl_FrontFacing && lit) // the inner side is darker and paler
+            colour.rgb = mix(colour.rgb, vec3(dot(colour.rgb, vec3(0.3, 0.6, 0.1))), 0.25) * 0.72;
+    }
+
+    uint mark = has_marks ? texelFetch(face_mark, gl_PrimitiveID).r : 0u;
+    if ((mark & region) != 0u) {
+        vec4 tint = region_colour[(mark & region) - 1u];
+        colour.rgb = mix(colour.rgb, tint.rgb, tint.a * (has_field ? 0.45 : 0.75));
+    }
+    if ((mark & selected) != 0u)
+        colour.rgb = mix(colour.rgb, selected_colour.rgb, mix(0.45, 0.85, stripes(9.0)));
+
+    if (lit) {
+        float shade = light(normal);
+        colour.rgb *= has_field ? mix(1.0, shade, 0.6) : shade;
+        if (!has_field) { // a dull gleam, as of sheet metal
+            vec3 half_way = normalize(normalize(vec3(-0.35, 0.55, 0.80)) + vec3(0, 0, 1));
+            colour.rgb += 0.10 * pow(max(dot(normal, half_way), 0.0), 24.0);
+        }
+    }
+    if ((mark & hovered) != 0u) { // away from its own brightness: seen on any colour
+        float brightness = dot(colour.rgb, vec3(0.30, 0.59, 0.11));
+        colour.rgb = mix(colour.rgb, brightness > 0.5 ? vec3(0.05, 0.05, 0.1) : vec3(1), 0.55);
+    }
+}
