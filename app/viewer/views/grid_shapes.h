@@ -12,7 +12,7 @@ StageShape planar_grid_shape(const QuadGrid& planar, bool with_lines);
 /// @param planar  the same grid in the plane, where cells fold
 StageShape lifted_grid_shape(const QuadGrid& lifted, const QuadGrid& planar, bool by_quality);
 
-/// 0 to 1 in tenths, viridis.
+/// 0 to 1 in tenths.
 ColourScale quality_scale();
 
 /// Four numbered dots. @param place 3 by 4, mm

@@ -89,6 +89,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
     Memo<StageShape, Grid, bool> planar_grid;
     Memo<StageShape, Grid, Lifted, bool> quads;
+    Memo<LineList, Part> boundary_on_quads;
     Memo<StageShape, Part, Grid, Surface, bool> surface;
     Memo<StageShape, Surface, bool> control_net;
 };
