@@ -216,12 +216,12 @@ TEST_F(Render, BandsOfAFieldPerFaceAreThoseOfItsValues)
     const auto mesh = rectangle(-4, -4, 4, 4);
     auto field = std::make_shared<SceneField>();
     field->per_face = true;
-    field->value = Eigen::Vector2f(0.1f, 0.9f);
+    field->value = Eigen::Vector2f(0.2f, 0.8f);
     SceneLayer shown = layer(mesh);
     shown.field = field;
     shown.scale.bands = 3;
     const Picture picture = draw(scene_of({shown}));
-    for (const auto& [x, value] : {std::pair(-2.0, 0.1f), std::pair(2.0, 0.9f)}) {
+    for (const auto& [x, value] : {std::pair(-2.0, 0.2f), std::pair(2.0, 0.8f)}) {
         const Colour wanted = colour_of(shown.scale, value);
         expect_colour(rgb_at_mm(picture, x, x), {wanted[0], wanted[1], wanted[2]});
     }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string_view>
 #include <tuple>
 
 #include "app/viewer/render/offscreen.h"
@@ -421,6 +422,16 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
                             result.rgba.begin() + (ptrdiff_t(height - 1 - y - row) * width + x) * 4);
         }
     return result;
+}
+
+bool Renderer::in_software() const
+{
+    const GLubyte* const name = glGetString(GL_RENDERER);
+    const std::string_view words = name ? reinterpret_cast<const char*>(name) : "";
+    for (const std::string_view software : {"llvmpipe", "softpipe", "SwiftShader", "GDI Generic"})
+        if (words.find(software) != std::string_view::npos)
+            return true;
+    return false;
 }
 
 int Renderer::pictures_drawn() const { return gpu_->pictures; }

@@ -19,8 +19,8 @@ const Eigen::Matrix3d lab_of_roots{{0.2104542553, 0.7936177850, -0.0040720468},
 
 double screen_of_linear(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 
-// The diverging map: lightness falls evenly from the middle to both ends. The colours grow faster near the middle, where the
-// light hides them, and end as strong as a screen can show them.
+// The diverging map: lightness falls evenly from the middle to both ends. The colours grow faster near the middle,
+// where the light hides them, and end as strong as a screen can show them.
 constexpr double middle_lightness = 0.95, end_lightness = 0.46;
 constexpr Oklab blue_end{end_lightness, -0.028, -0.150}, orange_end{end_lightness, 0.080, 0.093};
 

@@ -16,7 +16,8 @@
 namespace spia::viewer {
 namespace {
 
-/// A small plate with two holes, bent over a saddle, through the whole chain. Numbers in its file are twice those of the mesh.
+/// A small plate with two holes, bent over a saddle, through the whole chain. Numbers in its file are twice those of
+/// the mesh.
 Session finished_session()
 {
     Session session;
@@ -251,7 +252,8 @@ TEST(CellJacobian, IsTheSineOfTheWorstCornerAndItsLeastIsThatOfTheReport)
     EXPECT_LT((scaled_jacobians(grid_with_node_at(1, 1)).array() - 1).abs().maxCoeff(), 1e-12);
     const QuadGrid skewed = grid_with_node_at(1.4, 1.3);
     EXPECT_NEAR(scaled_jacobians(skewed).minCoeff(), cell_quality(skewed).min_scaled_jacobian, 1e-12);
-    // Cell (0, 0) has the corners (0,0), (1,0), (1.4,1.3), (0,1) and at the third one the sides (-1.4,-0.3), (-0.4,-1.3).
+    // Cell (0, 0) has the corners (0,0), (1,0), (1.4,1.3), (0,1) and at the third one the sides (-1.4,-0.3),
+    // (-0.4,-1.3).
     EXPECT_NEAR(scaled_jacobians(skewed)[0], 1.70 / std::hypot(0.4, 1.3) / std::hypot(1.4, 0.3), 1e-9);
 }
 
