@@ -80,7 +80,7 @@ float light(vec3 normal)
 {
     float key = max(dot(normal, normalize(vec3(-0.35, 0.55, 0.80))), 0.0);
     float soft = max(dot(normal, normalize(vec3(0.70, -0.35, 0.45))), 0.0);
-    return 0.40 + 0.54 * key + 0.17 * soft;
+    return 0.44 + 0.58 * key + 0.18 * soft;
 }
 
 void main()

@@ -38,7 +38,7 @@ struct FaceMarks {
     std::vector<uint8_t> mark;
 };
 
-enum class ColourMap { viridis, diverging, grey };
+enum class ColourMap { viridis, diverging, grey, quality };
 
 /// How values become colours.
 struct ColourScale {

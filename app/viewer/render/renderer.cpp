@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string_view>
 #include <tuple>
 
 #include "app/viewer/render/offscreen.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr int unit_map = 0, unit_values = 1, unit_marks = 2;
 
 constexpr Colour selected_colour{0.93f, 0.10f, 0.62f, 1}; // magenta: in none of the colour maps
+constexpr float ghost_push = 8; // of the lift of lines: a few pixels, or a hundredth of the part
 constexpr Colour ink{0.07f, 0.08f, 0.10f, 1};
 
 struct Backdrop {
@@ -106,13 +108,13 @@ struct Renderer::Gpu {
     explicit Gpu(const std::filesystem::path& folder)
         : background_shader(folder, "background"), mesh_shader(folder, "mesh"), line_shader(folder, "line"),
           point_shader(folder, "point"), maps{map_texture(ColourMap::viridis), map_texture(ColourMap::diverging),
-                                              map_texture(ColourMap::grey)}
+                                              map_texture(ColourMap::grey), map_texture(ColourMap::quality)}
     {
         check_gl("preparing the shaders");
     }
 
     ShaderProgram background_shader, mesh_shader, line_shader, point_shader;
-    std::array<Texture, 3> maps; ///< by ColourMap
+    std::array<Texture, 4> maps; ///< by ColourMap
     VertexArray no_vertices;
     Uploads uploads;
     int pictures = 0;
@@ -238,7 +240,7 @@ void Renderer::Gpu::draw_faces(const Pass& pass, const SceneLayer& layer)
     ShaderProgram& shader = mesh_shader;
     shader.use();
     place(shader, pass, layer.mesh->origin);
-    shader.set("push", transparent(layer) ? 2 * pass.lift : 0.f); // or a ghost would show through what lies on it
+    shader.set("push", transparent(layer) ? ghost_push * pass.lift : 0.f); // or it would show through what lies on it
     shader.set("front", layer.colour);
     shader.set("back", Colour{layer.back[0], layer.back[1], layer.back[2], layer.colour[3]});
     shader.set("lit", layer.lit);
@@ -305,7 +307,7 @@ void Renderer::Gpu::draw_layer_lines(const Pass& pass, const SceneLayer& layer)
     if (layer.edges)
         stroke(mesh.edge, layer.mesh->edge, 1, 0.38f, false, 0);
     if (layer.features)
-        stroke(mesh.feature, layer.mesh->feature, 1.6f, 0.85f, true, 0.5f * pass.lift);
+        stroke(mesh.feature, layer.mesh->feature, 1.4f, 0.7f, true, 0.5f * pass.lift);
 }
 
 void Renderer::Gpu::draw_lines(const Pass& pass, bool on_top)
@@ -420,6 +422,16 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
                             result.rgba.begin() + (ptrdiff_t(height - 1 - y - row) * width + x) * 4);
         }
     return result;
+}
+
+bool Renderer::in_software() const
+{
+    const GLubyte* const name = glGetString(GL_RENDERER);
+    const std::string_view words = name ? reinterpret_cast<const char*>(name) : "";
+    for (const std::string_view software : {"llvmpipe", "softpipe", "SwiftShader", "GDI Generic"})
+        if (words.find(software) != std::string_view::npos)
+            return true;
+    return false;
 }
 
 int Renderer::pictures_drawn() const { return gpu_->pictures; }

@@ -49,8 +49,8 @@ public:
         std::unique_ptr<Drawn> drawn_;
     };
 
-    /// Draws into the image, which takes this size, unless it shows just that already. Leaves the framebuffer of the window
-    /// bound, depth test, culling and blending off.
+    /// Draws into the image, which takes this size, unless it shows just that already. Leaves the framebuffer of the
+    /// window bound, depth test, culling and blending off.
     /// @return a texture of OpenGL, opaque, its first row below: ImGui::Image(texture, size, {0, 1}, {1, 0})
     /// @throws Error if OpenGL fails
     unsigned draw(Image& image, const Scene& scene, const Camera& camera, int width, int height, const Look& look);
@@ -60,6 +60,10 @@ public:
     /// @throws Error if OpenGL fails; InputError if the size is not positive or is too large for the memory
     Picture picture(const Scene& scene, const Camera& camera, int width, int height, const Look& look,
                     int largest_tile = 2048);
+
+    /// Whether OpenGL is computed by the processor, without a graphics card: then one sample per pixel while a view
+    /// moves keeps it three times as quick.
+    bool in_software() const;
 
     /// How many pictures have been drawn, and how many things lie on the graphics card: for tests and benchmarks.
     int pictures_drawn() const;

@@ -24,7 +24,8 @@ struct MeshBuffer {
     std::optional<LineBuffer> edge, feature; ///< made when they are first drawn
 };
 
-/// A field or marks: a vertex attribute if there is one value per vertex, else a texture that is read by number of face.
+/// A field or marks: a vertex attribute if there is one value per vertex, else a texture that is read by number of
+/// face.
 struct ValueBuffer {
     Buffer values;
     std::optional<Texture> by_face;
@@ -46,7 +47,8 @@ struct LooseLineBuffer {
 /// when nobody holds it any more.
 class Uploads {
 public:
-    /// @throws Error if an index names a vertex that does not exist, or a field or marks do not have one value per vertex
+    /// @throws Error if an index names a vertex that does not exist, or a field or marks do not have one value per
+    /// vertex
     ///               or face of the mesh
     MeshBuffer& of(const std::shared_ptr<const SceneMesh>& mesh);
     ValueBuffer& of(const std::shared_ptr<const SceneField>& field, const SceneMesh& on);

@@ -36,8 +36,8 @@ const FlatShape& flat_shape(const ViewerState& state, const SceneCache::LiveBlan
     });
 }
 
-/// Corners as vertices of the part: those the user has set, else those of the grid; while corners are being chosen, those the
-/// grid would get. Nothing if there are none.
+/// Corners as vertices of the part: those the user has set, else those of the grid; while corners are being chosen,
+/// those the grid would get. Nothing if there are none.
 std::optional<std::array<int, 4>> corners(const ViewerState& state, SceneCache& cache)
 {
     const Session& session = state.document.session;

@@ -19,9 +19,9 @@ struct RoundRange {
 /// @param about_zero  as far below 0 as above
 RoundRange round_range(double least, double greatest, int intervals = 0, bool about_zero = false);
 
-/// How a field is coloured on the part: the range, map and bands the user asked for; else a round range around all values,
-/// symmetric about 0 where zero matters.
-/// @param extremes  the field's least and greatest value
+/// How a field is coloured on the part: the range, map and bands the user asked for; else a round range around all
+/// values, symmetric about 0 where zero matters.
+/// @param extremes the field's least and greatest value
 ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes);
 
 /// A value for people: three significant digits at least, no exponent within 1e-4 to 1e6, its unit behind it.

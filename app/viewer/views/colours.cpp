@@ -19,16 +19,16 @@ const Eigen::Matrix3d lab_of_roots{{0.2104542553, 0.7936177850, -0.0040720468},
 
 double screen_of_linear(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 
-// The diverging map: lightness falls evenly from the middle to both ends, the colours grow evenly. The ends are as
-// saturated as a screen can show them at that lightness.
-constexpr double middle_lightness = 0.93, end_lightness = 0.43;
-constexpr Oklab blue_end{end_lightness, -0.020, -0.128}, orange_end{end_lightness, 0.068, 0.080};
+// The diverging map: lightness falls evenly from the middle to both ends. The colours grow faster near the middle,
+// where the light hides them, and end as strong as a screen can show them.
+constexpr double middle_lightness = 0.95, end_lightness = 0.46;
+constexpr Oklab blue_end{end_lightness, -0.028, -0.150}, orange_end{end_lightness, 0.080, 0.093};
 
 Eigen::Vector3d diverging(double t)
 {
-    const double side = 2 * t - 1, far = std::abs(side);
+    const double side = 2 * t - 1, far = std::abs(side), strength = far * (1.7 - 0.7 * far);
     const Oklab& end = side < 0 ? blue_end : orange_end;
-    return srgb({middle_lightness + far * (end.L - middle_lightness), far * end.a, far * end.b})
+    return srgb({middle_lightness + far * (end.L - middle_lightness), strength * end.a, strength * end.b})
         .cwiseMax(0)
         .cwiseMin(1);
 }
@@ -56,6 +56,7 @@ Eigen::Vector3d map_colour(ColourMap map, double t)
     switch (map) {
     case ColourMap::viridis: return viridis(t);
     case ColourMap::diverging: return diverging(t);
+    case ColourMap::quality: return diverging(1 - t / 2);
     case ColourMap::grey: return srgb({0.28 + 0.66 * t, 0, 0}).cwiseMax(0).cwiseMin(1);
     }
     return {};

@@ -13,9 +13,9 @@ struct Oklab {
 Oklab oklab(const Eigen::Vector3d& srgb);
 Eigen::Vector3d srgb(const Oklab& colour); ///< outside 0..1 where a screen cannot show it
 
-/// Colour of a map, sRGB. @param t clamped to 0..1
-/// viridis: that of every picture and file. diverging: dark blue, light grey, dark orange; lightness is the same at t and
-/// 1 - t, and the two sides stay apart with every kind of colour blindness. grey: dark to light.
+/// Colour of a map, sRGB. @param t clamped to 0..1 viridis: that of every picture and file. diverging: dark blue, light
+/// grey, dark orange; lightness is the same at t and 1 - t, and the two sides stay apart with every kind of colour
+/// blindness. grey: dark to light. quality: dark orange, poor, to light grey, good.
 Eigen::Vector3d map_colour(ColourMap map, double t);
 
 /// What a value looks like on a surface that is not shaded; not a number: no_value.

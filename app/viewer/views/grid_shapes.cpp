@@ -63,7 +63,7 @@ LineList side_lines(const QuadGrid& grid)
     for (size_t k = 0; k < 4; ++k) {
         const auto lines = scene_lines(grid.position, side[k]);
         lines->colour = palette::sides()[k];
-        lines->width = 4;
+        lines->width = 5;
         result.push_back(lines);
     }
     return result;
@@ -71,7 +71,7 @@ LineList side_lines(const QuadGrid& grid)
 
 } // namespace
 
-ColourScale quality_scale() { return {.map = ColourMap::viridis, .least = 0, .greatest = 1, .ticks = 10}; }
+ColourScale quality_scale() { return {.map = ColourMap::quality, .least = 0, .greatest = 1, .ticks = 10}; }
 
 StageShape planar_grid_shape(const QuadGrid& planar, bool with_lines)
 {

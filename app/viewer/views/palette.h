@@ -21,7 +21,7 @@ constexpr Colour text(bool dark) { return dark ? Colour{0.93f, 0.94f, 0.96f, 1} 
 constexpr Colour outline(bool dark) { return dark ? Colour{0.88f, 0.90f, 0.93f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }
 constexpr Colour net(bool dark)
 {
-    return dark ? Colour{0.95f, 0.80f, 0.45f, 0.75f} : Colour{0.55f, 0.24f, 0.05f, 0.75f};
+    return dark ? Colour{0.99f, 0.86f, 0.50f, 0.55f} : Colour{0.45f, 0.17f, 0.03f, 0.45f};
 }
 
 /// Of the sides v = 0, u = 1, v = 1, u = 0: equally light, a quarter of the colour circle apart.

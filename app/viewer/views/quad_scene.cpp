@@ -2,6 +2,7 @@
 
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/views.h"
 
@@ -49,7 +50,15 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
         SceneLayer ghost;
         ghost.mesh = part.mesh;
         ghost.colour = ghost.back = palette::ghost;
+        ghost.features = false; // they would be taken for lines of the quads
         result.layers.push_back(ghost);
+        const LineList& boundary = cache.boundary_on_quads.of({session.part}, [&] {
+            const auto lines = scene_lines(session.part->mesh.position, part.boundary);
+            lines->colour = palette::casing;
+            lines->width = 1.6f;
+            return LineList{lines};
+        });
+        result.lines.insert(result.lines.begin(), boundary.begin(), boundary.end()); // under the sides
         result.box.extend(part.box);
     }
     add_part_outlines(result, state, cache);

@@ -11,8 +11,8 @@
 
 namespace spia::viewer {
 
-/// Remembers the last thing that was made and what of. Session results in the key are shared pointers: as long as the memo
-/// holds one, its address cannot become that of another result.
+/// Remembers the last thing that was made and what of. Session results in the key are shared pointers: as long as the
+/// memo holds one, its address cannot become that of another result.
 template <class Value, class... From> class Memo {
 public:
     /// @param make  from what the key says, if it is not the key of the last time
@@ -89,6 +89,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
     Memo<StageShape, Grid, bool> planar_grid;
     Memo<StageShape, Grid, Lifted, bool> quads;
+    Memo<LineList, Part> boundary_on_quads;
     Memo<StageShape, Part, Grid, Surface, bool> surface;
     Memo<StageShape, Surface, bool> control_net;
 };

@@ -1,7 +1,9 @@
 #include "app/viewer/views/scene_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -68,15 +70,15 @@ Edges as_matrix(const std::vector<std::array<uint32_t, 2>>& edges)
     return result;
 }
 
-/// Corners at one vertex that are joined by smooth edges share a normal; a union-find with the smallest as the root.
-class SmoothSides {
+/// Things that belong together, by number; the smallest of them is their root.
+class Groups {
 public:
-    explicit SmoothSides(int corners) : parent_(size_t(corners)) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int root(int corner)
+    explicit Groups(int count) : parent_(size_t(count)) { std::iota(parent_.begin(), parent_.end(), 0); }
+    int root(int i)
     {
-        while (parent_[size_t(corner)] != corner)
-            corner = parent_[size_t(corner)] = parent_[size_t(parent_[size_t(corner)])];
-        return corner;
+        while (parent_[size_t(i)] != i)
+            i = parent_[size_t(i)] = parent_[size_t(parent_[size_t(i)])];
+        return i;
     }
     void join(int a, int b)
     {
@@ -87,6 +89,23 @@ public:
 private:
     std::vector<int> parent_;
 };
+
+/// Boundary edges, and sharp ones in connected rows that are long enough to mean something.
+Edges features(const TriMesh& mesh, const std::vector<std::array<uint32_t, 2>>& boundary,
+               const std::vector<std::array<uint32_t, 2>>& sharp)
+{
+    Groups rows(mesh.vertices());
+    for (const auto& [a, b] : sharp)
+        rows.join(int(a), int(b));
+    std::vector<double> length(size_t(mesh.vertices()), 0);
+    for (const auto& [a, b] : sharp)
+        length[size_t(rows.root(int(a)))] += (mesh.position.col(a) - mesh.position.col(b)).norm();
+    const double least = shortest_feature * bounding_diagonal(mesh);
+    std::vector<std::array<uint32_t, 2>> result = boundary;
+    std::copy_if(sharp.begin(), sharp.end(), std::back_inserter(result),
+                 [&](const auto& edge) { return length[size_t(rows.root(int(edge[0])))] >= least; });
+    return as_matrix(result);
+}
 
 Eigen::Vector3d middle_of(const Eigen::Matrix3Xd& position)
 {
@@ -101,8 +120,8 @@ SceneMesh scene_mesh(const TriMesh& mesh)
 {
     const Eigen::Matrix3Xd area = area_vectors(mesh);
     const Sides sides = sides_of(mesh);
-    SmoothSides smooth(3 * mesh.triangles());
-    std::vector<std::array<uint32_t, 2>> edge, feature;
+    Groups smooth(3 * mesh.triangles());
+    std::vector<std::array<uint32_t, 2>> edge, boundary, sharp;
     for_each_edge(sides, [&](int low, std::span<const Side> uses) {
         const std::array<uint32_t, 2> ends = {uint32_t(low), uint32_t(uses[0].high)};
         edge.push_back(ends);
@@ -113,7 +132,7 @@ SceneMesh scene_mesh(const TriMesh& mesh)
             return std::atan2(a.cross(b).norm(), a.dot(b)) <= sharp_angle;
         };
         if (!is_smooth()) {
-            feature.push_back(ends);
+            (uses.size() == 1 ? boundary : sharp).push_back(ends);
             return;
         }
         // The corners of the two faces at each end of the edge; one face may run along it the other way.
@@ -127,7 +146,7 @@ SceneMesh scene_mesh(const TriMesh& mesh)
     SceneMesh result;
     result.origin = middle_of(mesh.position);
     result.edge = as_matrix(edge);
-    result.feature = as_matrix(feature);
+    result.feature = features(mesh, boundary, sharp);
 
     // The first smooth side of a vertex keeps its number; each other one gets a new vertex.
     std::vector<int> number(size_t(3) * size_t(mesh.triangles()), -1);

@@ -9,8 +9,13 @@ namespace spia::viewer {
 /// Edges with a larger angle between the normals of their faces are sharp.
 inline constexpr double sharp_angle = 30 * EIGEN_PI / 180;
 
-/// A mesh as it is drawn. Its first vertices and all its faces are those of the mesh; along sharp edges vertices are repeated,
-/// one for each smooth side, so that the light shows the edge. Takes time in proportion to the number of triangles.
+/// Rows of sharp edges that are shorter than this share of the diagonal are not drawn: on a coarse fillet they are no
+/// more than a few triangles that happen to meet at such an angle.
+inline constexpr double shortest_feature = 0.06;
+
+/// A mesh as it is drawn. Its first vertices and all its faces are those of the mesh; along sharp edges vertices are
+/// repeated, one for each smooth side, so that the light shows the edge. Takes time in proportion to the number of
+/// triangles.
 SceneMesh scene_mesh(const TriMesh& mesh);
 
 /// The same triangles laid out in the plane z = 0, edges as in the scene mesh of the part. No vertex is repeated.

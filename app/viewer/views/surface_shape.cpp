@@ -77,13 +77,18 @@ StageShape surface_shape(const NurbsSurface& surface, const FilledMesh* part)
 StageShape control_net_shape(const NurbsSurface& surface, bool dark)
 {
     StageShape shape;
-    const auto lines = scene_lines(surface.control, net_lines(surface.count_u, surface.count_v));
-    lines->colour = palette::net(dark);
-    lines->width = 1;
-    shape.lines.push_back(lines);
+    // As on a drawing: what is hidden is faint.
+    const auto hidden = scene_lines(surface.control, net_lines(surface.count_u, surface.count_v));
+    hidden->colour = palette::net(dark);
+    hidden->colour[3] *= 0.3f;
+    hidden->on_top = true;
+    const auto seen = std::make_shared<SceneLines>(*hidden);
+    seen->colour = palette::net(dark);
+    seen->on_top = false;
+    shape.lines = {seen, hidden};
     const auto points = scene_points(surface.control);
     points->colour = palette::net(dark);
-    points->size = 4;
+    points->size = 3.5f;
     points->on_top = false;
     shape.points.push_back(points);
     shape.box = {surface.control.rowwise().minCoeff(), surface.control.rowwise().maxCoeff()};

@@ -5,8 +5,8 @@
 
 namespace spia::viewer {
 
-/// Distance of every vertex of the surface from the part, mm: positive where it lies on the outer side; not a number where a
-/// hole of the part was filled, for there is nothing to keep to.
+/// Distance of every vertex of the surface from the part, mm: positive where it lies on the outer side; not a number
+/// where a hole of the part was filled, for there is nothing to keep to.
 Eigen::VectorXd surface_deviation(const Tessellation& surface, const FilledMesh& part);
 
 /// The surface in triangles.

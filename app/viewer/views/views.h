@@ -9,8 +9,8 @@ namespace spia::viewer {
 /// The part with the field, regions, selection, probes, least and greatest value and principal strains.
 Scene part_scene(const ViewerState& state, SceneCache& cache);
 
-/// The same on the flat blank, with its four corners (labels 1 to 4) and sides; while a job lays it out, its shape so far. With
-/// the tool for corners, the lines of the grid; folded cells are red.
+/// The same on the flat blank, with its four corners (labels 1 to 4) and sides; while a job lays it out, its shape so
+/// far. With the tool for corners, the lines of the grid; folded cells are red.
 Scene blank_scene(const ViewerState& state, SceneCache& cache);
 
 /// The quad mesh on the part, its cells coloured by the scaled Jacobian they have in the plane; folded cells are red.

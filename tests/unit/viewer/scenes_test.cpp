@@ -1,0 +1,356 @@
+#include "app/viewer/views/views.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "app/viewer/views/cell_jacobian.h"
+#include "app/viewer/views/grid_shapes.h"
+#include "app/viewer/views/palette.h"
+#include "app/viewer/views/strain_glyphs.h"
+#include "app/viewer/views/surface_shape.h"
+#include "engine/forming/material_library.h"
+#include "tests/support/shapes.h"
+
+namespace spia::viewer {
+namespace {
+
+/// A small plate with two holes, bent over a saddle, through the whole chain. Numbers in its file are twice those of
+/// the mesh.
+Session finished_session()
+{
+    Session session;
+    PartFile part;
+    part.mesh = shapes::plate({.triangles = 600});
+    for (int v = 0; v < part.mesh.vertices(); ++v) {
+        const double x = part.mesh.position(0, v) - 60, y = part.mesh.position(1, v) - 40;
+        part.mesh.position(2, v) = (x * x - y * y) / 300;
+        part.source_vertex.push_back(2 * v);
+    }
+    session.part = std::make_shared<PartFile>(std::move(part));
+    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    session.options.grid.cells = 12;
+    for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit})
+        session = run_stage(stage, session);
+    return session;
+}
+
+class Scenes : public testing::Test {
+protected:
+    static void SetUpTestSuite() { session = new Session(finished_session()); }
+    static void TearDownTestSuite() { delete session; }
+    Scenes() { state.document.session = *session; }
+    const TriMesh& part() const { return session->part->mesh; }
+
+    static inline Session* session = nullptr;
+    ViewerState state;
+    SceneCache cache;
+};
+
+TEST_F(Scenes, WithoutWhatTheyShowTheySayWhatToDo)
+{
+    for (const Stage stage : chain) {
+        ViewerState early;
+        early.document.session = *session;
+        Session& now = early.document.session;
+        if (stage <= Stage::fit)
+            now.surface = nullptr;
+        if (stage <= Stage::lift)
+            now.lifted = nullptr;
+        if (stage <= Stage::grid)
+            now.grid = nullptr;
+        if (stage <= Stage::solve)
+            now.blank = nullptr;
+        if (stage <= Stage::read)
+            now.part = nullptr;
+        SceneCache fresh;
+        const auto is_there = [&](View view) {
+            const Scene shown = scene(view, early, fresh);
+            EXPECT_NE(shown.layers.empty(), shown.empty.empty()) << "either something to see or words";
+            return !shown.layers.empty();
+        };
+        EXPECT_EQ(is_there(View::part), stage > Stage::read);
+        EXPECT_EQ(is_there(View::blank), stage > Stage::solve);
+        EXPECT_EQ(is_there(View::quads), stage > Stage::lift);
+        EXPECT_FALSE(is_there(View::surface));
+    }
+}
+
+TEST_F(Scenes, AreNotMadeAgainWhenNothingHasChanged)
+{
+    state.document.selected = {1, 2, 3};
+    state.document.display.directions = true;
+    state.hovered = 5;
+    for (const View view : all_views) {
+        const Scene first = scene(view, state, cache), second = scene(view, state, cache);
+        ASSERT_EQ(first.layers.size(), second.layers.size());
+        for (size_t i = 0; i < first.layers.size(); ++i) {
+            EXPECT_EQ(first.layers[i].mesh, second.layers[i].mesh);
+            EXPECT_EQ(first.layers[i].field, second.layers[i].field);
+            EXPECT_EQ(first.layers[i].marks, second.layers[i].marks);
+        }
+        EXPECT_EQ(first.lines, second.lines) << int(view);
+    }
+}
+
+TEST_F(Scenes, AnotherFieldKeepsTheMeshAndAnotherPartReplacesIt)
+{
+    const Scene before = part_scene(state, cache);
+    state.document.display.field = Field::strain_major;
+    const Scene other_field = part_scene(state, cache);
+    EXPECT_EQ(other_field.layers[0].mesh, before.layers[0].mesh);
+    EXPECT_NE(other_field.layers[0].field, before.layers[0].field);
+    auto other = std::make_shared<PartFile>(*state.document.session.part);
+    state.document.session = Session{};
+    state.document.session.part = other;
+    const Scene other_part = part_scene(state, cache);
+    EXPECT_NE(other_part.layers[0].mesh, before.layers[0].mesh);
+    EXPECT_FALSE(other_part.layers[0].field) << "it is not solved yet";
+}
+
+TEST_F(Scenes, TheFieldOnThePartAndTheBlankIsThatOfTheSolution)
+{
+    for (const bool per_face : {false, true}) {
+        state.document.display.field = Field::thickness;
+        state.document.display.per_face = per_face;
+        const Eigen::VectorXd& wanted = per_face ? session->blank->face.thickness : session->blank->node.thickness;
+        for (const Scene& shown : {part_scene(state, cache), blank_scene(state, cache)}) {
+            const SceneField& field = *shown.layers[0].field;
+            EXPECT_EQ(field.per_face, per_face);
+            EXPECT_LT((field.value.head(wanted.size()) - wanted.cast<float>()).cwiseAbs().maxCoeff(), 1e-6);
+            ASSERT_TRUE(shown.legend);
+            EXPECT_EQ(shown.legend->unit, "mm");
+        }
+    }
+}
+
+TEST_F(Scenes, TheLeastAndTheGreatestValueAreMarkedWhereTheyAre)
+{
+    state.document.display.field = Field::strain_major;
+    Eigen::Index least, greatest;
+    session->blank->node.strain_major.minCoeff(&least);
+    session->blank->node.strain_major.maxCoeff(&greatest);
+    const Scene on_part = part_scene(state, cache), on_blank = blank_scene(state, cache);
+    ASSERT_GE(on_part.labels.size(), 2u);
+    EXPECT_EQ(on_part.labels[0].text.substr(0, 4), "min ");
+    EXPECT_LT((on_part.labels[0].place - part().position.col(least)).norm(), 1e-9);
+    EXPECT_EQ(on_part.labels[1].text.substr(0, 4), "max ");
+    EXPECT_LT((on_part.labels[1].place - part().position.col(greatest)).norm(), 1e-9);
+    EXPECT_LT((on_blank.labels[1].place.head<2>() - session->blank->blank.position.col(greatest)).norm(), 1e-9);
+    state.document.display.extremes = false;
+    EXPECT_TRUE(part_scene(state, cache).labels.empty());
+}
+
+TEST_F(Scenes, AProbeShowsTheValueAtItsPlace)
+{
+    state.document.display.field = Field::thickness;
+    state.document.display.extremes = false;
+    const Eigen::Vector3d barycentric(0.2, 0.3, 0.5);
+    state.document.probes = {{7, barycentric}, {1000000, barycentric}}; // the second one is of another part
+    const Scene shown = part_scene(state, cache);
+    ASSERT_EQ(shown.labels.size(), 1u);
+    const Eigen::Vector3i corner = part().triangle.col(7);
+    EXPECT_NEAR(std::stod(shown.labels[0].text), session->blank->node.thickness(corner).dot(barycentric), 0.005);
+    EXPECT_LT((shown.labels[0].place - part().position(Eigen::all, corner) * barycentric).norm(), 1e-9);
+}
+
+TEST_F(Scenes, WhileAJobLaysTheBlankOutItsShapeSoFarIsShownWithoutAField)
+{
+    auto live = std::make_shared<Eigen::Matrix2Xd>(session->blank->blank.position * 2);
+    state.job.running = true;
+    state.job.blank = live;
+    const Scene shown = blank_scene(state, cache);
+    EXPECT_FALSE(shown.layers[0].field);
+    EXPECT_NEAR(shown.box.sizes().x(), live->row(0).maxCoeff() - live->row(0).minCoeff(), 1e-9);
+    state.job.blank = std::make_shared<Eigen::Matrix2Xd>(Eigen::Matrix2Xd::Zero(2, 3)); // of another part
+    EXPECT_TRUE(blank_scene(state, cache).layers[0].field);
+}
+
+/// Places of the labels 1 to 4.
+std::vector<Eigen::Vector3d> corners_of(const Scene& shown)
+{
+    std::vector<Eigen::Vector3d> places;
+    for (const SceneLabel& label : shown.labels)
+        if (label.text == std::to_string(places.size() + 1))
+            places.push_back(label.place);
+    return places;
+}
+
+TEST_F(Scenes, TheCornersAreThoseOfTheGridUntilTheUserSetsOthers)
+{
+    state.document.display.extremes = false;
+    const Eigen::Matrix2Xd& plane = session->blank->blank.position;
+    auto places = corners_of(blank_scene(state, cache));
+    ASSERT_EQ(places.size(), 4u);
+    for (size_t k = 0; k < 4; ++k)
+        EXPECT_LT((places[k].head<2>() - plane.col(session->grid->boundary.corner[k])).norm(), 1e-9);
+    state.document.session.options.corners = {{2 * 3, 2 * 1, 2 * 4, 2 * 0}}; // as in the file
+    places = corners_of(blank_scene(state, cache));
+    ASSERT_EQ(places.size(), 4u);
+    EXPECT_LT((places[0].head<2>() - plane.col(3)).norm(), 1e-9);
+    EXPECT_LT((places[3].head<2>() - plane.col(0)).norm(), 1e-9);
+    state.document.session.options.corners = {{3, 1, 5, 7}}; // no numbers of the file
+    EXPECT_TRUE(corners_of(blank_scene(state, cache)).empty());
+}
+
+TEST_F(Scenes, WhileCornersAreChosenThoseTheGridWouldGetAreShown)
+{
+    state.document.session = Session{};
+    state.document.session.part = session->part;
+    state.document.session.blank = session->blank;
+    EXPECT_TRUE(corners_of(blank_scene(state, cache)).empty());
+    state.view.tool = Tool::corners;
+    EXPECT_EQ(corners_of(blank_scene(state, cache)).size(), 4u);
+}
+
+TEST_F(Scenes, TheFaceUnderTheMouseIsOutlinedInEveryView)
+{
+    for (const View view : all_views) {
+        state.hovered = std::nullopt;
+        const size_t without = scene(view, state, cache).lines.size();
+        state.hovered = 11;
+        const Scene shown = scene(view, state, cache);
+        ASSERT_EQ(shown.lines.size(), without + 2) << int(view);
+        EXPECT_EQ(shown.lines.back()->point.cols(), 6) << "three sides";
+    }
+}
+
+TEST_F(Scenes, ThePictureOfTheSurfaceHasItsControlNetInTheBox)
+{
+    const Scene shown = surface_scene(state, cache);
+    for (const auto point : session->surface->result.surface.control.colwise())
+        EXPECT_LT(shown.box.exteriorDistance(Eigen::Vector3d(point)), 1e-9);
+    state.view.control_net = false;
+    EXPECT_TRUE(surface_scene(state, cache).lines.empty());
+}
+
+TEST_F(Scenes, TheDeviationOfTheSurfaceIsAboutThatOfTheReport)
+{
+    const Scene shown = surface_scene(state, cache);
+    double largest = 0;
+    for (const float d : shown.layers[0].field->value)
+        if (std::isfinite(d))
+            largest = std::max(largest, double(std::abs(d)));
+    EXPECT_LE(largest, 1.3 * session->surface->deviation.surface_to_mesh.max);
+    EXPECT_GE(largest, 0.7 * session->surface->deviation.surface_to_mesh.max);
+}
+
+/// 4 x 3 unit cells; the node (1, 1) is moved to (x, y).
+QuadGrid grid_with_node_at(double x, double y)
+{
+    QuadGrid grid{4, 3, Eigen::Matrix3Xd::Zero(3, 20)};
+    for (int j = 0; j <= 3; ++j)
+        for (int i = 0; i <= 4; ++i)
+            grid.position.col(grid.node(i, j)) << i, j, 0;
+    grid.position.col(grid.node(1, 1)) << x, y, 0;
+    return grid;
+}
+
+TEST(CellJacobian, IsTheSineOfTheWorstCornerAndItsLeastIsThatOfTheReport)
+{
+    EXPECT_LT((scaled_jacobians(grid_with_node_at(1, 1)).array() - 1).abs().maxCoeff(), 1e-12);
+    const QuadGrid skewed = grid_with_node_at(1.4, 1.3);
+    EXPECT_NEAR(scaled_jacobians(skewed).minCoeff(), cell_quality(skewed).min_scaled_jacobian, 1e-12);
+    // Cell (0, 0) has the corners (0,0), (1,0), (1.4,1.3), (0,1) and at the third one the sides (-1.4,-0.3),
+    // (-0.4,-1.3).
+    EXPECT_NEAR(scaled_jacobians(skewed)[0], 1.70 / std::hypot(0.4, 1.3) / std::hypot(1.4, 0.3), 1e-9);
+}
+
+TEST(GridShapes, FoldedCellsAreRedAndAllOthersAreNot)
+{
+    const QuadGrid folded = grid_with_node_at(2.5, 1.2);
+    const int count = cell_quality(folded).folded_cells;
+    ASSERT_GT(count, 0);
+    const StageShape shape = lifted_grid_shape(folded, folded, true);
+    ASSERT_EQ(shape.layers.size(), 2u);
+    EXPECT_EQ(shape.layers[0].mesh->triangle.cols(), 2 * (12 - count));
+    EXPECT_GT(shape.layers[0].field->value.minCoeff(), 0);
+    EXPECT_EQ(shape.layers[1].mesh->triangle.cols(), 2 * count);
+    EXPECT_EQ(shape.layers[1].colour, palette::folded);
+    EXPECT_EQ(planar_grid_shape(folded, false).layers.size(), 1u);
+    EXPECT_TRUE(planar_grid_shape(grid_with_node_at(1, 1), false).layers.empty());
+}
+
+TEST(SurfaceDeviation, OfAPlaneBesideTheOtherIsTheirDistanceWithItsSignAndNothingOverAHole)
+{
+    const TriMesh part = shapes::plate();
+    FilledMesh filled = fill_holes(part, part.position.topRows<2>());
+    for (const double height : {0.25, -0.75}) {
+        Tessellation surface;
+        surface.mesh = shapes::rectangle(120, 80, 24, 16);
+        surface.mesh.position.row(2).setConstant(height);
+        const Eigen::VectorXd deviation = surface_deviation(surface, filled);
+        int on_part = 0, on_holes = 0;
+        for (int v = 0; v < deviation.size(); ++v) {
+            const Eigen::Vector2d place = surface.mesh.position.col(v).head<2>();
+            const double from_hole =
+                std::min((place - Eigen::Vector2d(35, 40)).norm(), (place - Eigen::Vector2d(85, 40)).norm());
+            if (from_hole < 11.5) {
+                EXPECT_TRUE(std::isnan(deviation[v])) << place.transpose();
+                ++on_holes;
+            } else if (from_hole > 12.5) {
+                EXPECT_NEAR(deviation[v], height, 1e-9) << place.transpose();
+                ++on_part;
+            }
+        }
+        EXPECT_GT(on_part, 300);
+        EXPECT_GT(on_holes, 20);
+    }
+}
+
+/// A plate that is stretched along x by 1.2 and squeezed along y by 0.8, from a blank that lies askew.
+struct Stretched {
+    TriMesh part = shapes::rectangle(60, 40, 30, 20);
+    FlattenResult flat;
+    Eigen::Matrix2d turn = Eigen::Rotation2Dd(0.6).toRotationMatrix();
+
+    Stretched()
+    {
+        flat.blank.position = turn * Eigen::DiagonalMatrix<double, 2>(1 / 1.2, 1 / 0.8) * part.position.topRows<2>();
+        flat.face.strain_major = Eigen::VectorXd::Constant(part.triangles(), std::log(1.2));
+        flat.face.strain_minor = Eigen::VectorXd::Constant(part.triangles(), std::log(0.8));
+        flat.face.direction_major = Eigen::Vector3d::UnitX().replicate(1, part.triangles());
+    }
+};
+
+/// Each line as a vector.
+Eigen::Matrix3Xd vectors(const SceneLines& lines)
+{
+    Eigen::Matrix3Xd result(3, lines.point.cols() / 2);
+    for (Eigen::Index i = 0; i < result.cols(); ++i)
+        result.col(i) = (lines.point.col(2 * i + 1) - lines.point.col(2 * i)).cast<double>();
+    return result;
+}
+
+TEST(StrainGlyphs, PointAlongThePrincipalStrainsAreAsLongAndColouredBySign)
+{
+    const Stretched plate;
+    const LineList lines = strain_glyphs(plate.part, plate.flat, plate.part.position, 60);
+    ASSERT_EQ(lines.size(), 4u) << "casing and core of the stretched and the squeezed ones";
+    EXPECT_EQ(lines[1]->colour, palette::stretched);
+    EXPECT_EQ(lines[3]->colour, palette::squeezed);
+    const Eigen::Matrix3Xd along = vectors(*lines[1]), across = vectors(*lines[3]);
+    EXPECT_NEAR(double(along.cols()), 60, 35);
+    EXPECT_LT(along.bottomRows<2>().cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_LT(across.row(0).cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_NEAR(along.col(0).norm() / across.col(0).norm(), std::log(1.2) / -std::log(0.8), 1e-3);
+}
+
+TEST(StrainGlyphs, OnTheBlankTheyLieInTheDirectionsThatBecomeThoseOfThePart)
+{
+    const Stretched plate;
+    Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, plate.part.vertices());
+    flat.topRows<2>() = plate.flat.blank.position;
+    const LineList lines = strain_glyphs(plate.part, plate.flat, flat, 60);
+    ASSERT_EQ(lines.size(), 4u);
+    const Eigen::Vector2d x = plate.turn.col(0), y = plate.turn.col(1);
+    const Eigen::Matrix3Xd along = vectors(*lines[1]), across = vectors(*lines[3]);
+    for (const auto glyph : along.colwise())
+        EXPECT_NEAR(std::abs(glyph.head<2>().normalized().dot(x)), 1, 1e-4);
+    for (const auto glyph : across.colwise())
+        EXPECT_NEAR(std::abs(glyph.head<2>().normalized().dot(y)), 1, 1e-4);
+}
+
+} // namespace
+} // namespace spia::viewer
