@@ -184,7 +184,7 @@ TEST(Region, AGentlyCurvedPieceEndsWhereABendBeginsAtAnySize)
 {
     // Along the profile: an arc of radius 150, a quarter of radius 8, an arc of radius 150 again, all tangent.
     const std::vector<double> radius = {150, 8, 150}, width = {100, 8 * std::numbers::pi / 2, 60};
-    const std::vector<int> cells = {25, 6, 15};
+    const std::vector<int> cells = {60, 6, 36};
     std::vector<Eigen::Vector2d> profile = {{0, 0}};
     double heading = 0;
     for (size_t piece = 0; piece < 3; ++piece)
@@ -205,7 +205,7 @@ TEST(Region, AGentlyCurvedPieceEndsWhereABendBeginsAtAnySize)
     std::vector<FaceSet> piece(3);
     for (int f = 0; f < mesh.triangles(); ++f) {
         const double at = middle(flat, f).x();
-        piece[at < 25 ? 0 : at < 31 ? 1 : 2].push_back(f);
+        piece[at < 60 ? 0 : at < 66 ? 1 : 2].push_back(f);
     }
     for (const double scale : {0.001, 1., 1000.}) {
         const RegionSearch search(shapes::scaled(mesh, scale));
