@@ -180,6 +180,54 @@ TEST(Region, SmoothPiecesOfAHatProfileAreItsFlatsAndItsBends)
     }
 }
 
+TEST(Region, AGentlyCurvedPieceEndsWhereABendBeginsAtAnySize)
+{
+    // Along the profile: an arc of radius 150, a quarter of radius 8, an arc of radius 150 again, all tangent.
+    const std::vector<double> radius = {150, 8, 150}, width = {100, 8 * std::numbers::pi / 2, 60};
+    const std::vector<int> cells = {60, 6, 36};
+    std::vector<Eigen::Vector2d> profile = {{0, 0}};
+    double heading = 0;
+    for (size_t piece = 0; piece < 3; ++piece)
+        for (int i = 0; i < cells[piece]; ++i) { // chords
+            const double turn = width[piece] / radius[piece] / cells[piece];
+            const double chord = 2 * radius[piece] * std::sin(turn / 2);
+            profile.push_back(profile.back() +
+                              chord * Eigen::Vector2d(std::cos(heading + turn / 2), std::sin(heading + turn / 2)));
+            heading += turn;
+        }
+    const int columns = int(profile.size()) - 1;
+    TriMesh mesh = shapes::rectangle(columns, 60, columns, 15);
+    for (auto place : mesh.position.colwise()) {
+        const Eigen::Vector2d at = profile[size_t(std::lround(place.x()))];
+        place = Eigen::Vector3d(at.x(), place.y(), at.y());
+    }
+    const TriMesh flat = shapes::rectangle(columns, 60, columns, 15);
+    std::vector<FaceSet> piece(3);
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const double at = middle(flat, f).x();
+        piece[at < 60 ? 0 : at < 66 ? 1 : 2].push_back(f);
+    }
+    for (const double scale : {0.001, 1., 1000.}) {
+        const RegionSearch search(shapes::scaled(mesh, scale));
+        for (const FaceSet& expected : piece)
+            for (const int f : expected)
+                ASSERT_EQ(search.smooth_region(f), expected) << "face " << f << " at scale " << scale;
+    }
+}
+
+TEST(Region, AnEdgeOfThreeFacesSeparatesThem)
+{
+    TriMesh mesh; // three leaves along the z axis, the first one of two faces
+    mesh.position.resize(3, 6);
+    mesh.position << 0, 0, 1, -1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1;
+    mesh.triangle.resize(3, 4);
+    mesh.triangle << 0, 0, 0, 2, 2, 3, 4, 5, 1, 1, 1, 1;
+    const RegionSearch search(mesh);
+    EXPECT_EQ(search.flood(0, std::numbers::pi), (FaceSet{0, 3}));
+    EXPECT_EQ(search.flood(1, std::numbers::pi), FaceSet{1});
+    EXPECT_EQ(search.flood(2, std::numbers::pi), FaceSet{2});
+}
+
 TEST(Region, SmoothRegionEndsAtFeatureEdgesAndCoversGentleCurvature)
 {
     const TriMesh edge = angle_section(50 * degree), dome = shapes::saddle();
