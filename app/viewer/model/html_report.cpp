@@ -180,11 +180,6 @@ std::string all_notes(const Session& session, const std::vector<std::string>& no
     std::string text;
     for (const std::string& shortcoming : shortcomings(session))
         text += fmt::format("<p class=\"note\"><b>Mind:</b> {}</p>\n", escaped(shortcoming));
-    if (const int necking = session.blank->necking_triangles)
-        text += fmt::format(
-            "<p class=\"note\"><b>Mind:</b> {} of {} triangles are strained beyond {}, where the hardening "
-            "curve is an extrapolation: the sheet would neck or tear there.</p>\n",
-            grouped(necking), grouped(session.part->mesh.triangles()), fixed(session.blank->report.trusted_strain, 2));
     for (const std::string& note : notes)
         text += fmt::format("<p class=\"note plain\">{}</p>\n", escaped(note));
     return text.empty() ? "" : fmt::format("<section class=\"notes\">\n{}</section>\n", text);
@@ -371,13 +366,12 @@ std::string residual_chart(const SolveReport& report)
 std::string solving(const Session& session)
 {
     const SolveReport& report = session.blank->report;
-    const std::string end = report.converged ? "converged" : "did not converge: " + report.reason;
     return fmt::format(
         "<h2>How the solver got there</h2>\n<div class=\"pair\"><div><h3>Iterations</h3>{}</div>"
         "<div><h3>Hardening curve</h3>{}</div></div>\n<p>{} energy and {} Newton steps in {} s; {}; residual "
         "{} of the nodal forces at yield.</p>\n",
         residual_chart(report), hardening_chart(session), report.energy.size(), report.newton.size(),
-        fixed(report.seconds, 1), escaped(end), power_of_ten(report.residual));
+        fixed(report.seconds, 1), escaped(report.reason), power_of_ten(report.residual));
 }
 
 std::string repairs(const PartFile& part)
