@@ -11,6 +11,7 @@
 #include "app/viewer/render/shader.h"
 #include "app/viewer/render/uploads.h"
 #include "app/viewer/views/colours.h"
+#include "app/viewer/views/palette.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {
@@ -19,7 +20,6 @@ namespace {
 // Texture units. Samplers of different kinds must not share one, even unused.
 constexpr int unit_map = 0, unit_values = 1, unit_marks = 2;
 
-constexpr Colour selected_colour{0.93f, 0.10f, 0.62f, 1}; // magenta: in none of the colour maps
 constexpr float ghost_push = 8; // of the lift of lines: a few pixels, or a hundredth of the part
 constexpr Colour ink{0.07f, 0.08f, 0.10f, 1};
 
@@ -249,7 +249,7 @@ void Renderer::Gpu::draw_faces(const Pass& pass, const SceneLayer& layer)
     shader.set("map", unit_map);
     shader.set("face_value", unit_values);
     shader.set("face_mark", unit_marks);
-    shader.set("selected_colour", selected_colour);
+    shader.set("selected_colour", palette::selected);
 
     glBindVertexArray(mesh.array);
     glDisableVertexAttribArray(2);

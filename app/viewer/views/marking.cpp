@@ -43,7 +43,8 @@ std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions)
     return colours;
 }
 
-LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top)
+LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top,
+                          const Colour& core_colour)
 {
     // A repeated vertex is the one it repeats, or sharp edges inside would count as outline.
     const Eigen::Index vertices = mesh.position.cols() - Eigen::Index(mesh.repeated.size());
@@ -70,7 +71,7 @@ LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, 
     casing->width = width + 2;
     casing->on_top = on_top;
     auto core = std::make_shared<SceneLines>(*casing);
-    core->colour = {1, 1, 1, 1};
+    core->colour = core_colour;
     core->width = width;
     return {casing, core};
 }

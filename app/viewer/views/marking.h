@@ -11,9 +11,10 @@ std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& s
 /// Colours of the regions by number, as many as face_marks() tells apart.
 std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions);
 
-/// Lines around a set of faces, light with a dark casing: seen on every colour.
+/// Lines around a set of faces with a dark casing: white on it, they are seen on every colour.
 /// @param faces ascending; numbers that the mesh does not have are left out
-LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top);
+LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top,
+                          const Colour& core = {1, 1, 1, 1});
 
 /// Place of barycentric coordinates on a face, mm.
 Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,

@@ -4,6 +4,7 @@
 
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/marking.h"
+#include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 
 namespace spia::viewer {
@@ -62,8 +63,8 @@ void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache
 {
     const auto& mesh = part_shape(state, cache).mesh;
     const auto& selected = state.document.selected;
-    const LineList& selection =
-        cache.selection_elsewhere.of({mesh, selected}, [&] { return outline_of_faces(*mesh, selected, 1.5f, true); });
+    const LineList& selection = cache.selection_elsewhere.of(
+        {mesh, selected}, [&] { return outline_of_faces(*mesh, selected, 2, true, palette::selected); });
     const LineList& hover = cache.hover_elsewhere.of({mesh, state.hovered}, [&] {
         return state.hovered ? outline_of_faces(*mesh, {*state.hovered}, 2.5f, true) : LineList{};
     });
