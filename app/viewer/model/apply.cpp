@@ -74,6 +74,8 @@ struct ViewerModel::Apply {
             return;
         }
         part();
+        std::erase_if(state.messages,
+                      [](const Message& m) { return m.severity != Severity::error; }); // of the run before
         change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
         model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
     }
@@ -124,6 +126,7 @@ struct ViewerModel::Apply {
             state.history.close();
         corners[size_t(action.corner)] = in_file;
         session.options.corners = corners;
+        model.dragging_ = action.dragging;
         model.run_to(action.dragging ? Stage::grid : Stage::fit, "Making the grid");
     }
     void operator()(const ProposeCorners&)

@@ -62,6 +62,11 @@ void ViewerModel::start(Stage from, Stage to, std::string title)
     session.options.flatten.watch = [live = live_](const Eigen::Matrix2Xd& X, const NewtonStep& step) {
         live->see(X, step);
     };
+    if (dragging_) {
+        constexpr int few = 14;
+        session.options.grid.columns = session.options.grid.rows = 0;
+        session.options.grid.cells = std::min(session.options.grid.cells, few);
+    }
     state_.job = JobView{};
     state_.job.running = true;
     state_.job.title = std::move(title);
@@ -226,6 +231,9 @@ void ViewerModel::hover_nothing()
 
 void ViewerModel::fit(std::optional<View> only)
 {
+    // Beside what is shown there is room for the legend.
+    constexpr double legend = 70; // pixels
+    const auto aspect = [](glm::dvec2 size) { return std::max(size.x - legend, 0.5 * size.x) / size.y; };
     const Session& session = state_.document.session;
     if (!session.part)
         return;
@@ -245,12 +253,14 @@ void ViewerModel::fit(std::optional<View> only)
         const glm::dvec2 size = size_[size_t(view)];
         if (view == View::blank) {
             if (session.blank)
-                camera = spia::viewer::fit(camera, box_of(session.blank->blank.position), size.x / size.y);
+                camera = pan(spia::viewer::fit(camera, box_of(session.blank->blank.position), aspect(size)),
+                             {legend / 2, 0}, size);
             continue;
         }
         if (state_.view.linked && view != View::part)
             camera = state_.view.camera[size_t(View::part)];
-        camera = spia::viewer::fit(camera, box_of(session.part->mesh.position), size.x / size.y);
+        camera =
+            pan(spia::viewer::fit(camera, box_of(session.part->mesh.position), aspect(size)), {legend / 2, 0}, size);
     }
 }
 

@@ -120,8 +120,11 @@ void histogram_section(Frame& frame)
     for (size_t k = 0; k < h.share.size(); ++k) { // the root of the share: small ones stay visible
         const float height = float(std::sqrt(h.share[k]) / highest) * size.y;
         const double value = h.least + (double(k) + 0.5) / double(h.share.size()) * (h.greatest - h.least);
-        draw->AddRectFilled({at.x + float(k) * width, at.y + size.y - height},
-                            {at.x + float(k + 1) * width - 1, at.y + size.y}, ink(colour_of(scale, float(value))));
+        const ImVec2 high{at.x + float(k) * width, at.y + size.y - height},
+            low{at.x + float(k + 1) * width - 1, at.y + size.y};
+        draw->AddRectFilled(high, low, ink(colour_of(scale, float(value))));
+        if (h.share[k] > 0)
+            draw->AddRect(high, low, ink(palette_of(frame.state.view.dark).line));
     }
     draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ink(palette_of(frame.state.view.dark).line));
     ImGui::InvisibleButton("histogram", size);
@@ -211,7 +214,8 @@ void strain_diagram(Frame& frame)
         const ImVec2 low = place(value, y.least);
         draw->AddLine(low, {low.x, from.y}, ink(p.line));
         if (k % ((x.intervals + 3) / 4) == 0)
-            label({low.x, low.y + 2}, fmt::format("{:.3g}", std::abs(value) < 1e-9 ? 0 : value), 0.5f, 0);
+            label({std::min(low.x, to.x - 8 * frame.ui.scale), low.y + 2},
+                  fmt::format("{:.3g}", std::abs(value) < 1e-9 ? 0 : value), 0.5f, 0);
     }
     for (int k = 0; k <= y.intervals; ++k) {
         const double value = y.least + (y.greatest - y.least) * k / y.intervals;

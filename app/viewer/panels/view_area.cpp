@@ -239,43 +239,51 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
     }
 }
 
+/// Small buttons at the right end of a view's title; a narrow view keeps those that matter most.
 void view_buttons(Frame& frame, View view)
 {
-    const auto button = [&](const char* label, const char* help, auto action) {
-        ImGui::SameLine();
-        if (ImGui::SmallButton(label))
-            action();
-        tooltip(help);
+    struct Item {
+        const char *label, *help;
+        std::optional<StandardView> from;
     };
     const bool maximised = frame.state.view.maximised == view;
-    const float s = frame.ui.scale;
-    const char* names[] = {"Fit", "Iso", "Top", "Front", "Right"};
-    float width = ImGui::CalcTextSize(maximised ? "Four views" : "Enlarge").x + 12 * s;
-    for (size_t k = 0; k < (view == View::blank ? 1u : 5u); ++k)
-        width += ImGui::CalcTextSize(names[k]).x + 20 * s;
-    if (ImGui::GetContentRegionAvail().x < width + 110 * s) { // a narrow view keeps the two that matter
-        width = ImGui::CalcTextSize("Fit").x + ImGui::CalcTextSize(maximised ? "Four views" : "Enlarge").x + 30 * s;
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-        ImGui::Dummy({0, 0});
-        button("Fit", "Show all of it  (F)", [&] { frame.actions.push(FitView{view}); });
-    } else {
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-        ImGui::Dummy({0, 0});
-        button("Fit", "Show all of it  (F)", [&] { frame.actions.push(FitView{view}); });
-        if (view != View::blank) {
-            button("Iso", "From the front right above", [&] {
-                frame.actions.push(LookFrom{view, StandardView::isometric});
-            });
-            button("Top", "From above", [&] { frame.actions.push(LookFrom{view, StandardView::top}); });
-            button("Front", "From the front", [&] { frame.actions.push(LookFrom{view, StandardView::front}); });
-            button("Right", "From the right", [&] { frame.actions.push(LookFrom{view, StandardView::right}); });
+    const char* enlarge = maximised ? "Four views" : "Enlarge";
+    std::vector<Item> items = {{"Fit", "Show all of it  (F)", {}}};
+    if (view != View::blank)
+        items = {{"Iso", "From the front right above", StandardView::isometric},
+                 {"Top", "From above", StandardView::top},
+                 {"Front", "From the front", StandardView::front},
+                 {"Right", "From the right", StandardView::right},
+                 items[0]};
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float gap = 4 * frame.ui.scale;
+    const auto width = [&](const char* label) { return ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap; };
+    const auto whole = [&] {
+        float sum = width(enlarge);
+        for (const Item& item : items)
+            sum += width(item.label);
+        return sum;
+    };
+    const float right = ImGui::GetWindowContentRegionMax().x,
+                title_end = ImGui::GetItemRectSize().x + 2 * style.ItemSpacing.x;
+    while (items.size() > 1 && whole() > right - title_end)
+        items.erase(items.begin());
+    ImGui::SameLine(right - whole() + gap);
+    for (const Item& item : items) {
+        if (ImGui::SmallButton(item.label)) {
+            if (item.from)
+                frame.actions.push(LookFrom{view, *item.from});
+            frame.actions.push(FitView{view});
         }
+        tooltip(item.help);
+        ImGui::SameLine(0, gap);
     }
-    button(maximised ? "Four views" : "Enlarge", "Or double-click the title", [&] {
+    if (ImGui::SmallButton(enlarge)) {
         ViewSettings settings = frame.state.view;
         settings.maximised = maximised ? std::nullopt : std::optional(view);
         frame.actions.push(SetViewSettings{settings});
-    });
+    }
+    tooltip("Or double-click the title");
 }
 
 void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
@@ -321,7 +329,11 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
     for (const SceneLabel& label : shown.labels) {
         const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], label.place, mouse.size);
-        haloed(draw, {from.x + float(pixel.x) + 7, from.y + float(pixel.y) - 7 - ImGui::GetTextLineHeight() / 2},
+        const float width = ImGui::CalcTextSize(label.text.c_str()).x, gap = 7 * frame.ui.scale;
+        const bool left = float(pixel.x) + gap + width > size.x; // no room on the right
+        haloed(draw,
+               {from.x + float(pixel.x) + (left ? -gap - width : gap),
+                from.y + float(pixel.y) - gap - ImGui::GetTextLineHeight() / 2},
                ink(label.colour), halo, label.text.c_str());
     }
     if (!shown.empty.empty()) {

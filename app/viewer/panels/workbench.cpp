@@ -511,7 +511,9 @@ void workbench(Frame& frame)
     const Palette p = palette_of(frame.state.view.dark);
     if (left > 0) {
         ImGui::SetCursorScreenPos(at);
-        ImGui::BeginChild("left", {left, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+        ImGui::BeginChild("left", {left, height}, false,
+                          ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar |
+                              ImGuiWindowFlags_NoScrollWithMouse);
         steps_panel(frame);
         ImGui::EndChild();
     }
@@ -528,7 +530,9 @@ void workbench(Frame& frame)
     ImGui::EndChild();
     if (right > 0) {
         ImGui::SetCursorScreenPos({at.x + left + middle, at.y});
-        ImGui::BeginChild("right", {right, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+        ImGui::BeginChild("right", {right, height}, false,
+                          ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar |
+                              ImGuiWindowFlags_NoScrollWithMouse);
         inspect_panel(frame);
         ImGui::EndChild();
     }

@@ -1,0 +1,248 @@
+#include "app/viewer/model/viewer_model.h"
+
+#include <chrono>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "app/viewer/model/names.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia::viewer {
+namespace {
+
+const std::filesystem::path assets = SPIA_SOURCE_DIR "/assets";
+
+struct ViewerModelTest : testing::Test {
+    ViewerModel model{assets};
+    const ViewerState& state = model.state();
+    const Document& document = state.document;
+
+    void wait()
+    {
+        while (model.busy()) {
+            model.poll();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    void open(const char* part = "dome.obj")
+    {
+        model.apply(OpenPart{assets / "parts" / part, ""});
+        wait();
+        ASSERT_NE(document.session.part, nullptr);
+    }
+    bool says(Severity severity, const std::string& text) const
+    {
+        return std::any_of(state.messages.begin(), state.messages.end(), [&](const Message& m) {
+            return m.severity == severity && m.text.find(text) != std::string::npos;
+        });
+    }
+};
+
+} // namespace
+
+TEST_F(ViewerModelTest, RunsTheChainInTheBackgroundAndShowsTheBlankWhileItConverges)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::fit});
+    EXPECT_TRUE(model.busy());
+    size_t shapes = 0, steps = 0;
+    std::shared_ptr<const Eigen::Matrix2Xd> last;
+    while (model.busy()) {
+        model.poll();
+        if (state.job.blank && state.job.blank != last) {
+            last = state.job.blank;
+            ++shapes;
+            EXPECT_EQ(last->cols(), document.session.part->mesh.vertices());
+        }
+        steps = std::max(steps, state.job.residual.size());
+    }
+    EXPECT_GT(shapes, 0u);
+    EXPECT_GT(steps, 3u);
+    ASSERT_NE(document.session.surface, nullptr);
+    EXPECT_FALSE(state.job.running);
+    EXPECT_FALSE(first_stale(document));
+}
+
+TEST_F(ViewerModelTest, CancellingKeepsWhatWasThere)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto blank = document.session.blank;
+    model.apply(SetThickness{2});
+    EXPECT_EQ(first_stale(document), Stage::solve);
+    EXPECT_EQ(document.session.blank, blank); // still to be looked at
+    model.apply(RunTo{Stage::fit});
+    while (state.job.residual.empty() && model.busy())
+        model.poll();
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_EQ(document.session.blank, blank);
+    EXPECT_EQ(document.session.options.flatten.thickness, 2);
+    EXPECT_EQ(first_stale(document), Stage::solve);
+    EXPECT_TRUE(says(Severity::hint, "cancelled"));
+}
+
+TEST_F(ViewerModelTest, UndoBringsBackEveryKindOfChangeByItsName)
+{
+    open();
+    const std::pair<Action, std::string> changes[] = {
+        {SelectFaces{{5, 3, 3}}, "Select faces"}, {MakeRegion{"", RegionKind::binder}, "Make region"},
+        {SetThickness{0.7}, "Change thickness"},  {SetMaterial{"dp600"}, "Change material"},
+        {AddProbe{{7, {1, 0, 0}}}, "Pin probe"},  {InvertSelection{}, "Invert selection"},
+        {ClearSelection{}, "Clear selection"},    {SetDirection{Eigen::Vector3d(0, 0, 2)}, "Change stamping direction"},
+    };
+    for (const auto& [action, name] : changes) {
+        model.apply(action);
+        EXPECT_EQ(state.history.undo_name(), name);
+    }
+    EXPECT_EQ(document.regions.size(), 1u);
+    EXPECT_EQ(document.regions[0].faces, (std::vector<int>{3, 5}));
+    for (size_t k = 0; k < std::size(changes); ++k)
+        model.apply(Undo{});
+    EXPECT_EQ(state.history.undo_name(), "");
+    EXPECT_TRUE(document.selected.empty());
+    EXPECT_TRUE(document.regions.empty());
+    EXPECT_TRUE(document.probes.empty());
+    EXPECT_EQ(document.session.options.flatten.thickness, 1);
+    EXPECT_EQ(document.material, "mild_steel");
+    EXPECT_EQ(document.session.options.flatten.material.young_MPa, 206000);
+    EXPECT_FALSE(document.session.options.flatten.direction);
+    for (size_t k = 0; k < std::size(changes); ++k)
+        model.apply(Redo{});
+    EXPECT_EQ(state.history.redo_name(), "");
+    EXPECT_EQ(document.material, "dp600");
+    EXPECT_EQ(document.probes.size(), 1u);
+}
+
+TEST_F(ViewerModelTest, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto before = document.session.grid->boundary.corner;
+    const int columns = document.session.grid->result.planar.columns;
+    const auto& side = document.session.grid->boundary.side[0];
+    for (size_t k = 1; k < 6; ++k)
+        model.apply(SetCorner{0, side[k], true});
+    wait();
+    EXPECT_EQ(document.session.grid->boundary.corner[0], side[5]);
+    EXPECT_LT(document.session.grid->result.planar.columns, columns); // coarse while dragging
+    model.apply(SetCorner{0, side[6], false});
+    wait();
+    EXPECT_EQ(document.session.grid->boundary.corner[0], side[6]);
+    EXPECT_EQ(document.session.grid->result.planar.columns, columns);
+    EXPECT_NE(document.session.surface, nullptr);
+    EXPECT_FALSE(first_stale(document));
+    EXPECT_EQ(state.history.undo_name(), "Move corner 1");
+    model.apply(Undo{});
+    EXPECT_EQ(document.session.grid->boundary.corner, before);
+}
+
+TEST_F(ViewerModelTest, EveryPickingToolTakesFacesAndSaysNothing)
+{
+    open();
+    model.resized(View::part, {800, 600});
+    model.apply(LookFrom{View::part, StandardView::top});
+    model.apply(FitView{});
+    const glm::dvec2 size(800, 600), middle(400, 300);
+    model.apply(PickAt{View::part, middle, size, PickMode::replace, {}, false});
+    EXPECT_EQ(document.selected.size(), 1u);
+    model.apply(GrowSelection{});
+    const size_t ring = document.selected.size();
+    EXPECT_GT(ring, 6u);
+    model.apply(ShrinkSelection{});
+    EXPECT_EQ(document.selected.size(), 1u);
+    model.apply(PickAt{View::part, middle, size, PickMode::replace, 5., false});
+    EXPECT_GT(document.selected.size(), ring);
+    model.apply(PickAt{View::part, middle, size, PickMode::replace, {}, true});
+    EXPECT_GT(document.selected.size(), ring);
+    model.apply(PickArea{View::part, {{0, 0}, {800, 0}, {800, 600}, {0, 600}}, size, PickMode::replace, true});
+    EXPECT_EQ(int(document.selected.size()), document.session.part->mesh.triangles());
+    model.apply(PickArea{View::part, {{0, 0}, {400, 0}, {400, 600}, {0, 600}}, size, PickMode::remove, true});
+    EXPECT_NEAR(double(document.selected.size()), document.session.part->mesh.triangles() / 2.,
+                document.session.part->mesh.triangles() * 0.1);
+    model.apply(PickBrush{View::part, middle, 30, size, PickMode::add, false});
+    model.apply(PickAt{View::part, {1, 1}, size, PickMode::replace, {}, false}); // nothing there
+    EXPECT_TRUE(document.selected.empty());
+    EXPECT_TRUE(state.messages.empty());
+}
+
+TEST_F(ViewerModelTest, WhatGoesWrongIsSaidAndChangesNothing)
+{
+    model.apply(OpenPart{"/no/such/part.stl", ""});
+    EXPECT_TRUE(says(Severity::error, "no file"));
+    model.apply(InvertSelection{});
+    EXPECT_TRUE(says(Severity::error, "Open a part first"));
+    open();
+    const ScratchFolder folder;
+    std::ofstream(folder / "bad.stl") << "solid nothing";
+    model.apply(OpenPart{folder / "bad.stl", ""});
+    wait();
+    EXPECT_TRUE(says(Severity::error, "bad.stl"));
+    open();
+    model.apply(SetThickness{-1});
+    model.apply(SelectFaces{{1000000}});
+    model.apply(MakeRegion{});
+    model.apply(SetMaterial{"unobtainium"});
+    model.apply(SetCorner{0, 0});
+    model.apply(ExportFiles{folder / "out", {"iges"}});
+    EXPECT_EQ(state.history.undo_name(), "");
+    EXPECT_EQ(document.session.options.flatten.thickness, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_GE(std::count_if(state.messages.begin(), state.messages.end(),
+                            [](const Message& m) { return m.severity == Severity::error; }),
+              6);
+}
+
+TEST_F(ViewerModelTest, AProjectComesBackWithItsPicksAndResults)
+{
+    const ScratchFolder folder;
+    open();
+    model.apply(SetThickness{1.5});
+    model.apply(SelectFaces{{10, 11, 12}});
+    model.apply(MakeRegion{"flange", RegionKind::binder});
+    model.apply(RunTo{Stage::grid});
+    wait();
+    model.apply(SaveProject{folder / "dome.spia"});
+    EXPECT_FALSE(state.unsaved);
+    EXPECT_TRUE(says(Severity::done, "dome.spia"));
+    const auto blank = document.session.blank->blank.position;
+
+    ViewerModel other{assets};
+    other.apply(OpenProject{folder / "dome.spia"});
+    while (other.busy())
+        other.poll();
+    const Document& back = other.state().document;
+    EXPECT_EQ(back.session.options.flatten.thickness, 1.5);
+    ASSERT_EQ(back.regions.size(), 1u);
+    EXPECT_EQ(back.regions[0].name, "flange");
+    EXPECT_EQ(back.regions[0].faces, (std::vector<int>{10, 11, 12}));
+    ASSERT_NE(back.session.blank, nullptr);
+    EXPECT_TRUE(back.session.blank->blank.position == blank);
+    EXPECT_NE(back.session.grid, nullptr);
+    EXPECT_EQ(back.session.surface, nullptr);
+}
+
+TEST_F(ViewerModelTest, ExportsInTheBackground)
+{
+    const ScratchFolder folder;
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    model.apply(ExportFiles{folder / "out", {"iges", "csv"}});
+    EXPECT_TRUE(model.busy());
+    wait();
+    for (const char* file : {"dome.iges", "fields.csv", "outline.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
+    EXPECT_TRUE(says(Severity::done, "dome.iges"));
+}
+
+TEST_F(ViewerModelTest, EndsAtOnceWhileAJobRuns)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::fit}); // the destructor cancels it
+}
+
+} // namespace spia::viewer
