@@ -99,7 +99,7 @@ void main()
     uint mark = has_marks ? texelFetch(face_mark, gl_PrimitiveID).r : 0u;
     if ((mark & region) != 0u) {
         vec4 tint = region_colour[(mark & region) - 1u];
-        colour.rgb = mix(colour.rgb, tint.rgb, tint.a * (has_field ? 0.45 : 0.75));
+        colour.rgb = mix(colour.rgb, tint.rgb, tint.a * (has_field ? 0.2 : 0.75));
     }
     if ((mark & selected) != 0u)
         colour.rgb = mix(colour.rgb, selected_colour.rgb, mix(0.45, 0.85, stripes(9.0)));

@@ -32,28 +32,12 @@ void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* t
     draw->AddText(at, colour, text);
 }
 
-/// Name and unit of what the colours of a view mean; empty: nothing.
-std::string legend_title(const Frame& frame, View view)
+void legend(const Frame& frame, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw)
 {
-    switch (view) {
-    case View::part:
-    case View::blank: {
-        const FieldInfo& field = info(frame.state.document.display.field);
-        return field.unit.empty() ? std::string(field.label) : fmt::format("{}, {}", field.label, field.unit);
-    }
-    case View::quads: return "Scaled Jacobian";
-    case View::surface: return "Deviation, mm";
-    }
-    return "";
-}
-
-void legend(const Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw)
-{
-    const auto layer =
-        std::find_if(scene.layers.begin(), scene.layers.end(), [](const SceneLayer& l) { return l.field != nullptr; });
-    if (layer == scene.layers.end() || size.y < 180 * frame.ui.scale || size.x < 200 * frame.ui.scale)
+    if (!scene.legend || size.y < 180 * frame.ui.scale || size.x < 200 * frame.ui.scale)
         return;
-    const ColourScale& scale = layer->scale;
+    const ColourScale& scale = scene.legend->scale;
+    const std::string title = scene.legend->title + (scene.legend->unit.empty() ? "" : ", " + scene.legend->unit);
     const float s = frame.ui.scale, height = std::min(200 * s, size.y - 110 * s), width = 13 * s;
     const ImVec2 low{from.x + 14 * s, from.y + size.y - 18 * s}, high{low.x + width, low.y - height};
     const bool dark = frame.state.view.dark;
@@ -78,7 +62,7 @@ void legend(const Frame& frame, View view, const Scene& scene, ImVec2 from, ImVe
         haloed(draw, {high.x + 7 * s, y - ImGui::GetTextLineHeight() / 2}, text, halo,
                fmt::format("{:.4g}", value).c_str());
     }
-    haloed(draw, {low.x, high.y - 1.5f * ImGui::GetTextLineHeight()}, text, halo, legend_title(frame, view).c_str());
+    haloed(draw, {low.x, high.y - 1.5f * ImGui::GetTextLineHeight()}, text, halo, title.c_str());
     ImGui::PopFont();
 }
 
@@ -342,7 +326,7 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
         draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2}, ink(p.muted),
                       shown.empty.c_str(), nullptr, wrap);
     }
-    legend(frame, view, shown, from, size, draw);
+    legend(frame, shown, from, size, draw);
     use_tool(frame, view, mouse, from, draw);
     draw->PopClipRect();
     navigate(frame, view, mouse);

@@ -76,23 +76,6 @@ void tool_bar(Frame& frame)
     }
     if (changed)
         frame.actions.push(SetViewSettings{settings});
-    if (!frame.state.document.selected.empty()) {
-        const std::string text = fmt::format("{} faces selected", frame.state.document.selected.size());
-        ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x -
-                                                             ImGui::CalcTextSize(text.c_str()).x -
-                                                             230 * frame.ui.scale));
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextColored(p.accent, "%s", text.c_str());
-        const auto act = [&](const char* label, Action action) {
-            ImGui::SameLine(0, 6 * frame.ui.scale);
-            if (ImGui::SmallButton(label))
-                frame.actions.push(std::move(action));
-        };
-        act("Grow", GrowSelection{});
-        act("Shrink", ShrinkSelection{});
-        act("Invert", InvertSelection{});
-        act("Clear", ClearSelection{});
-    }
 }
 
 } // namespace
@@ -204,6 +187,30 @@ void menu_bar(Frame& frame)
     ImGui::EndMenuBar();
 }
 
+/// At the right end of the status bar.
+void selection_actions(Frame& frame)
+{
+    if (frame.state.document.selected.empty())
+        return;
+    const std::string text = fmt::format("{} faces selected", frame.state.document.selected.size());
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float gap = 6 * frame.ui.scale;
+    float width = ImGui::CalcTextSize(text.c_str()).x;
+    for (const char* label : {"Grow", "Shrink", "Invert", "Clear"})
+        width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap;
+    ImGui::SameLine(ImGui::GetWindowWidth() - width - 14 * frame.ui.scale);
+    ImGui::TextColored(palette_of(frame.state.view.dark).accent, "%s", text.c_str());
+    const auto act = [&](const char* label, Action action) {
+        ImGui::SameLine(0, gap);
+        if (ImGui::SmallButton(label))
+            frame.actions.push(std::move(action));
+    };
+    act("Grow", GrowSelection{});
+    act("Shrink", ShrinkSelection{});
+    act("Invert", InvertSelection{});
+    act("Clear", ClearSelection{});
+}
+
 void status_bar(Frame& frame)
 {
     const ViewerState& state = frame.state;
@@ -257,15 +264,15 @@ void status_bar(Frame& frame)
 }
 
 /// What the program has to say, the newest on top, over the lower edge of the views.
-void messages(Frame& frame, ImVec2 low_left, float width)
+void messages(Frame& frame, ImVec2 low_right, float width)
 {
     const auto& all = frame.state.messages;
     if (all.empty())
         return;
     const Palette p = palette_of(frame.state.view.dark);
     constexpr size_t most = 3;
-    ImGui::SetNextWindowPos(low_left, ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowSize({std::min(width, 620 * frame.ui.scale), 0});
+    ImGui::SetNextWindowPos(low_right, ImGuiCond_Always, {1, 1});
+    ImGui::SetNextWindowSize({std::min(width, 460 * frame.ui.scale), 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * frame.ui.scale);
@@ -540,8 +547,9 @@ void workbench(Frame& frame)
     draw->AddLine({0, at.y + height}, {io.DisplaySize.x, at.y + height}, ink(p.line));
     ImGui::SetCursorScreenPos({at.x + 12 * s, at.y + height + 2 * s});
     status_bar(frame);
+    selection_actions(frame);
     ImGui::End();
-    messages(frame, {at.x + left + 12 * s, at.y + height - 12 * s}, middle - 24 * s);
+    messages(frame, {at.x + left + middle - 12 * s, at.y + height - 12 * s}, middle - 24 * s);
     dialogs(frame);
     shortcuts(frame);
 }

@@ -77,18 +77,20 @@ StageShape surface_shape(const NurbsSurface& surface, const FilledMesh* part)
 StageShape control_net_shape(const NurbsSurface& surface, bool dark)
 {
     StageShape shape;
-    // As on a drawing: what is hidden is faint.
+    // The denser the net, the fainter: it is not to cover the surface. As on a drawing, what is hidden is fainter still.
+    Colour colour = palette::net(dark);
+    colour[3] *= std::clamp(14.f / float(std::max(surface.count_u, surface.count_v)), 0.2f, 1.f);
     const auto hidden = scene_lines(surface.control, net_lines(surface.count_u, surface.count_v));
-    hidden->colour = palette::net(dark);
+    hidden->colour = colour;
     hidden->colour[3] *= 0.3f;
     hidden->on_top = true;
     const auto seen = std::make_shared<SceneLines>(*hidden);
-    seen->colour = palette::net(dark);
+    seen->colour = colour;
     seen->on_top = false;
     shape.lines = {seen, hidden};
     const auto points = scene_points(surface.control);
-    points->colour = palette::net(dark);
-    points->size = 3.5f;
+    points->colour = colour;
+    points->size = 3;
     points->on_top = false;
     shape.points.push_back(points);
     shape.box = {surface.control.rowwise().minCoeff(), surface.control.rowwise().maxCoeff()};
