@@ -4,6 +4,7 @@
 // after epoxy
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <cfloat>
 #include <chrono>
 #include <deque>
 #include <fmt/core.h>
@@ -199,6 +200,8 @@ private:
         }
         ImGui_ImplOpenGL3_NewFrame();
         ImGui_ImplGlfw_NewFrame();
+        if (options_.exit) // nobody is there: where the mouse happens to be is not to be seen
+            ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
         ImGui::NewFrame();
         Frame now{model_, model_.state(), queue_, ui_, cache_, [&](const Scene& shown, View view, int w, int h) {
                       return reinterpret_cast<ImTextureID>(uintptr_t(renderer_.draw(
@@ -228,6 +231,8 @@ private:
         Look result;
         result.dark = model_.state().view.dark;
         result.content_scale = ui_.scale;
+        if (renderer_.in_software() && ui_.busy) // while a view moves; the next frame that stands still is smooth again
+            result.samples = 1;
         return result;
     }
 
