@@ -105,8 +105,14 @@ struct AddProbe {
 }; ///< "add_probe"
 struct RemoveProbe {
     int probe = 0;
-};                     ///< "remove_probe"
-struct ClearProbes {}; ///< "clear_probes"
+}; ///< "remove_probe"
+/// "draw_section": a line between two pixels of a view; the field is plotted along the cut.
+struct DrawSection {
+    View view = View::part;
+    glm::dvec2 from{0}, to{0}, size{0};
+};
+struct ClearSection {}; ///< "clear_section"
+struct ClearProbes {};  ///< "clear_probes"
 
 // --- looking
 struct SetDisplay {
@@ -150,12 +156,12 @@ struct Screenshot {
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
-using Action =
-    std::variant<OpenPart, SetUnit, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
-                 ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, GrowSelection,
-                 ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SelectRegion,
-                 AddProbe, RemoveProbe, ClearProbes, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, Undo, Redo,
-                 OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+using Action = std::variant<OpenPart, SetUnit, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
+                            ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, GrowSelection,
+                            ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion, RemoveRegion,
+                            SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
+                            SetViewSettings, FitView, LookFrom, FlyTo, Undo, Redo, OpenProject, SaveProject,
+                            ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -60,6 +60,7 @@ struct ViewerModel::Apply {
         session.options.read.unit = length_unit(action.unit);
         document.selected.clear();
         document.probes.clear();
+        document.section.reset();
         model.opening_ = true;
         model.run_to(Stage::read, "Reading the part again");
     }
@@ -275,6 +276,35 @@ struct ViewerModel::Apply {
     {
         change("Remove all probes");
         document.probes.clear();
+    }
+
+    void operator()(const DrawSection& action)
+    {
+        const RayPicker& on = picker(action.view);
+        const Camera& from = camera(action.view);
+        const RayHit first = hit_at(from, on, action.from, action.size),
+                     last = hit_at(from, on, action.to, action.size);
+        if (first.face < 0 && last.face < 0)
+            throw InputError("Draw the section line over the sheet: at least one end has to be on it.");
+        const Ray a = ray_through(from, on.box(), action.from, action.size),
+                  b = ray_through(from, on.box(), action.to, action.size);
+        // Both ends at the same depth, that of the end which is on the sheet.
+        const Eigen::Vector3d hit = first.face >= 0 ? Eigen::Vector3d(a.origin + first.distance * a.direction)
+                                                    : Eigen::Vector3d(b.origin + last.distance * b.direction);
+        const Eigen::Vector3d sight = ray_through(from, on.box(), action.size / 2., action.size).direction;
+        const auto at_depth = [&](const Ray& ray) -> Eigen::Vector3d {
+            return ray.origin + sight.dot(hit - ray.origin) / sight.dot(ray.direction) * ray.direction;
+        };
+        SectionLine line{at_depth(a), at_depth(b), sight, action.view == View::blank};
+        if (!((line.to - line.from).norm() > 0))
+            throw InputError("Drag the mouse to draw a section line.");
+        change("Draw section");
+        document.section = line;
+    }
+    void operator()(const ClearSection&)
+    {
+        change("Remove section");
+        document.section.reset();
     }
 
     // --- looking

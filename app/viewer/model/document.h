@@ -31,6 +31,13 @@ struct Probe {
     Eigen::Vector3d barycentric{1. / 3, 1. / 3, 1. / 3};
 };
 
+/// A line drawn in a view: the field is plotted along the cut of the plane through it and the direction of sight.
+struct SectionLine {
+    Eigen::Vector3d from{0, 0, 0}, to{0, 0, 0}; ///< mm, at the depth of what was under the mouse
+    Eigen::Vector3d depth{0, 0, -1};            ///< the direction of sight
+    bool on_blank = false;                      ///< drawn on the flat blank, z = 0
+};
+
 /// How the fields of the sheet are shown on the part and the blank.
 struct FieldDisplay {
     Field field = Field::thinning;
@@ -51,6 +58,7 @@ struct Document {
     std::vector<int> selected;           ///< faces of the part, ascending
     std::vector<FaceRegion> regions;
     std::vector<Probe> probes;
+    std::optional<SectionLine> section; ///< not kept in projects
     FieldDisplay display;
 };
 

@@ -109,7 +109,8 @@ void read_members(const Json& json, T& value, const Members& members, const Plac
 {
     if (!json.is_object())
         place.fail("must be an object { }");
-    for (const auto& [key, unused] : json.items()) {
+    for (const auto& item : json.items()) {
+        const std::string& key = item.key();
         const bool known = std::apply([&](const auto&... m) { return ((m.name == key) || ...); }, members);
         if (!known && (besides.empty() || key != besides))
             place.fail(fmt::format("has no member \"{}\"; there are: {}", key, names(members)));

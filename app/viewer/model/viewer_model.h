@@ -67,7 +67,7 @@ private:
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
-    bool dragging_ = false;     ///< a corner: the grid is coarse
+    bool dragging_ = false;          ///< a corner: the grid is coarse
     std::optional<Stage> next_;      ///< run this far when the running job has ended
     bool opening_ = false;           ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part

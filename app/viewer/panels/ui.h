@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/viewer/model/actions.h"
+#include "app/viewer/model/section.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/theme.h"
@@ -53,6 +54,9 @@ struct Frame {
     /// Draws a view of this size (pixels) and gives its texture for ImGui.
     std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
 };
+
+/// The cut along the section line that was drawn, with the field shown; empty: there is none.
+const std::vector<SectionPiece>& section_of(Frame& frame);
 
 void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);

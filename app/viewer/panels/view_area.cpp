@@ -193,6 +193,22 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                 ui.busy.reset();
         }
         return;
+    case Tool::section:
+        if (clicked) {
+            ui.busy = view;
+            ui.trail = {mouse.pixel};
+        }
+        if (ui.busy != view || ui.trail.empty())
+            return;
+        draw->AddLine({from.x + float(ui.trail[0].x), from.y + float(ui.trail[0].y)}, ImGui::GetMousePos(),
+                      ink(p.accent), 2);
+        if (!ImGui::IsMouseDown(0)) {
+            if (glm::length(ui.trail[0] - mouse.pixel) > 4)
+                frame.actions.push(DrawSection{view, ui.trail[0], mouse.pixel, mouse.size});
+            ui.trail.clear();
+            ui.busy.reset();
+        }
+        return;
     case Tool::box:
     case Tool::lasso:
         if (clicked) {
@@ -326,6 +342,14 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
         draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2}, ink(p.muted),
                       shown.empty.c_str(), nullptr, wrap);
     }
+    if (frame.state.document.section && frame.state.document.section->on_blank == (view == View::blank))
+        for (const SectionPiece& piece : section_of(frame)) {
+            const auto dot = [&](const Eigen::Vector3d& place) {
+                const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], place, mouse.size);
+                return ImVec2(from.x + float(pixel.x), from.y + float(pixel.y));
+            };
+            draw->AddLine(dot(piece.from), dot(piece.to), ink(p.warning), 2 * frame.ui.scale);
+        }
     legend(frame, shown, from, size, draw);
     use_tool(frame, view, mouse, from, draw);
     draw->PopClipRect();

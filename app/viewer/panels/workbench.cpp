@@ -25,6 +25,7 @@ constexpr ToolButton tools[] = {
     {Tool::flood, "Flood", "Pick all around a face up to an angle between neighbours  (R)", GLFW_KEY_R},
     {Tool::smooth_region, "Smooth", "Pick the smooth piece of sheet around a face  (N)", GLFW_KEY_N},
     {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
+    {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
     {Tool::corners, "Corners", "Drag the four corners along the outline of the blank  (C)", GLFW_KEY_C},
 };
 
@@ -373,7 +374,7 @@ void shortcuts_window(Frame& frame)
             {"Wheel", "zoom to the place under the mouse"},
             {"Shift, Ctrl", "picking adds, takes away"},
             {"Double click on a title", "one view, four views"},
-            {"V P B L U R N O C", "tools: look, face, box, lasso, brush, flood, smooth, probe, corners"},
+            {"V P B L U R N O X C", "tools: look, face, box, lasso, brush, flood, smooth, probe, section, corners"},
             {"F5, F6", "run all, unfold"},
             {"F", "fit all"},
             {"1 2 3 4, 5", "top, front, right, isometric; perspective"},

@@ -54,6 +54,7 @@ std::vector<Action> every_action()
         set(MakeRegion{"clamp \"A\" äöü", RegionKind::binder});
         set(ChangeRegion{2, "pad", RegionKind::pad, {0.25f, 0.5f, 0.75f, 1}});
         set(AddProbe{{7, {0.5, 0.25, 0.25}}});
+        set(DrawSection{View::blank, pixel, {30, 40}, size});
         set(SetDisplay{{Field::strain_major, true, std::array{-0.5, 0.5}, ColourMap::grey, 7, true, false, true}});
         set(LookFrom{View::quads, StandardView::left});
         set(OpenProject{"a.spia"});
