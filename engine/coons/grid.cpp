@@ -133,6 +133,20 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderPara
     return grid;
 }
 
+/// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a part with lobes.
+double outline_over_square(const Workshop& shop)
+{
+    const std::vector<int>& outline = shop.filled->outline;
+    const Eigen::Matrix2Xd& plane = shop.filled->plane;
+    double length = 0, area = 0;
+    for (size_t i = 0; i < outline.size(); ++i) {
+        const Eigen::Vector2d a = plane.col(outline[i]), b = plane.col(outline[(i + 1) % outline.size()]);
+        length += (b - a).norm();
+        area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+    return length / (4 * std::sqrt(std::max(area, 1e-300)));
+}
+
 [[noreturn]] void throw_impossible(const Workshop& shop, const GridResult& grid, const std::vector<int>& file_number)
 {
     const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
@@ -155,6 +169,11 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderPara
                                      "joined by straight lines, do not follow it; choose a finer grid",
                                      m, n));
     }
+    if (const double winding = outline_over_square(shop); winding > 4)
+        throw InputError(fmt::format(
+            "the blank winds too much for one four-sided patch: its outline is {:.0f} times as long as that of a square of the "
+            "same area, and {} of the {} x {} cells stay folded; cut the part into simpler pieces",
+            winding, grid.quality.folded_cells, m, n));
     const std::string corners =
         fmt::format("{}, {}, {}, {}", number(corner[0]), number(corner[1]), number(corner[2]), number(corner[3]));
     if (grid.quality.folded_cells > 0)
