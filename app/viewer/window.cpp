@@ -55,6 +55,19 @@ public:
         }
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(1);
+        // ImGui's own callbacks, which come later, pass every event on to these.
+        glfwSetCursorPosCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
+        glfwSetMouseButtonCallback(window_, [](GLFWwindow*, int, int, int) { news() = true; });
+        glfwSetScrollCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
+        glfwSetKeyCallback(window_, [](GLFWwindow*, int key, int, int action, int modifiers) {
+            news() = true;
+            if (action == GLFW_PRESS) // a tap may be shorter than a frame
+                keys().push_back({key, modifiers});
+        });
+        glfwSetCharCallback(window_, [](GLFWwindow*, unsigned) { news() = true; });
+        glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int) { news() = true; });
+        glfwSetFramebufferSizeCallback(window_, [](GLFWwindow*, int, int) { news() = true; });
+        glfwSetWindowRefreshCallback(window_, [](GLFWwindow*) { news() = true; });
     }
     ~GlWindow()
     {
@@ -64,6 +77,18 @@ public:
     GlWindow(const GlWindow&) = delete;
     GlWindow& operator=(const GlWindow&) = delete;
     GLFWwindow* get() const { return window_; }
+    /// Keys that were pressed since this was last emptied.
+    static std::vector<KeyPress>& keys()
+    {
+        static std::vector<KeyPress> pressed;
+        return pressed;
+    }
+    /// Whether anything has happened since this was last set to false.
+    static bool& news()
+    {
+        static bool happened = true;
+        return happened;
+    }
 
 private:
     static std::string& last_error()
@@ -137,7 +162,7 @@ public:
 
     int run()
     {
-        int settle = 3; // frames after the last event until everything has its place
+        int settle = 3;
         while (!quit_) {
             if (!steps_.empty() || settle > 0 || finishing())
                 glfwPollEvents();
@@ -145,11 +170,24 @@ public:
                 glfwWaitEventsTimeout(0.1);
             else
                 glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? 0.4 : 60);
-            settle = settle > 0 ? settle - 1 : 2;
-            frame();
+            constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
+            settle = std::exchange(GlWindow::news(), false) ? frames_to_settle : std::max(0, settle - 1);
+            const size_t actions = actions_done_;
+            try {
+                frame();
+            } catch (...) { // a picture that cannot be drawn: the work is kept for the next start
+                if (model_.state().document.session.part)
+                    autosave_.save(model_.state().document, model_.state().view, model_.state().project);
+                throw;
+            }
             next_step();
-            if (glfwWindowShouldClose(window_.get()))
-                quit_ = true;
+            if (actions_done_ != actions)
+                settle = frames_to_settle;
+            if (glfwWindowShouldClose(window_.get())) {
+                glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+                queue_.push(Quit{});
+                settle = frames_to_settle;
+            }
         }
         if (!options_.report.empty())
             write_atomically(options_.report, report().dump(2) + "\n");
@@ -168,7 +206,7 @@ private:
 
     void begin()
     {
-        if (!options_.script.empty())
+        if (!options_.script.empty() && options_.file.empty())
             return;
         if (!options_.file.empty())
             open(options_.file, options_.unit);
@@ -207,6 +245,7 @@ private:
                       return reinterpret_cast<ImTextureID>(uintptr_t(renderer_.draw(
                           images_[size_t(view)], shown, model_.state().view.camera[size_t(view)], w, h, look())));
                   }};
+        ui_.keys = std::exchange(GlWindow::keys(), {});
         workbench(now);
         ImGui::Render();
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -236,9 +275,23 @@ private:
         return result;
     }
 
+    /// What would lose unsaved work waits for the user's word.
+    bool ask_first(const Action& action)
+    {
+        const bool leaves = std::holds_alternative<Quit>(action) || std::holds_alternative<OpenPart>(action) ||
+                            std::holds_alternative<OpenProject>(action);
+        if (!leaves || !model_.state().unsaved || !model_.state().document.session.part || options_.exit)
+            return false;
+        ui_.held = action;
+        return true;
+    }
+
     void carry_out(const Action& action)
     {
+        ++actions_done_;
         try {
+            if (!std::exchange(ui_.confirmed, false) && ask_first(action))
+                return;
             if (const auto* picture = std::get_if<Screenshot>(&action))
                 pictures_.push_back(*picture);
             else if (const auto* wanted = std::get_if<WriteReport>(&action))
@@ -247,6 +300,12 @@ private:
                 quit_ = true;
             else
                 model_.apply(action);
+            if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved) { // nothing is left to recover
+                autosave_.clear();
+                if (recovered_)
+                    recovered_->discard();
+                recovered_.reset();
+            }
         } catch (const std::exception& error) {
             model_.say(Severity::error, error.what());
         }
@@ -420,6 +479,7 @@ private:
     std::optional<UnfinishedSession> recovered_;
     std::shared_ptr<const PartFile> known_part_;
     FrameTimes times_;
+    size_t actions_done_ = 0;
     int idle_frames_ = 0, exit_code_ = 0;
     bool quit_ = false, hint_ = false;
 };

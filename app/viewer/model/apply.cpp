@@ -29,12 +29,32 @@ struct ViewerModel::Apply {
     }
 
     // --- the chain
+    /// Ends what runs, whatever it is about, and begins with another document.
+    void begin_with(Document fresh)
+    {
+        model.chain_job_.reset(); // cancels and waits for the next checkpoint
+        model.next_.reset();
+        model.project_.reset();
+        state.job = JobView{};
+        document = std::move(fresh);
+        state.history = History{};
+        state.messages.clear();
+        model.dragging_ = false;
+        model.keep_cameras_ = false;
+        model.opening_ = true;
+        model.start(Stage::read, Stage::read, "Opening " + document.session.file.filename().string());
+    }
+    void require_no_export() const
+    {
+        if (model.export_job_)
+            throw InputError("Wait for the export to end.");
+    }
     void operator()(const OpenPart& action)
     {
-        if (model.chain_job_)
-            model.chain_job_.reset(); // cancels and waits for the next checkpoint
+        require_no_export();
         Document fresh;
         fresh.display = document.display;
+        fresh.display.range.reset();
         fresh.material = document.material;
         fresh.session.options.flatten.material = session.options.flatten.material;
         fresh.session.options.flatten.thickness = session.options.flatten.thickness;
@@ -44,20 +64,19 @@ struct ViewerModel::Apply {
         fresh.session.file = action.file;
         if (!std::filesystem::exists(action.file))
             throw InputError(fmt::format("There is no file {}.", action.file.string()));
-        document = std::move(fresh);
-        state.history = History{};
-        state.messages.clear();
         state.project.clear();
         state.unsaved = false;
-        model.next_.reset();
-        model.opening_ = true;
-        model.start(Stage::read, Stage::read, "Opening " + action.file.filename().string());
+        begin_with(std::move(fresh));
     }
     void operator()(const SetUnit& action)
     {
-        part();
+        const LengthUnit unit = length_unit(action.unit);
+        if (part().unit == unit)
+            return;
+        if (model.busy())
+            throw InputError("Cancel the running job first; then change the unit.");
         change("Change unit");
-        session.options.read.unit = length_unit(action.unit);
+        session.options.read.unit = unit;
         document.selected.clear();
         document.probes.clear();
         document.section.reset();
@@ -313,11 +332,7 @@ struct ViewerModel::Apply {
         change("Change display", true);
         document.display = action.display;
     }
-    void operator()(const SetViewSettings& action)
-    {
-        state.view = action.view;
-        state.unsaved |= !session.file.empty();
-    }
+    void operator()(const SetViewSettings& action) { state.view = action.view; }
     void operator()(const FitView& action) { model.fit(action.view); }
     void operator()(const LookFrom& action)
     {
@@ -344,7 +359,7 @@ struct ViewerModel::Apply {
             camera.target = view == View::blank ? middle(session.blank->blank.position) : middle(mesh.position);
             camera.height = std::min(camera.height, size);
         }
-        document.selected = {action.face};
+        select({action.face}, PickMode::replace, "Go to face");
     }
 
     // --- the document and files
@@ -359,18 +374,12 @@ struct ViewerModel::Apply {
     }
     void operator()(const OpenProject& action)
     {
-        if (model.chain_job_)
-            model.chain_job_.reset();
+        require_no_export();
         Project project = open_project(action.file, model.assets() / "materials");
-        state.messages.clear();
-        state.history = History{};
-        document = project.document;
         state.project = project.recovers.empty() ? action.file : project.recovers;
         state.unsaved = !project.recovers.empty();
-        model.next_.reset();
+        begin_with(project.document);
         model.project_ = std::move(project);
-        model.opening_ = true;
-        model.start(Stage::read, Stage::read, "Opening " + action.file.filename().string());
     }
     void operator()(const SaveProject& action)
     {

@@ -12,8 +12,10 @@ void History::remember(std::string name, const Document& before, bool merge)
     if (same)
         return;
     past_.push_back({std::move(name), before});
-    if (past_.size() > most_)
+    if (past_.size() > most_) {
         past_.erase(past_.begin());
+        ++forgotten_;
+    }
 }
 
 std::string History::undo_name() const { return past_.empty() ? "" : past_.back().name; }

@@ -20,6 +20,18 @@ public:
     /// @param current replaced by the document before (after) the change; no effect if there is none
     void undo(Document& current);
     void redo(Document& current);
+    /// How many changes undo could take back now; for update_since().
+    size_t depth() const { return forgotten_ + past_.size(); }
+    /// Changes made since then go back to a document that has been altered like this: a result that arrives in between
+    /// belongs to neither of them.
+    template <class Alter> void update_since(size_t depth, const Alter& alter)
+    {
+        for (size_t k = depth > forgotten_ ? depth - forgotten_ : 0; k < past_.size(); ++k)
+            alter(past_[k].document);
+        for (Entry& entry : future_)
+            alter(entry.document);
+    }
+
     /// The next change is not merged with the last one, whatever its name.
     void close() { open_ = false; }
 
@@ -30,6 +42,7 @@ private:
     };
     static constexpr size_t most_ = 100;
     std::vector<Entry> past_, future_;
+    size_t forgotten_ = 0; ///< changes that are too old to be taken back
     bool open_ = false;
 };
 

@@ -58,6 +58,7 @@ void ViewerModel::say(Severity severity, std::string text)
 void ViewerModel::start(Stage from, Stage to, std::string title)
 {
     live_ = std::make_shared<Live>();
+    depth_at_start_ = state_.history.depth();
     Session session = state_.document.session;
     session.options.flatten.watch = [live = live_](const Eigen::Matrix2Xd& X, const NewtonStep& step) {
         live->see(X, step);
@@ -144,16 +145,20 @@ void ViewerModel::take_chain_result()
     }
     Document& document = state_.document;
     const bool had_blank = document.session.blank != nullptr;
-    SessionOptions wanted = std::move(document.session.options); // may have changed meanwhile
-    document.session = std::move(result.session);
-    document.session.options = std::move(wanted);
-    document.made_with = std::move(result.made_with);
-    document.made_with.flatten.watch = nullptr;
+    result.made_with.flatten.watch = nullptr;
+    const auto take = [&](Document& changed) {
+        SessionOptions wanted = std::move(changed.session.options); // may have changed meanwhile
+        changed.session = result.session;
+        changed.session.options = std::move(wanted);
+        changed.made_with = result.made_with;
+    };
+    take(document);
+    state_.history.update_since(depth_at_start_, take); // what was picked during the run is taken back without it
     if (std::exchange(opening_, false))
         part_opened();
     if (project_)
         project_opened();
-    if (!had_blank && document.session.blank)
+    if (!had_blank && document.session.blank && !std::exchange(keep_cameras_, false))
         fit(View::blank);
     if (result.cancelled)
         say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title));
@@ -186,7 +191,6 @@ void ViewerModel::part_opened()
     Document& document = state_.document;
     if (!document.session.part)
         return;
-    state_.history = History{};
     state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
     fit(std::nullopt);
     for (const std::string& note : document.session.part->notes)
@@ -206,6 +210,7 @@ void ViewerModel::project_opened()
     for (const std::string& lost : restore_picks(document, project.picks))
         say(Severity::warning, lost);
     state_.view = project.view;
+    keep_cameras_ = true;
     if (project.ran && *project.ran > Stage::read)
         next_ = project.ran;
 }

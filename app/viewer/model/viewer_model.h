@@ -67,6 +67,8 @@ private:
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
+    bool keep_cameras_ = false;      ///< those of a project
+    size_t depth_at_start_ = 0;      ///< of the history, when the running job began
     bool dragging_ = false;          ///< a corner: the grid is coarse
     std::optional<Stage> next_;      ///< run this far when the running job has ended
     bool opening_ = false;           ///< the running job reads a new part

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fmt/core.h>
 #include <imgui.h>
+#include <utility>
 
 #include "app/viewer/panels/text_input.h"
 
@@ -110,9 +111,9 @@ std::optional<fs::path> FileDialog::show(float scale)
     if (!open_)
         return std::nullopt;
     const Wording& words = wording(purpose_);
-    if (appearing_)
+    const bool first = std::exchange(appearing_, false);
+    if (first)
         ImGui::OpenPopup(words.title);
-    appearing_ = false;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowSize({std::min(640 * scale, screen.x - 40), std::min(480 * scale, screen.y - 40)},
                              ImGuiCond_Always);
@@ -170,6 +171,8 @@ std::optional<fs::path> FileDialog::show(float scale)
             "%d files", int(std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.folder; })));
     if (!words.folders) {
         ImGui::SetNextItemWidth(-1);
+        if (first)
+            ImGui::SetKeyboardFocusHere();
         if (text_input("##name", name_, false, "File name"))
             confirm_ = false;
     }

@@ -15,7 +15,9 @@ struct Figures {
     std::shared_ptr<const FlattenResult> blank;
     std::shared_ptr<const SurfaceStage> surface;
     Field field = Field::none;
-    Eigen::VectorXd value; ///< per face
+    bool per_face = false;
+    Eigen::VectorXd value;       ///< per face; of a smooth field the mean of its corners
+    Eigen::VectorXd worst_value; ///< per face the worst of its corners
     Histogram histogram;
     std::vector<int> worst;
 };
@@ -25,15 +27,27 @@ const Figures& figures(const Frame& frame)
     static Figures made;
     const Document& document = frame.state.document;
     const Session& session = document.session;
-    if (made.blank == session.blank && made.surface == session.surface && made.field == document.display.field)
+    if (made.blank == session.blank && made.surface == session.surface && made.field == document.display.field &&
+        made.per_face == document.display.per_face)
         return made;
-    made = {session.blank, session.surface, document.display.field, {}, {}, {}};
+    made = {session.blank, session.surface, document.display.field, document.display.per_face, {}, {}, {}, {}};
     if (!available(session, made.field) || made.field == Field::none)
         return made;
-    made.value = values(session, made.field, true);
-    made.histogram = histogram(session.part->mesh, made.value, 48);
+    const TriMesh& part = session.part->mesh;
     const bool small = made.field == Field::thickness;
-    made.worst = worst_spots(session.part->mesh, info(made.field).diverging ? made.value : made.value, 6, small);
+    made.value = values(session, made.field, true);
+    made.worst_value = made.value;
+    if (!made.per_face) { // the same numbers as in the views
+        const Eigen::VectorXd smooth = values(session, made.field, false);
+        for (int f = 0; f < part.triangles(); ++f) {
+            const Eigen::Vector3d corner(smooth[part.triangle(0, f)], smooth[part.triangle(1, f)],
+                                         smooth[part.triangle(2, f)]);
+            made.value[f] = corner.mean();
+            made.worst_value[f] = small ? corner.minCoeff() : corner.maxCoeff();
+        }
+    }
+    made.histogram = histogram(part, made.value, 48);
+    made.worst = worst_spots(part, made.worst_value, 6, small);
     return made;
 }
 
@@ -152,10 +166,11 @@ void worst_section(Frame& frame)
                                    3;
         const bool here = frame.state.document.selected == std::vector<int>{f};
         if (ImGui::Selectable(
-                fmt::format("{}.  {}##{}", k + 1, value_text(now.value[f], info(now.field).unit), f).c_str(), here))
+                fmt::format("{}.  {}##{}", k + 1, value_text(now.worst_value[f], info(now.field).unit), f).c_str(),
+                here))
             frame.actions.push(FlyTo{f});
         tooltip("Click to look at it in every view");
-        const std::string place = fmt::format("{:.0f}, {:.0f}, {:.0f}", at[0], at[1], at[2]);
+        const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g}", at[0] + 0., at[1] + 0., at[2] + 0.);
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x);
         ImGui::TextDisabled("%s", place.c_str());
     }

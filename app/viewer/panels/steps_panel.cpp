@@ -41,7 +41,9 @@ void part_step(Frame& frame)
     figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
     if (!part.doctor.findings.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).warning);
-        const bool open = ImGui::TreeNode("doctor", "%d notes on the mesh", int(part.doctor.findings.size()));
+        const bool open =
+            ImGui::TreeNode("doctor", part.doctor.findings.size() == 1 ? "%d note on the mesh" : "%d notes on the mesh",
+                            int(part.doctor.findings.size()));
         ImGui::PopStyleColor();
         if (open) {
             for (const Finding& finding : part.doctor.findings) {
@@ -188,7 +190,7 @@ void grid_step(Frame& frame)
             for (size_t i = 1; i < side.size(); ++i)
                 length += (session.blank->blank.position.col(side[i]) - session.blank->blank.position.col(side[i - 1]))
                               .norm();
-            lengths += fmt::format("{}{:.0f}", lengths.empty() ? "" : ", ", length);
+            lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", length);
         }
         figure(frame, "Sides", lengths + " mm");
     }

@@ -16,6 +16,11 @@
 
 namespace spia::viewer {
 
+/// A key of GLFW with GLFW_MOD_ bits.
+struct KeyPress {
+    int key, modifiers;
+};
+
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
@@ -23,6 +28,7 @@ struct Ui {
     float left_width = 300, right_width = 320;
     bool show_left = true, show_right = true, show_shortcuts = false, show_export = false;
     FileDialog files;
+    std::vector<KeyPress> keys;      ///< pressed since the last frame
     std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
 
     // the view the mouse is busy in
@@ -33,13 +39,17 @@ struct Ui {
     std::array<ImVec2, 4> view_from{}, view_size{};
 
     // the export dialog
-    std::string export_folder = "spia-out";
+    std::string export_folder; ///< empty: beside the part
     std::vector<std::string> export_formats = {"iges", "step", "glb"};
 
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
     bool brushing_diagram = false;
     ImVec2 brush_from{};
+
+    // what would lose unsaved work: asked about, and the answer "go on" for the next action
+    std::optional<Action> held;
+    bool confirmed = false;
 
     std::vector<std::filesystem::path> recent;
 };

@@ -169,11 +169,16 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                                       settings.tool == Tool::smooth_region});
         return;
     case Tool::probe:
-        if (clicked)
-            if (const auto probe = probe_at(
-                    settings.camera[size_t(view)], *frame.model.pickers().mesh(frame.state.document.session, view),
-                    *frame.model.pickers().picker(frame.state.document.session, view), mouse.pixel, mouse.size))
+        if (clicked) {
+            const Session& session = frame.state.document.session;
+            Pickers& pickers = frame.model.pickers();
+            const RayPicker* picker = pickers.picker(session, view);
+            if (!picker)
+                return;
+            if (const auto probe = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker,
+                                            mouse.pixel, mouse.size))
                 frame.actions.push(AddProbe{*probe});
+        }
         return;
     case Tool::brush:
         if (clicked) {
@@ -303,7 +308,8 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::PushFont(frame.ui.fonts.small);
     view_buttons(frame, view);
     ImGui::PopFont();
-    const bool in_title = ImGui::IsMouseHoveringRect(at, {at.x + whole.x, at.y + bar}) && ImGui::IsWindowHovered();
+    const bool in_title = ImGui::IsMouseHoveringRect(at, {at.x + whole.x, at.y + bar}) && ImGui::IsWindowHovered() &&
+                          !ImGui::IsAnyItemHovered();
     if (in_title && ImGui::IsMouseDoubleClicked(0)) {
         ViewSettings settings = frame.state.view;
         settings.maximised = settings.maximised == view ? std::nullopt : std::optional(view);
@@ -377,6 +383,21 @@ float splitter(const Frame& frame, const char* id, ImVec2 at, ImVec2 size, bool 
     return share;
 }
 
+/// Whatever was being dragged ends with the buttons, also where the tool or the part changed on the way.
+void end_drags(Frame& frame)
+{
+    if (ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2))
+        return;
+    Ui& ui = frame.ui;
+    ui.busy.reset();
+    ui.turning = ui.panning = false;
+    ui.trail.clear();
+    const auto& grid = frame.state.document.session.grid;
+    if (ui.dragged_corner && grid)
+        frame.actions.push(SetCorner{*ui.dragged_corner, grid->boundary.corner[size_t(*ui.dragged_corner)], false});
+    ui.dragged_corner.reset();
+}
+
 } // namespace
 
 void view_area(Frame& frame)
@@ -385,6 +406,7 @@ void view_area(Frame& frame)
     frame.model.hover_nothing();
     if (const auto only = frame.state.view.maximised) {
         one_view(frame, *only, at, size);
+        end_drags(frame);
         return;
     }
     const float gap = 4 * frame.ui.scale;
@@ -408,6 +430,7 @@ void view_area(Frame& frame)
     place(View::blank, x + gap / 2, 0, right, upper);
     place(View::quads, 0, y + gap / 2, left, lower);
     place(View::surface, x + gap / 2, y + gap / 2, right, lower);
+    end_drags(frame);
 }
 
 } // namespace spia::viewer

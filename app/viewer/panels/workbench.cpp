@@ -280,8 +280,12 @@ void messages(Frame& frame, ImVec2 low_right, float width)
     ImGui::Begin("messages", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    for (size_t k = all.size(); k-- > (all.size() > most ? all.size() - most : 0);) {
-        const Message& message = all[k];
+    std::vector<Message> shown(all.rbegin(), all.rend()); // the gravest first, of these the newest
+    std::stable_sort(shown.begin(), shown.end(),
+                     [](const Message& a, const Message& b) { return a.severity > b.severity; });
+    if (shown.size() > most)
+        shown.resize(most);
+    for (const Message& message : shown) {
         const ImVec4 colour = message.severity == Severity::error     ? p.error
                               : message.severity == Severity::warning ? p.warning
                               : message.severity == Severity::done    ? p.good
@@ -303,10 +307,20 @@ void messages(Frame& frame, ImVec2 low_right, float width)
     ImGui::PopStyleColor();
 }
 
+bool escape(const Frame& frame)
+{
+    return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
+                       [](const KeyPress& press) { return press.key == GLFW_KEY_ESCAPE; });
+}
+
 void export_dialog(Frame& frame)
 {
-    if (frame.ui.show_export)
+    if (frame.ui.show_export) {
         ImGui::OpenPopup("Export");
+        if (frame.ui.export_folder.empty())
+            frame.ui.export_folder =
+                (std::filesystem::absolute(frame.state.document.session.file).parent_path() / "spia-out").string();
+    }
     frame.ui.show_export = false;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -354,7 +368,7 @@ void export_dialog(Frame& frame)
         frame.actions.push(ExportFiles{frame.ui.export_folder, formats});
         ImGui::CloseCurrentPopup();
     }
-    if (ImGui::Button("Cancel", {-1, 0}))
+    if (ImGui::Button("Cancel", {-1, 0}) || escape(frame))
         ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
@@ -397,8 +411,49 @@ void shortcuts_window(Frame& frame)
     ImGui::End();
 }
 
+void unsaved_dialog(Frame& frame)
+{
+    if (frame.ui.held && !ImGui::IsPopupOpen("Unsaved changes"))
+        ImGui::OpenPopup("Unsaved changes");
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({420 * frame.ui.scale, 0});
+    if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+        return;
+    ImGui::PushTextWrapPos(0);
+    ImGui::Text("What you changed on %s is not saved in a project.",
+                frame.state.document.session.file.filename().c_str());
+    ImGui::PopTextWrapPos();
+    const auto go_on = [&] {
+        frame.ui.confirmed = true;
+        frame.actions.push(*std::exchange(frame.ui.held, std::nullopt));
+        ImGui::CloseCurrentPopup();
+    };
+    if (primary_button(frame, "Save...")) {
+        if (frame.state.project.empty()) {
+            frame.ui.files.open(
+                FileDialog::Purpose::save_project,
+                std::filesystem::path(frame.state.document.session.file).replace_extension(project_ending));
+            frame.ui.held.reset(); // once saved, the way is free
+            ImGui::CloseCurrentPopup();
+        } else {
+            frame.actions.push(SaveProject{});
+            frame.actions.push(*std::exchange(frame.ui.held, std::nullopt));
+            ImGui::CloseCurrentPopup();
+        }
+    }
+    if (ImGui::Button("Go on without saving", {-1, 0}))
+        go_on();
+    if (ImGui::Button("Cancel", {-1, 0}) || escape(frame)) {
+        frame.ui.held.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
 void dialogs(Frame& frame)
 {
+    unsaved_dialog(frame);
     export_dialog(frame);
     shortcuts_window(frame);
     const auto path = frame.ui.files.show(frame.ui.scale);
@@ -423,9 +478,14 @@ void shortcuts(Frame& frame)
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
         return;
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    const auto pressed = [&](int key) {
+        return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
+                           [&](const KeyPress& press) { return press.key == key; });
+    };
+    const bool control = std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
+                                     [](const KeyPress& press) { return (press.modifiers & GLFW_MOD_CONTROL) != 0; });
     const Session& session = frame.state.document.session;
-    if (io.KeyCtrl) {
+    if (control) {
         if (pressed(GLFW_KEY_Z))
             frame.actions.push(io.KeyShift ? Action{Redo{}} : Action{Undo{}});
         if (pressed(GLFW_KEY_Y))
@@ -445,8 +505,9 @@ void shortcuts(Frame& frame)
             frame.actions.push(Quit{});
         return;
     }
+    const bool dragging = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
     for (const ToolButton& tool : tools)
-        if (pressed(tool.key))
+        if (pressed(tool.key) && !dragging)
             set_tool(frame, tool.tool);
     ViewSettings view = frame.state.view;
     if (pressed(GLFW_KEY_T)) {

@@ -21,7 +21,7 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
     });
     result.layers = shape.layers;
     for (SceneLayer& layer : result.layers) {
-        layer.edges = state.view.edges;
+        layer.edges = false; // its triangles are only how it is drawn
         layer.features = state.view.features;
     }
     result.box = shape.box;

@@ -332,17 +332,18 @@ TEST(MaterialLibrary, AMalformedFileIsRefusedByFileAndKey)
     ASSERT_EQ(find_material(file.string(), shipped).name, "own");
 
     const auto expect_refusals_of_numbers = [&](const Json& whole, const std::string& group, const Json& bad_values) {
-        for (const auto& [key, value] : (group.empty() ? whole : whole[group]).items()) {
-            if (!value.is_number())
+        for (const auto& item : (group.empty() ? whole : whole[group]).items()) {
+            const std::string& key = item.key();
+            if (!item.value().is_number())
                 continue;
             const auto flawed = [&](const std::function<void(Json&)>& spoil) {
                 Json json = whole;
                 spoil(group.empty() ? json : json[group]);
                 expect_refusal(json, key);
             };
-            flawed([&key = key](Json& at) { at.erase(key); });
+            flawed([&](Json& at) { at.erase(key); });
             for (const Json& bad : bad_values)
-                flawed([&, &key = key](Json& at) { at[key] = bad; });
+                flawed([&](Json& at) { at[key] = bad; });
         }
     };
     const Json bad_values = {-1.5, 1e9, "0.3", nullptr, true, {{"value", 1}}, {0.3}};

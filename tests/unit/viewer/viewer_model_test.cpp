@@ -132,7 +132,8 @@ TEST_F(ViewerModelTest, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
     model.apply(SetCorner{0, side[6], false});
     wait();
     EXPECT_EQ(document.session.grid->boundary.corner[0], side[6]);
-    EXPECT_NEAR(document.session.grid->result.planar.columns, columns, 4); // square cells between sides of another length
+    EXPECT_NEAR(document.session.grid->result.planar.columns, columns,
+                4); // square cells between sides of another length
     EXPECT_NE(document.session.surface, nullptr);
     EXPECT_FALSE(first_stale(document));
     EXPECT_EQ(state.history.undo_name(), "Move corner 1");
@@ -237,6 +238,83 @@ TEST_F(ViewerModelTest, ExportsInTheBackground)
     for (const char* file : {"dome.iges", "fields.csv", "outline.csv"})
         EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
     EXPECT_TRUE(says(Severity::done, "dome.iges"));
+}
+
+TEST_F(ViewerModelTest, TakingBackAPickMadeDuringARunKeepsTheResult)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::fit});
+    model.apply(SelectFaces{{1, 2, 3}});
+    wait();
+    ASSERT_NE(document.session.surface, nullptr);
+    const auto blank = document.session.blank;
+    model.apply(Undo{});
+    EXPECT_TRUE(document.selected.empty());
+    EXPECT_EQ(document.session.blank, blank);
+    model.apply(Undo{}); // the run itself
+    EXPECT_EQ(document.session.blank, nullptr);
+    model.apply(Redo{});
+    EXPECT_EQ(document.session.blank, blank);
+}
+
+TEST_F(ViewerModelTest, AFileThatIsNotThereDoesNotDisturbARun)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::fit});
+    model.apply(OpenPart{"/no/such/part.stl", ""});
+    model.apply(OpenProject{"/no/such/project.spia"});
+    EXPECT_TRUE(model.busy());
+    wait();
+    EXPECT_NE(document.session.surface, nullptr);
+    EXPECT_FALSE(state.job.running);
+    model.apply(RunTo{Stage::fit}); // while another part is opened, the run is for that one
+    model.apply(OpenPart{assets / "parts" / "dome.obj", ""});
+    model.apply(RunTo{Stage::solve});
+    wait();
+    EXPECT_EQ(document.session.file.filename(), "dome.obj");
+    EXPECT_NE(document.session.blank, nullptr);
+}
+
+TEST_F(ViewerModelTest, TheUnitCanBeChangedAndTakenBack)
+{
+    open();
+    const auto size = [&] { return document.session.part->mesh.position.cwiseAbs().maxCoeff(); };
+    const double mm = size();
+    model.apply(SetUnit{"mm"}); // as it is
+    model.apply(SetUnit{"cm"});
+    wait();
+    EXPECT_NEAR(size(), 10 * mm, 1e-9);
+    EXPECT_EQ(state.history.undo_name(), "Change unit");
+    model.apply(RunTo{Stage::solve});
+    wait();
+    EXPECT_NE(document.session.blank, nullptr);
+    model.apply(Undo{});
+    model.apply(Undo{});
+    EXPECT_NEAR(size(), mm, 1e-9);
+}
+
+TEST_F(ViewerModelTest, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
+{
+    open();
+    model.apply(LookFrom{View::part, StandardView::top});
+    model.apply(FitView{});
+    const glm::dvec2 size(800, 600);
+    model.apply(DrawSection{View::part, {100, 300}, {700, 300}, size});
+    ASSERT_TRUE(document.section);
+    EXPECT_NEAR(document.section->from[1], document.section->to[1], 1e-9);
+    EXPECT_GT((document.section->to - document.section->from).norm(), 100);
+    model.apply(DrawSection{View::part, {1, 1}, {2, 2}, size}); // beside the part
+    EXPECT_TRUE(says(Severity::error, "over the sheet"));
+    model.apply(DrawSection{View::blank, {1, 1}, {2, 2}, size});
+    EXPECT_TRUE(says(Severity::error, "Unfold the part first"));
+    model.apply(SelectFaces{{4, 5}});
+    model.apply(FlyTo{9});
+    EXPECT_EQ(document.selected, (std::vector<int>{9}));
+    model.apply(Undo{});
+    EXPECT_EQ(document.selected, (std::vector<int>{4, 5}));
+    model.apply(Undo{});
+    model.apply(Undo{});
+    EXPECT_FALSE(document.section);
 }
 
 TEST_F(ViewerModelTest, EndsAtOnceWhileAJobRuns)
