@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
+#include "engine/exchange/text_encoding.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/report.h"
 
@@ -64,22 +65,6 @@ footer { margin-top: 8mm; padding-top: 2mm; border-top: 0.2mm solid var(--line);
 }
 @media (max-width: 700px) { .tiles, .pair { grid-template-columns: 1fr 1fr; } .pair { grid-template-columns: 1fr; } main { padding: 6mm; } }
 )";
-
-std::string base64(const std::string& bytes)
-{
-    constexpr char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes.size() / 3 * 4 + 4);
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](size_t k) {
-            return k < bytes.size() ? unsigned(static_cast<unsigned char>(bytes[k])) : 0;
-        };
-        const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-        for (int k = 0; k < 4; ++k)
-            text += i + size_t(k) > bytes.size() ? '=' : digit[three >> (18 - 6 * k) & 63];
-    }
-    return text;
-}
 
 /// A minus sign as printers set it.
 std::string typeset(std::string text)

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <limits>
 
+#include "engine/exchange/text_encoding.h"
+
 namespace spia::viewer {
 namespace {
 
@@ -135,21 +137,6 @@ std::string key(const std::vector<Curve>& curves)
 }
 
 } // namespace
-
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text)
-        switch (c) {
-        case '&': result += "&amp;"; break;
-        case '<': result += "&lt;"; break;
-        case '>': result += "&gt;"; break;
-        case '"': result += "&quot;"; break;
-        case '\'': result += "&#39;"; break;
-        default: result += c;
-        }
-    return result;
-}
 
 std::string svg(const Chart& chart)
 {

@@ -6,9 +6,6 @@
 
 namespace spia::viewer {
 
-/// &, <, > and quotes as HTML and XML want them.
-std::string escaped(const std::string& text);
-
 struct Curve {
     std::string label;  ///< beside its line in the key; empty: none
     std::string colour; ///< of CSS

@@ -72,7 +72,7 @@ void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);
 void inspect_panel(Frame& frame);
 void view_area(Frame& frame);
-void status_bar(Frame& frame);
+void tool_bar(Frame& frame);
 void dialogs(Frame& frame);
 /// Keyboard shortcuts, unless a text is being typed.
 void shortcuts(Frame& frame);

@@ -1,0 +1,112 @@
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+
+void menu_bar(Frame& frame)
+{
+    const ViewerState& state = frame.state;
+    if (!ImGui::BeginMenuBar())
+        return;
+    if (ImGui::BeginMenu("File")) {
+        if (ImGui::MenuItem("Open part...", "Ctrl+O"))
+            frame.ui.files.open(FileDialog::Purpose::open_part, state.document.session.file);
+        if (ImGui::MenuItem("Open project..."))
+            frame.ui.files.open(FileDialog::Purpose::open_project, state.project);
+        if (ImGui::BeginMenu("Recent", !frame.ui.recent.empty())) {
+            for (const auto& file : frame.ui.recent)
+                if (ImGui::MenuItem(file.string().c_str())) {
+                    if (file.extension() == project_ending)
+                        frame.actions.push(OpenProject{file});
+                    else
+                        frame.actions.push(OpenPart{file, ""});
+                }
+            ImGui::EndMenu();
+        }
+        ImGui::Separator();
+        const bool part = state.document.session.part != nullptr;
+        if (ImGui::MenuItem("Save project", "Ctrl+S", false, part)) {
+            if (state.project.empty())
+                frame.ui.files.open(
+                    FileDialog::Purpose::save_project,
+                    std::filesystem::path(state.document.session.file).replace_extension(project_ending));
+            else
+                frame.actions.push(SaveProject{});
+        }
+        if (ImGui::MenuItem("Save project as...", nullptr, false, part))
+            frame.ui.files.open(
+                FileDialog::Purpose::save_project,
+                state.project.empty()
+                    ? std::filesystem::path(state.document.session.file).replace_extension(project_ending)
+                    : state.project);
+        ImGui::Separator();
+        if (ImGui::MenuItem("Export...", "Ctrl+E", false, state.document.session.blank != nullptr))
+            frame.ui.show_export = true;
+        if (ImGui::MenuItem("Report (HTML)...", nullptr, false, state.document.session.blank != nullptr))
+            frame.ui.files.open(FileDialog::Purpose::save_report,
+                                std::filesystem::path(state.document.session.file).replace_extension(".html"));
+        if (ImGui::MenuItem("Picture of the window...", nullptr))
+            frame.ui.files.open(FileDialog::Purpose::save_picture, "spia.png");
+        ImGui::Separator();
+        if (ImGui::MenuItem("Quit", "Ctrl+Q"))
+            frame.actions.push(Quit{});
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Edit")) {
+        const std::string undo = state.history.undo_name(), redo = state.history.redo_name();
+        if (ImGui::MenuItem(undo.empty() ? "Undo" : ("Undo: " + undo).c_str(), "Ctrl+Z", false,
+                            !undo.empty() && !state.job.running))
+            frame.actions.push(Undo{});
+        if (ImGui::MenuItem(redo.empty() ? "Redo" : ("Redo: " + redo).c_str(), "Ctrl+Y", false,
+                            !redo.empty() && !state.job.running))
+            frame.actions.push(Redo{});
+        ImGui::Separator();
+        const bool some = !state.document.selected.empty();
+        if (ImGui::MenuItem("Grow selection", "+", false, some))
+            frame.actions.push(GrowSelection{});
+        if (ImGui::MenuItem("Shrink selection", "-", false, some))
+            frame.actions.push(ShrinkSelection{});
+        if (ImGui::MenuItem("Invert selection", "I", false, state.document.session.part != nullptr))
+            frame.actions.push(InvertSelection{});
+        if (ImGui::MenuItem("Clear selection", "Esc", false, some))
+            frame.actions.push(ClearSelection{});
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("View")) {
+        ViewSettings view = state.view;
+        bool changed = false;
+        if (ImGui::MenuItem("Fit all", "F"))
+            frame.actions.push(FitView{});
+        if (ImGui::MenuItem("Perspective", "5", view.camera[0].perspective)) {
+            const bool perspective = !view.camera[0].perspective;
+            for (const View v : all_views)
+                if (v != View::blank)
+                    view.camera[size_t(v)].perspective = perspective;
+            changed = true;
+        }
+        ImGui::Separator();
+        changed |= ImGui::MenuItem("Dark theme", "T", &view.dark);
+        changed |= ImGui::MenuItem("Turn 3D views together", nullptr, &view.linked);
+        changed |= ImGui::MenuItem("Triangle edges", "E", &view.edges);
+        changed |= ImGui::MenuItem("Feature lines", nullptr, &view.features);
+        ImGui::Separator();
+        ImGui::MenuItem("Steps panel", "F2", &frame.ui.show_left);
+        ImGui::MenuItem("Inspect panel", "F3", &frame.ui.show_right);
+        if (changed)
+            frame.actions.push(SetViewSettings{view});
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Help")) {
+        ImGui::MenuItem("Keyboard and mouse", "F1", &frame.ui.show_shortcuts);
+        ImGui::EndMenu();
+    }
+    const std::string title =
+        state.project.empty() ? state.document.session.file.filename().string() : state.project.filename().string();
+    if (!title.empty()) {
+        const std::string text = title + (state.unsaved ? " *" : "");
+        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - 14 * frame.ui.scale);
+        ImGui::TextDisabled("%s", text.c_str());
+    }
+    ImGui::EndMenuBar();
+}
+
+} // namespace spia::viewer
