@@ -101,11 +101,13 @@ TEST(HarmonicMap, PlacesOfTheCutMeshAreThoseOfTheFilledMesh)
             for (int c = 0; c < 3; ++c)
                 p += place.barycentric[c] * filled.plane.col(filled.mesh.triangle(c, place.face));
             Eigen::Vector2d& before = seen[size_t(map.triangle(k, t))];
-            if (before.x() < 1e299)
+            if (before.x() < 1e299) {
                 EXPECT_LT((before - p).norm(), 1e-13);
+            }
             before = p;
-            if (map.triangle(k, t) < part.vertices())
+            if (map.triangle(k, t) < part.vertices()) {
                 EXPECT_LT((p - part.position.col(map.triangle(k, t)).head<2>()).norm(), 1e-13);
+            }
         }
 }
 

@@ -43,8 +43,8 @@ TEST_P(RealPart, HasNoFoldedCellOnADiskNorOnABlankThatOverlapsItself)
 INSTANTIATE_TEST_SUITE_P(Scans, RealPart,
                          testing::Values("nefertiti.off", "three_peaks.off", "lilium.obj", "halftunnel.off",
                                          "camel_b.obj", "camelhead.off", "beetle.off"),
-                         [](const auto& info) {
-                             const std::string name = info.param;
+                         [](const auto& param) {
+                             const std::string name = param.param;
                              return name.substr(0, name.find('.'));
                          });
 
