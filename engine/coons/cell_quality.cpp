@@ -17,10 +17,9 @@ double sine(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 
 } // namespace
 
-CellQuality cell_quality(const QuadGrid& planar)
+Eigen::VectorXd scaled_jacobians(const QuadGrid& planar)
 {
-    CellQuality quality;
-    quality.min_scaled_jacobian = 1;
+    Eigen::VectorXd result(Eigen::Index(planar.columns) * planar.rows);
     for (int j = 0; j < planar.rows; ++j)
         for (int i = 0; i < planar.columns; ++i) {
             const std::array<int, 4> node = {planar.node(i, j), planar.node(i + 1, j), planar.node(i + 1, j + 1),
@@ -31,12 +30,19 @@ CellQuality cell_quality(const QuadGrid& planar)
                 smallest = std::min(smallest, sine(planar.position.col(node[(k + 1) % 4]).head<2>() - here,
                                                    planar.position.col(node[(k + 3) % 4]).head<2>() - here));
             }
-            quality.min_scaled_jacobian = std::min(quality.min_scaled_jacobian, smallest);
-            if (smallest > least_sine)
-                continue;
-            if (quality.folded_cells++ == 0)
-                quality.first_folded = i + j * planar.columns;
+            result[i + Eigen::Index(j) * planar.columns] = smallest;
         }
+    return result;
+}
+
+CellQuality cell_quality(const QuadGrid& planar)
+{
+    const Eigen::VectorXd jacobian = scaled_jacobians(planar);
+    CellQuality quality;
+    quality.min_scaled_jacobian = jacobian.size() > 0 ? jacobian.minCoeff() : 1;
+    for (int cell = 0; cell < jacobian.size(); ++cell)
+        if (jacobian[cell] <= least_sine && quality.folded_cells++ == 0)
+            quality.first_folded = cell;
     return quality;
 }
 

@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
-#include "app/viewer/views/cell_jacobian.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
+#include "engine/coons/cell_quality.h"
 #include "engine/exchange/export_scene.h"
 
 namespace spia::viewer {

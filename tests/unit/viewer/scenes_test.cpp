@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/viewer/views/cell_jacobian.h"
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/strain_glyphs.h"
 #include "app/viewer/views/surface_shape.h"
+#include "engine/coons/cell_quality.h"
 #include "engine/forming/material_library.h"
 #include "tests/support/shapes.h"
 
