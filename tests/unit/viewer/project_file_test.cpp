@@ -334,11 +334,18 @@ TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
 TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
 {
     const ScratchFolder folder;
-    Document document = picked(dome, Stage::read);
+    fs::copy_file(dome, folder / "dome.obj");
+    Document document = picked(folder / "dome.obj", Stage::read);
     document.selected.resize(20); // a small file, so that damage meets every part of it
     document.regions[0].faces.resize(10);
     save_project(folder / "a.spia", document, {});
-    const std::string good = content_of(folder / "a.spia");
+    std::string good = content_of(folder / "a.spia");
+    for (const std::string_view varies : {"\"was_at\":\"", "\"program\": \""}) { // the same damage on every machine
+        const size_t value = good.find(varies) + varies.size();
+        ASSERT_LT(value, good.size());
+        ASSERT_GE(value, varies.size());
+        good.replace(value, good.find('"', value) - value, "same");
+    }
     std::mt19937 random(20);
     const auto below = [&](size_t n) { return size_t(random() % n); };
     const char* hostile[] = {"-1",    "1e300", "1e999",      "99999999999999999999", "null", "[]",    "{}",     "\"\"",
@@ -351,7 +358,7 @@ TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
     for (int round = 0; round < 1500; ++round) {
         std::string text = good;
         for (size_t k = 1 + below(3); k-- > 0;) {
-            const size_t at = below(text.size());
+            const size_t at = std::min(below(2) * good.find("\"picks\"") + below(text.size()), text.size() - 1);
             switch (below(5)) {
             case 0: text[at] = char(random()); break;
             case 1: text.erase(at, 1 + below(8)); break;
@@ -380,7 +387,7 @@ TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
         }
     }
     EXPECT_GT(refused, 500);
-    EXPECT_GT(damaged_faces, 5);
+    EXPECT_GT(damaged_faces, 0); // the checks of the faces were reached
     EXPECT_GT(opened, 25); // so the picks of damaged files were looked at, too
 }
 
