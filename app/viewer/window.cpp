@@ -19,6 +19,7 @@
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/render/renderer.h"
+#include "app/viewer/render/view_images.h"
 #include "app/viewer/views/views.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
@@ -171,6 +172,8 @@ public:
             else
                 glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? 0.4 : 60);
             constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
+            if (images_.any_late())
+                GlWindow::news() = true;
             settle = std::exchange(GlWindow::news(), false) ? frames_to_settle : std::max(0, settle - 1);
             const size_t actions = actions_done_;
             try {
@@ -241,9 +244,11 @@ private:
         if (options_.exit) // nobody is there: where the mouse happens to be is not to be seen
             ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
         ImGui::NewFrame();
+        images_.begin_frame();
         Frame now{model_, model_.state(), queue_, ui_, cache_, [&](const Scene& shown, View view, int w, int h) {
-                      return reinterpret_cast<ImTextureID>(uintptr_t(renderer_.draw(
-                          images_[size_t(view)], shown, model_.state().view.camera[size_t(view)], w, h, look())));
+                      return reinterpret_cast<ImTextureID>(
+                          uintptr_t(images_.draw(size_t(view), ui_.busy == view, shown,
+                                                 model_.state().view.camera[size_t(view)], w, h, look())));
                   }};
         ui_.keys = std::exchange(GlWindow::keys(), {});
         workbench(now);
@@ -314,6 +319,8 @@ private:
     /// At the end of a frame, when the window shows what the actions before have changed.
     void take_pictures(int width, int height)
     {
+        if (images_.any_late())
+            return;
         for (const Screenshot& wanted : std::exchange(pictures_, {}))
             try {
                 if (wanted.view) {
@@ -466,7 +473,7 @@ private:
     ImGuiContextOwner gui_;
     ViewerModel model_;
     Renderer renderer_;
-    std::array<Renderer::Image, 4> images_;
+    ViewImages images_{renderer_};
     SceneCache cache_;
     ActionQueue queue_;
     Ui ui_;

@@ -1,4 +1,5 @@
 #include "app/viewer/render/renderer.h"
+#include "app/viewer/render/view_images.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
@@ -446,6 +447,44 @@ TEST_F(Render, AViewIsDrawnAgainOnlyWhenItShowsSomethingElse)
     EXPECT_EQ(renderer.pictures_drawn(), once + 2);
     renderer.draw(image, scene, camera, 81, 60, plain);
     EXPECT_EQ(renderer.pictures_drawn(), once + 3);
+    const auto dot = [](double x) {
+        auto points = std::make_shared<ScenePoints>();
+        points->point = Eigen::Vector3f(float(x), 0, 0);
+        return points;
+    };
+    for (const double x : {0., 0., 1.}) { // made anew for every frame
+        scene.points = {dot(x)};
+        renderer.draw(image, scene, camera, 81, 60, plain);
+        EXPECT_EQ(renderer.pictures_drawn(), once + (x == 0 ? 4 : 5));
+    }
+    EXPECT_TRUE(renderer.shows(image, scene, camera, 81, 60, plain));
+    EXPECT_FALSE(renderer.shows(image, scene, camera, 81, 61, plain));
+}
+
+TEST_F(Render, ViewsThatAreTooMuchForOneFrameTakeTurnsAndAllArrive)
+{
+    DrawTurns turns(10);
+    std::array<int, 4> drawn{};
+    for (int frame = 0; frame < 12; ++frame) { // all four change all the time, each costs more than the budget
+        turns.begin_frame();
+        int now = 0;
+        for (size_t view = 0; view < 4; ++view)
+            if (turns.may_draw(view, view == 1)) {
+                turns.spent(20);
+                ++drawn[view];
+                ++now;
+            }
+        EXPECT_LE(now, 3); // the first, the urgent one, and the one whose turn it is
+    }
+    EXPECT_EQ(drawn[1], 12);
+    EXPECT_GE(drawn[2], 5);
+    EXPECT_GE(drawn[3], 5);
+    for (int frame = 0; frame < 2;
+         ++frame) { // now they stand still: what shows already asks as urgent and costs nothing
+        turns.begin_frame();
+        for (size_t view = 0; view < 4; ++view)
+            EXPECT_TRUE(turns.may_draw(view, true) && !(view == 3 && turns.any_waits()));
+    }
 }
 
 TEST_F(Render, WhatNoSceneHoldsAnyMoreIsForgotten)

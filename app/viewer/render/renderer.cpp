@@ -58,11 +58,19 @@ bool same_look(const SceneLayer& a, const SceneLayer& b)
     return all(a) == all(b);
 }
 
+/// Points are few and made anew for every frame.
+bool same_points(const std::shared_ptr<const ScenePoints>& a, const std::shared_ptr<const ScenePoints>& b)
+{
+    return a->origin == b->origin && a->colour == b->colour && a->size == b->size && a->on_top == b->on_top &&
+           a->point.cols() == b->point.cols() && a->point == b->point;
+}
+
 /// Whether two scenes give the same picture; labels are not drawn here.
 bool same_picture(const Scene& a, const Scene& b)
 {
     return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(), same_look) &&
-           a.lines == b.lines && a.points == b.points && a.region_colours == b.region_colours;
+           a.lines == b.lines && a.region_colours == b.region_colours &&
+           std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_points);
 }
 
 Texture map_texture(ColourMap map)
@@ -368,14 +376,28 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
 
 Renderer::~Renderer() = default;
 
+/// Whether the image has this size; only then its contents matter.
+static bool fits(const Offscreen& target, int width, int height, const Look& look)
+{
+    return target.width() == width && target.height() == height && target.samples_asked() == look.samples;
+}
+
+bool Renderer::shows(const Image& image, const Scene& scene, const Camera& camera, int width, int height,
+                     const Look& look) const
+{
+    const auto& drawn = image.drawn_;
+    return drawn && fits(drawn->target, width, height, look) && drawn->camera == camera && drawn->look == look &&
+           same_picture(drawn->scene, scene);
+}
+
+unsigned Renderer::texture(const Image& image) { return image.drawn_ ? image.drawn_->target.texture() : 0; }
+
 unsigned Renderer::draw(Image& image, const Scene& scene, const Camera& camera, int width, int height, const Look& look)
 {
+    if (shows(image, scene, camera, width, height, look))
+        return texture(image);
     auto& drawn = image.drawn_;
-    const bool fits = drawn && drawn->target.width() == width && drawn->target.height() == height &&
-                      drawn->target.samples_asked() == look.samples;
-    if (fits && drawn->camera == camera && drawn->look == look && same_picture(drawn->scene, scene))
-        return drawn->target.texture();
-    if (!fits) {
+    if (!drawn || !fits(drawn->target, width, height, look)) {
         drawn.reset(); // first, or both would need memory
         drawn.reset(new Image::Drawn{Offscreen(width, height, look.samples), {}, {}, {}});
     }

@@ -55,6 +55,12 @@ public:
     /// @throws Error if OpenGL fails
     unsigned draw(Image& image, const Scene& scene, const Camera& camera, int width, int height, const Look& look);
 
+    /// Whether the image shows just that already, so that draw() costs nothing.
+    bool shows(const Image& image, const Scene& scene, const Camera& camera, int width, int height,
+               const Look& look) const;
+    /// What the image shows, whatever it is; 0: nothing yet.
+    static unsigned texture(const Image& image);
+
     /// The same as a picture of any size, in tiles if it is larger than what the graphics card draws at once.
     /// @param largest_tile  pixels; limits the graphics memory
     /// @throws Error if OpenGL fails; InputError if the size is not positive or is too large for the memory
