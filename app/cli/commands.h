@@ -17,7 +17,7 @@ struct RunArguments {
     std::vector<double> direction;
     std::string grid_method = "automatic", ends = "averaged";
     std::vector<std::string> formats;
-    bool strict = false, weld = false;
+    bool strict = false, weld = false, keep_largest = false;
 };
 
 /// Runs the whole chain on a part, writes the files and prints a summary.
@@ -27,7 +27,7 @@ int run(const RunArguments& arguments);
 struct InfoArguments {
     std::filesystem::path part, json;
     std::string unit;
-    bool weld = false;
+    bool weld = false, keep_largest = false;
 };
 
 /// Prints what the mesh doctor says. @returns 0, or 2 if the part would be refused

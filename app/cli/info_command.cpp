@@ -15,6 +15,7 @@ int info(const InfoArguments& arguments)
         options.unit = length_unit(arguments.unit);
     if (arguments.weld)
         options.weld = true;
+    options.doctor.keep_largest = arguments.keep_largest;
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

@@ -48,6 +48,8 @@ int main(int count, char** values)
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
+    run_command->add_flag("--keep-largest", run.keep_largest,
+                          "leave out all but the largest piece, and ribs on edges of three faces");
     run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
@@ -85,6 +87,8 @@ int main(int count, char** values)
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
+    info_command->add_flag("--keep-largest", info.keep_largest,
+                           "leave out all but the largest piece, and ribs on edges of three faces");
     info_command->add_option("--json", info.json, "write the findings")->type_name("FILE");
 
     CLI::App* materials_command = app.add_subcommand("materials", "List the built-in sheet grades");

@@ -23,6 +23,7 @@ SessionOptions options(const RunArguments& arguments)
         result.read.unit = length_unit(arguments.unit);
     if (arguments.weld)
         result.read.weld = true;
+    result.read.doctor.keep_largest = arguments.keep_largest;
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     result.flatten.thickness = arguments.thickness;
     if (!arguments.direction.empty())

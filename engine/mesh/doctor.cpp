@@ -6,9 +6,12 @@
 #include <fmt/core.h>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "engine/core/error.h"
+#include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/flat_triangles.h"
+#include "engine/mesh/largest_piece.h"
 #include "engine/mesh/surface_triangles.h"
 
 namespace spia {
@@ -41,7 +44,7 @@ void check_coordinates(const PolygonSoup& soup, DoctorReport& report)
     if (bad.count == 0)
         return;
     const Vector3d& p = soup.position[size_t(bad.first)];
-    report.add(Fault::bad_coordinate, Severity::fatal, bad.count, bad.first,
+    report.add(Fault::bad_coordinate, Severity::fatal, bad,
                fmt::format("{} a coordinate that is no number or beyond {} mm (first: vertex {} at {}, {}, {})",
                            counted(bad.count, "vertex has", "vertices have"), beyond_any_part, bad.first, p.x(), p.y(),
                            p.z()),
@@ -60,7 +63,7 @@ void check_indices(const PolygonSoup& soup, DoctorReport& report)
                 break;
             }
     if (bad.count > 0)
-        report.add(Fault::bad_index, Severity::fatal, bad.count, bad.first,
+        report.add(Fault::bad_index, Severity::fatal, bad,
                    fmt::format("{} a vertex that does not exist (first: face {}, vertex {} where there are {})",
                                counted(bad.count, "face names", "faces name"), bad.first, wrong, soup.vertices()),
                    "the file is damaged or cut off: write it anew");
@@ -69,7 +72,7 @@ void check_indices(const PolygonSoup& soup, DoctorReport& report)
 bool readable(const PolygonSoup& soup, DoctorReport& report)
 {
     if (soup.polygons() == 0)
-        report.add(Fault::nothing_there, Severity::fatal, 0, -1, "there are no faces",
+        report.add(Fault::nothing_there, Severity::fatal, Tally{}, "there are no faces",
                    "give a surface mesh: points or curves alone cannot be flattened");
     check_coordinates(soup, report);
     check_indices(soup, report);
@@ -119,25 +122,32 @@ Tally drop_flat_at_crowded_edges(Surface& s)
 
 void check_edges(Surface& s, DoctorReport& report)
 {
-    int crowded = 0, most = 0;
-    EdgeUse first{};
+    int most = 0;
+    std::vector<EdgeUse> crowded; ///< the first face of each
     const auto uses = edge_uses(s.triangle);
     for_each_edge(uses, [&](size_t begin, size_t end) {
         if (end - begin <= 2)
             return;
-        if (crowded++ == 0 || uses[begin].face < first.face) // the uses of an edge are in the order of the faces
-            first = uses[begin];
+        crowded.push_back(uses[begin]); // the uses of an edge are in the order of the faces
         most = std::max(most, int(end - begin));
     });
-    s.two_faces_per_edge = crowded == 0;
-    if (crowded > 0)
-        report.add(Fault::crowded_edge, Severity::fatal, crowded, s.number[size_t(first.face)],
-                   fmt::format("{} to three or more faces, up to {} (first: the edge between the vertices {} and "
-                               "{}, at face "
-                               "{})",
-                               counted(crowded, "edge belongs", "edges belong"), most, first.low, first.high,
-                               s.number[size_t(first.face)]),
-                   "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part");
+    s.two_faces_per_edge = crowded.empty();
+    if (crowded.empty())
+        return;
+    std::stable_sort(crowded.begin(), crowded.end(),
+                     [](const EdgeUse& a, const EdgeUse& b) { return a.face < b.face; });
+    Tally faces;
+    for (const EdgeUse& use : crowded)
+        faces.add(s.number[size_t(use.face)]);
+    const EdgeUse& first = crowded[0];
+    report.add(
+        Fault::crowded_edge, Severity::fatal, faces,
+        fmt::format("{} to three or more faces, up to {} (first: the edge between the vertices {} and "
+                    "{}, at face "
+                    "{})",
+                    counted(faces.count, "edge belongs", "edges belong"), most, first.low, first.high, faces.first),
+        "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part; --keep-largest "
+        "leaves out what hangs on such edges");
 }
 
 /// A neighbour over an edge of two faces.
@@ -202,7 +212,9 @@ void orient(Surface& s, DoctorReport& report)
     }
     if (clash >= 0) {
         s.two_sided = false;
-        report.add(Fault::one_sided, Severity::fatal, 1, s.number[size_t(clash)],
+        Tally strip;
+        strip.add(s.number[size_t(clash)]);
+        report.add(Fault::one_sided, Severity::fatal, strip,
                    fmt::format("the surface has one side only, like a Moebius strip: going round it, one "
                                "comes back to face {} "
                                "from behind",
@@ -218,7 +230,7 @@ void orient(Surface& s, DoctorReport& report)
         }
     if (turns.count > 0)
         report.add(
-            Fault::flipped_face, Severity::repaired, turns.count, turns.first,
+            Fault::flipped_face, Severity::repaired, turns,
             fmt::format("{} turned against the others (first: face {}); turned over, the larger area kept its side",
                         counted(turns.count, "triangle was", "triangles were"), turns.first),
             "");
@@ -247,19 +259,25 @@ void mend_flat_triangles(Surface& s, const Tally& dropped, DoctorReport& report)
         repair.left = all_flat;
     }
     const int mended = flat.count + dropped.count - int(repair.left.size());
-    if (mended > 0)
-        report.add(Fault::flat_face, Severity::repaired, mended, first,
+    if (mended > 0) {
+        Tally gone{mended, first, dropped.where};
+        gone.where.insert(gone.where.end(), flat.where.begin(), flat.where.end());
+        report.add(Fault::flat_face, Severity::repaired, gone,
                    fmt::format("{} no area (first: face {}): {} gone by joining two vertices at one place, "
                                "{} by turning the "
                                "longest edge, {} left out at the boundary or where the edge had other faces",
                                counted(mended, "triangle had", "triangles had"), first, repair.joined, repair.flipped,
                                repair.dropped + dropped.count),
                    "");
+    }
     if (!repair.left.empty()) {
         const Triangle& t = s.triangle[size_t(repair.left[0])];
         const int number = s.number[size_t(repair.left[0])];
+        Tally left;
+        for (const int f : repair.left)
+            left.add(s.number[size_t(f)]);
         report.add(
-            Fault::flat_face, Severity::fatal, int(repair.left.size()), number,
+            Fault::flat_face, Severity::fatal, left,
             fmt::format("{} no area and cannot be taken out without tearing the surface (first: face {} with the "
                         "vertices {}, {}, {})",
                         counted(int(repair.left.size()), "triangle has", "triangles have"), number, t[0], t[1], t[2]),
@@ -270,31 +288,10 @@ void mend_flat_triangles(Surface& s, const Tally& dropped, DoctorReport& report)
 
 // ---- the surface as a whole ----
 
-/// Union of numbered things; the representative of a set is its smallest member.
-class Sets {
-public:
-    explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int root(int i)
-    {
-        while (parent_[size_t(i)] != i)
-            i = parent_[size_t(i)] = parent_[size_t(parent_[size_t(i)])];
-        return i;
-    }
-    void join(int a, int b)
-    {
-        a = root(a);
-        b = root(b);
-        parent_[size_t(std::max(a, b))] = std::min(a, b);
-    }
-
-private:
-    std::vector<int> parent_;
-};
-
 /// Corner 3 f + k of triangle f; corners at one vertex that an edge of two faces links are one fan.
-Sets fans(const std::vector<Triangle>& triangles)
+DisjointSets fans(const std::vector<Triangle>& triangles)
 {
-    Sets sets(3 * triangles.size());
+    DisjointSets sets(3 * triangles.size());
     const auto corner_at = [&](int f, int v) {
         const Triangle& t = triangles[size_t(f)];
         return 3 * f + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
@@ -316,7 +313,7 @@ void separate_fans(Surface& s, DoctorReport& report)
     if (!s.two_faces_per_edge)
         return; // around an edge of three faces there is no fan
 
-    Sets sets = fans(s.triangle);
+    DisjointSets sets = fans(s.triangle);
     std::vector<int> first_fan(s.home.size(), -1), copy(3 * s.triangle.size(), -1);
     std::vector<char> doubled(s.home.size(), 0);
     for (size_t c = 0; c < copy.size(); ++c) {
@@ -339,7 +336,7 @@ void separate_fans(Surface& s, DoctorReport& report)
             touching.add(int(v));
     if (touching.count > 0)
         report.add(
-            Fault::touching_fans, Severity::repaired, touching.count, touching.first,
+            Fault::touching_fans, Severity::repaired, touching,
             fmt::format("at {} parts of the sheet touched without a common edge (first: vertex {}); separated by "
                         "doubling the vertex",
                         counted(touching.count, "vertex", "vertices"), touching.first),
@@ -356,7 +353,7 @@ void report_strays(const Surface& s, DoctorReport& report)
         if (!named[size_t(v)])
             strays.add(v);
     if (strays.count > 0)
-        report.add(Fault::stray_vertex, Severity::repaired, strays.count, strays.first,
+        report.add(Fault::stray_vertex, Severity::repaired, strays,
                    fmt::format("{} to no face (first: vertex {}); left out",
                                counted(strays.count, "vertex belongs", "vertices belong"), strays.first),
                    "");
@@ -399,23 +396,31 @@ void count_pieces(const Surface& s, DoctorReport& report)
     for (const int piece : s.piece)
         ++size[size_t(piece)];
     const int largest = int(std::max_element(size.begin(), size.end()) - size.begin());
-    const auto other = std::find_if(s.piece.begin(), s.piece.end(), [&](int piece) { return piece != largest; });
+    std::vector<char> seen(size.size(), 0);
+    seen[size_t(largest)] = 1;
+    Tally others; // the first face of each
+    for (size_t f = 0; f < s.piece.size(); ++f)
+        if (!std::exchange(seen[size_t(s.piece[f])], char(1)))
+            others.add(s.number[f]);
     std::erase(size, 0);
     report.components = int(size.size());
     if (report.components < 2)
         return;
-    const int first = s.number[size_t(other - s.piece.begin())];
+    others.count = report.components;
     std::sort(size.rbegin(), size.rend());
     std::string sizes;
     for (size_t i = 0; i < std::min<size_t>(size.size(), 5); ++i)
         sizes += fmt::format("{}{}", i > 0 ? ", " : "", size[i]);
     const Finding* coincident = report.find(Fault::coincident_vertex);
     const bool unjoined = coincident && coincident->severity == Severity::note;
-    report.add(Fault::several_components, Severity::fatal, report.components, first,
-               fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
-                           report.components, sizes, size.size() > 5 ? ", ..." : "", first),
-               unjoined ? "read the file with --weld if the pieces touch; otherwise save each as a file of its own"
-                        : "save each piece as a file of its own");
+    report.add(
+        Fault::several_components, Severity::fatal, others,
+        fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
+                    report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
+        unjoined
+            ? "read the file with --weld if the pieces touch; otherwise keep the largest with --keep-largest, or save "
+              "each as a file of its own"
+            : "keep the largest with --keep-largest, or save each piece as a file of its own");
 }
 
 /// Edges of the surface, and boundary loops of each piece.
@@ -428,7 +433,7 @@ Outline outline(const Surface& s, int pieces)
 {
     // Every vertex has one fan now, so at most two boundary edges meet there and a loop is a connected set of
     // them.
-    Sets sets(s.home.size());
+    DisjointSets sets(s.home.size());
     std::vector<int> piece_of(s.home.size(), -1);
     Outline result;
     const auto uses = edge_uses(s.triangle);
@@ -449,7 +454,7 @@ Outline outline(const Surface& s, int pieces)
 void check_topology(const Surface& s, int vertices, DoctorReport& report)
 {
     if (s.triangle.empty()) {
-        report.add(Fault::nothing_there, Severity::fatal, 0, -1, "no face is left after the repairs",
+        report.add(Fault::nothing_there, Severity::fatal, Tally{}, "no face is left after the repairs",
                    "the faces of the file have no area: write it anew");
         return;
     }
@@ -472,13 +477,13 @@ void check_topology(const Surface& s, int vertices, DoctorReport& report)
             closed.add(s.number[f]);
         }
     if (closed.count > 0)
-        report.add(Fault::closed_surface, Severity::fatal, closed.count, closed.first,
+        report.add(Fault::closed_surface, Severity::fatal, closed,
                    report.components == 1 ? std::string("the surface is closed, it has no boundary")
                                           : fmt::format("{} closed, without a boundary (first: the one of face {})",
                                                         counted(closed.count, "piece is", "pieces are"), closed.first),
                    "a sheet is given by one of its skins: delete the other side and the faces across the thickness");
     if (report.genus.value_or(0) > 0)
-        report.add(Fault::handle, Severity::fatal, *report.genus, -1,
+        report.add(Fault::handle, Severity::fatal, Tally{*report.genus, -1, {}},
                    fmt::format("the surface has {} (genus {}), like that of a cup: it cannot be laid flat",
                                counted(*report.genus, "handle", "handles"), *report.genus),
                    "cut each handle open");
@@ -509,7 +514,7 @@ void note_slivers(const Surface& s, double angle_deg, DoctorReport& report)
             slivers.add(s.number[f]);
     }
     if (slivers.count > 0)
-        report.add(Fault::sliver, Severity::note, slivers.count, slivers.first,
+        report.add(Fault::sliver, Severity::note, slivers,
                    fmt::format("{} an angle below {:.3g} degrees (first: face {}); the smallest is {:.3g} degrees",
                                counted(slivers.count, "triangle has", "triangles have"), angle_deg, slivers.first,
                                least * 180 / std::numbers::pi),
@@ -556,20 +561,69 @@ const Finding* DoctorReport::find(Fault fault) const
     return found == findings.end() ? nullptr : &*found;
 }
 
-void DoctorReport::add(Fault fault, Severity severity, int count, int first, std::string text, std::string advice)
+void DoctorReport::add(Fault fault, Severity severity, const Tally& tally, std::string text, std::string advice)
 {
-    findings.push_back({fault, severity, count, first, std::move(text), std::move(advice)});
+    findings.push_back(
+        {fault, severity, tally.count, tally.first, std::move(text), std::move(advice), tally.where, {}});
+}
+
+bool counts_vertices(Fault fault)
+{
+    return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::stray_vertex ||
+           fault == Fault::touching_fans;
+}
+
+/// Leaves out all but the largest piece of sheet.
+static void keep_largest(Surface& s, DoctorReport& report)
+{
+    const Pieces pieces = smooth_pieces(s.triangle, s.soup.position);
+    if (pieces.count < 2)
+        return;
+    std::vector<char> other(s.triangle.size());
+    for (size_t f = 0; f < other.size(); ++f)
+        other[f] = pieces.of[f] != pieces.largest;
+    const Tally removed = remove(s, other);
+    report.add(
+        Fault::several_components, Severity::repaired, removed,
+        fmt::format("{} pieces of sheet were there or hung together at edges of three faces; the largest was kept, "
+                    "{} left out (first: face {})",
+                    pieces.count, counted(removed.count, "triangle was", "triangles were"), removed.first),
+        "");
+}
+
+/// Where the faults are; what is repaired may be gone from the mesh.
+static void locate(const PolygonSoup& soup, DoctorReport& report)
+{
+    for (Finding& finding : report.findings)
+        for (const int number : finding.where) {
+            if (counts_vertices(finding.fault)) {
+                finding.place.push_back(soup.position[size_t(number)]);
+                continue;
+            }
+            Vector3d middle = Vector3d::Zero();
+            int known = 0;
+            for (const int v : soup.polygon(number))
+                if (v >= 0 && v < soup.vertices()) {
+                    middle += soup.position[size_t(v)];
+                    ++known;
+                }
+            finding.place.push_back(known ? Vector3d(middle / known) : Vector3d(Vector3d::Zero()));
+        }
 }
 
 Examination examine(const PolygonSoup& soup, const DoctorOptions& options, const Progress& progress)
 {
     DoctorReport report;
-    if (!readable(soup, report))
+    if (!readable(soup, report)) {
+        locate(soup, report);
         return {{}, {}, {}, std::move(report)};
+    }
 
     SurfaceTriangles split = surface_triangles(soup, options, report, progress.part(0, 0.6));
     Surface s{soup, std::move(split.triangle), std::move(split.number), {}, {}};
     const Tally dropped = drop_flat_at_crowded_edges(s);
+    if (options.keep_largest)
+        keep_largest(s, report);
     check_edges(s, report);
     progress.checkpoint(0.7, "turning faces to one side");
     orient(s, report);
@@ -581,6 +635,7 @@ Examination examine(const PolygonSoup& soup, const DoctorOptions& options, const
     progress.checkpoint(0.9, "counting loops and handles");
     check_topology(s, result.mesh.vertices(), result.report);
     note_slivers(s, options.sliver_angle_deg, result.report);
+    locate(soup, result.report);
     return result;
 }
 

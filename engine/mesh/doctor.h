@@ -33,6 +33,22 @@ enum class Fault {
 };
 std::string_view name(Fault fault);
 
+/// Whether `first` and `where` of such a finding are vertices; else they are faces.
+bool counts_vertices(Fault fault);
+
+/// Counts faults of one kind and remembers where the first ones are.
+struct Tally {
+    int count = 0, first = -1;
+    std::vector<int> where = {}; ///< the first thousand: nobody looks at more
+    void add(int which)
+    {
+        constexpr int most = 1000;
+        first = count == 0 ? which : first;
+        if (count++ < most)
+            where.push_back(which);
+    }
+};
+
 enum class Severity { note, repaired, fatal };
 
 /// One kind of fault, counted over the whole mesh.
@@ -40,9 +56,11 @@ struct Finding {
     Fault fault;
     Severity severity;
     int count;
-    int first;          ///< face or vertex (see Fault) as in the file, counted from 0; -1 if none can be named
-    std::string text;   ///< what was found and, if repaired, what was done
-    std::string advice; ///< what to do about it; empty if nothing has to be done
+    int first;                   ///< face or vertex (see Fault) as in the file, counted from 0; -1 if none can be named
+    std::string text;            ///< what was found and, if repaired, what was done
+    std::string advice;          ///< what to do about it; empty if nothing has to be done
+    std::vector<int> where = {}; ///< as `first`, at most a thousand; empty if none can be named
+    std::vector<Eigen::Vector3d> place = {}; ///< of `where`, as in the soup; also of what was taken out
 };
 
 /// What the examination found. The numbers describe the mesh after the repairs; those without a value have no
@@ -56,12 +74,13 @@ struct DoctorReport {
 
     bool healthy() const;                   ///< no fatal finding
     const Finding* find(Fault fault) const; ///< the first of this kind, nullptr if there is none
-    void add(Fault fault, Severity severity, int count, int first, std::string text, std::string advice);
+    void add(Fault fault, Severity severity, const Tally& tally, std::string text, std::string advice);
 };
 
 struct DoctorOptions {
     bool weld = false;            ///< join vertices at one place; right for files that repeat a vertex in each face
     double weld_tolerance = 1e-6; ///< of the diagonal: gaps closed at open edges; 0: equal coordinates only
+    bool keep_largest = false;    ///< leave out all but the largest piece, and what hangs on edges of three faces
     double sliver_angle_deg = 1;  ///< a triangle with a smaller angle is noted
 };
 

@@ -44,11 +44,11 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                                        counted(joined.count, "vertex was", "vertices were"), joined.first);
         if (found.near > 0)
             text += fmt::format(", {} of them across gaps of up to {:.3g} mm", found.near, found.widest);
-        report.add(Fault::coincident_vertex, Severity::repaired, joined.count, joined.first, text, "");
+        report.add(Fault::coincident_vertex, Severity::repaired, joined, text, "");
         return found.same_as;
     }
     if (joined.count > 0)
-        report.add(Fault::coincident_vertex, Severity::note, joined.count, joined.first,
+        report.add(Fault::coincident_vertex, Severity::note, joined,
                    fmt::format("{} at the place of another (first: vertex {}) and {} left there",
                                counted(joined.count, "vertex lies", "vertices lie"), joined.first,
                                joined.count == 1 ? "was" : "were"),
@@ -83,13 +83,13 @@ Polygons without_repeated_corners(const PolygonSoup& soup, const std::vector<int
     }
     if (repeated.count > 0)
         report.add(
-            Fault::repeated_corner, Severity::repaired, repeated.count, repeated.first,
+            Fault::repeated_corner, Severity::repaired, repeated,
             fmt::format("{} one vertex at neighbouring corners or fewer than three corners (first: face {}); those "
                         "with three different corners were kept without the repetition, the others left out",
                         counted(repeated.count, "face has", "faces have"), repeated.first),
             "");
     if (twisted.count > 0)
-        report.add(Fault::repeated_corner, Severity::fatal, twisted.count, twisted.first,
+        report.add(Fault::repeated_corner, Severity::fatal, twisted,
                    fmt::format("{} through one vertex twice (first: face {})",
                                counted(twisted.count, "face goes", "faces go"), twisted.first),
                    "split such faces into simple ones where they were made");
@@ -127,7 +127,7 @@ Polygons without_duplicates(const Polygons& polygons, DoctorReport& report)
         else
             kept.add(polygons.soup.polygon(int(p)), polygons.number[p]);
     if (duplicates.count > 0)
-        report.add(Fault::duplicate_face, Severity::repaired, duplicates.count, duplicates.first,
+        report.add(Fault::duplicate_face, Severity::repaired, duplicates,
                    fmt::format("{} on the corners of an earlier one (first: face {}); left out",
                                counted(duplicates.count, "face lies", "faces lie"), duplicates.first),
                    "");
@@ -161,12 +161,12 @@ SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector
         }
     }
     if (many_corners.count > 0)
-        report.add(Fault::polygon, Severity::repaired, many_corners.count, many_corners.first,
+        report.add(Fault::polygon, Severity::repaired, many_corners,
                    fmt::format("{} more than three corners (first: face {}); split into triangles",
                                counted(many_corners.count, "face has", "faces have"), many_corners.first),
                    "");
     if (crossing.count > 0)
-        report.add(Fault::crossing_polygon, Severity::fatal, crossing.count, crossing.first,
+        report.add(Fault::crossing_polygon, Severity::fatal, crossing,
                    fmt::format("{} or more than {} corners (first: face {})",
                                counted(crossing.count, "face crosses itself or has", "faces cross themselves or have"),
                                most_corners, crossing.first),

@@ -20,12 +20,6 @@ struct SurfaceTriangles {
 SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report,
                                    const Progress& progress);
 
-/// Counts faults of one kind and remembers the first.
-struct Tally {
-    int count = 0, first = -1;
-    void add(int which) { first = count++ == 0 ? which : first; }
-};
-
 /// "1 face has", "3 faces have"
 std::string counted(int n, std::string_view one, std::string_view many);
 
