@@ -13,6 +13,7 @@
 #include <imgui_impl_opengl3.h>
 
 #include "app/viewer/model/html_report.h"
+#include "app/viewer/model/members.h"
 #include "app/viewer/model/recent_files.h"
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/state_report.h"
@@ -169,8 +170,10 @@ public:
                 glfwPollEvents();
             else if (model_.busy())
                 glfwWaitEventsTimeout(0.1);
-            else
-                glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? 0.4 : 60);
+            else {
+                const double until = ui_.wake_at > 0 ? std::max(0.01, ui_.wake_at - ImGui::GetTime()) : 60;
+                glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? std::min(0.4, until) : until);
+            }
             constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
             if (images_.any_late())
                 GlWindow::news() = true;
@@ -251,6 +254,7 @@ private:
                                                  model_.state().view.camera[size_t(view)], w, h, look())));
                   }};
         ui_.keys = std::exchange(GlWindow::keys(), {});
+        const ViewSettings seen = model_.state().view;
         workbench(now);
         ImGui::Render();
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -264,8 +268,16 @@ private:
         if (solving)
             times_.solving.push_back(busy);
         glfwSwapBuffers(window_.get());
-        for (const Action& action : queue_.take())
+        for (Action& action : queue_.take()) {
+            if (auto* settings = std::get_if<SetViewSettings>(&action)) { // a panel changes what it means to change
+                ViewSettings merged = model_.state().view;
+                take_changes(seen, settings->view, merged);
+                settings->view = merged;
+            }
             carry_out(action);
+        }
+        if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown())
+            model_.gesture_ended();
         follow_part();
         save_now_and_then();
     }

@@ -418,9 +418,9 @@ void count_pieces(const Surface& s, DoctorReport& report)
         fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
                     report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
         unjoined
-            ? "read the file with --weld if the pieces touch; otherwise keep the largest with --keep-largest, or save "
-              "each as a file of its own"
-            : "keep the largest with --keep-largest, or save each piece as a file of its own");
+            ? "join vertices at one place (--weld) if the pieces touch; otherwise keep the largest (--keep-largest), or "
+              "save each as a file of its own"
+            : "keep the largest (--keep-largest), or save each piece as a file of its own");
 }
 
 /// Edges of the surface, and boundary loops of each piece.

@@ -52,7 +52,7 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                    fmt::format("{} at the place of another (first: vertex {}) and {} left there",
                                counted(joined.count, "vertex lies", "vertices lie"), joined.first,
                                joined.count == 1 ? "was" : "were"),
-                   "if faces that should hang together do not, read the file with --weld");
+                   "if faces that should hang together do not, join vertices at one place (--weld)");
     std::vector<int> themselves(size_t(soup.vertices()));
     std::iota(themselves.begin(), themselves.end(), 0);
     return themselves;

@@ -21,6 +21,12 @@ struct OpenPart {
 struct SetUnit {
     std::string unit;
 }; ///< "set_unit": reads the part again
+/// "set_reading": reads the part again, with vertices at one place joined or not (not given: as the format needs), and with
+/// all but the largest piece of sheet left out or not.
+struct SetReading {
+    std::optional<bool> weld = {};
+    bool keep_largest = false;
+};
 struct RunTo {
     Stage stage = Stage::fit;
 };                   ///< "run_to": what is missing up to this stage, in the background
@@ -132,6 +138,11 @@ struct FlyTo {
     int face = 0;
 }; ///< "fly_to": every view shows this face in its middle
 
+/// "show_fault": the views go to a place that the mesh doctor found; numbers as in DoctorReport.
+struct ShowFault {
+    int finding = 0, entry = 0;
+};
+
 // --- the document and files
 struct Undo {}; ///< "undo"
 struct Redo {}; ///< "redo"
@@ -156,12 +167,12 @@ struct Screenshot {
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
-using Action = std::variant<OpenPart, SetUnit, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
-                            ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, GrowSelection,
-                            ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion, RemoveRegion,
-                            SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
-                            SetViewSettings, FitView, LookFrom, FlyTo, Undo, Redo, OpenProject, SaveProject,
-                            ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+using Action = std::variant<OpenPart, SetUnit, SetReading, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection,
+                            SetCorner, ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush,
+                            GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion,
+                            RemoveRegion, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
+                            SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, ShowFault, Undo, Redo, OpenProject,
+                            SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

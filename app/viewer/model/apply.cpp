@@ -4,6 +4,7 @@
 #include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
+#include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 
 namespace spia::viewer {
@@ -35,10 +36,14 @@ struct ViewerModel::Apply {
         model.chain_job_.reset(); // cancels and waits for the next checkpoint
         model.next_.reset();
         model.project_.reset();
+        model.picks_.reset();
         state.job = JobView{};
         document = std::move(fresh);
         state.history = History{};
-        state.messages.clear();
+        for (Message& message : state.messages)
+            message.dismissed = true;
+        state.refused.reset();
+        state.fault.reset();
         model.dragging_ = false;
         model.keep_cameras_ = false;
         model.opening_ = true;
@@ -77,11 +82,36 @@ struct ViewerModel::Apply {
             throw InputError("Cancel the running job first; then change the unit.");
         change("Change unit");
         session.options.read.unit = unit;
+        forget_picks();
+        model.opening_ = true;
+        model.run_to(Stage::read, "Reading the part again");
+    }
+    void operator()(const SetReading& action)
+    {
+        if (session.file.empty())
+            throw InputError("Open a part first.");
+        if (model.busy())
+            throw InputError("Cancel the running job first; then read the part otherwise.");
+        ReadOptions& read = session.options.read;
+        if (read.weld == action.weld && read.doctor.keep_largest == action.keep_largest)
+            return;
+        change("Read the part otherwise");
+        (*this)(DismissMessages{}); // of the part as it was read before
+        if (session.part)
+            model.picks_ = store_picks(document);
+        read.weld = action.weld;
+        read.doctor.keep_largest = action.keep_largest;
+        forget_picks();
+        document.regions.clear();
+        model.opening_ = true;
+        model.run_to(Stage::read, "Reading the part again");
+    }
+    /// Numbers of faces mean others when the part is read otherwise.
+    void forget_picks()
+    {
         document.selected.clear();
         document.probes.clear();
         document.section.reset();
-        model.opening_ = true;
-        model.run_to(Stage::read, "Reading the part again");
     }
     void operator()(const RunTo& action)
     {
@@ -94,8 +124,8 @@ struct ViewerModel::Apply {
             return;
         }
         part();
-        std::erase_if(state.messages,
-                      [](const Message& m) { return m.severity != Severity::error; }); // of the run before
+        for (Message& message : state.messages) // of the run before
+            message.dismissed |= message.severity != Severity::error;
         change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
         model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
     }
@@ -361,6 +391,29 @@ struct ViewerModel::Apply {
         }
         select({action.face}, PickMode::replace, "Go to face");
     }
+    void operator()(const ShowFault& action)
+    {
+        const PartFile* examined = session.part ? session.part.get() : state.refused.get();
+        if (!examined)
+            throw InputError("Open a part first.");
+        const auto& findings = examined->doctor.findings;
+        if (action.finding < 0 || size_t(action.finding) >= findings.size())
+            throw InputError(fmt::format("The mesh doctor has no finding {}.", action.finding));
+        const auto& place = findings[size_t(action.finding)].place;
+        if (action.entry < 0 || size_t(action.entry) >= place.size())
+            throw InputError(fmt::format("This finding has no place {}.", action.entry));
+        const Eigen::Vector3d& at = place[size_t(action.entry)];
+        state.fault = ShownFault{action.finding, action.entry, at};
+        const double size = 0.15 * bounding_diagonal(examined->mesh);
+        for (const View view : all_views) {
+            Camera& camera = state.view.camera[size_t(view)];
+            if (view == View::part || (state.view.linked && view != View::blank)) {
+                camera.target = glm::dvec3(at[0], at[1], at[2]);
+                if (size > 0)
+                    camera.height = std::min(camera.height, size);
+            }
+        }
+    }
 
     // --- the document and files
     void operator()(const Undo&) { go(&History::undo); }
@@ -406,7 +459,11 @@ struct ViewerModel::Apply {
             },
             model.wake_);
     }
-    void operator()(const DismissMessages&) { state.messages.clear(); }
+    void operator()(const DismissMessages&)
+    {
+        for (Message& message : state.messages)
+            message.dismissed = true;
+    }
     void operator()(const Screenshot&) {}
     void operator()(const WriteReport&) {}
     void operator()(const Quit&) {}

@@ -5,7 +5,10 @@
 namespace spia::viewer {
 namespace {
 
-bool same(const ReadOptions& a, const ReadOptions& b) { return a.unit == b.unit && a.weld == b.weld; }
+bool same(const ReadOptions& a, const ReadOptions& b)
+{
+    return a.unit == b.unit && a.weld == b.weld && a.doctor.keep_largest == b.doctor.keep_largest;
+}
 
 bool same(const FlattenOptions& a, const FlattenOptions& b)
 {
@@ -17,6 +20,18 @@ bool same(const GridOptions& a, const GridOptions& b)
 {
     return a.columns == b.columns && a.rows == b.rows && a.cells == b.cells && a.smoothing == b.smoothing &&
            a.method == b.method;
+}
+
+/// The part to be looked at, if its mesh is sick; null if the file cannot be read at all.
+std::shared_ptr<const PartFile> refused_part(const Session& session, const Progress& progress)
+{
+    try {
+        PartFile part = examine_part(session.file, session.options.read, progress);
+        if (!part.doctor.healthy())
+            return std::make_shared<PartFile>(std::move(part));
+    } catch (const InputError&) { // said already
+    }
+    return nullptr;
 }
 
 /// Share of the whole chain's time, roughly; the solver takes most of it.
@@ -68,7 +83,9 @@ std::optional<Stage> first_stale(const Document& document)
 
 ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress)
 {
-    ChainResult result{std::move(session), std::move(made_with), {}, {}};
+    ChainResult result;
+    result.session = std::move(session);
+    result.made_with = std::move(made_with);
     double whole = 0, done = 0;
     for (const Stage stage : chain)
         if (stage >= from && stage <= to)
@@ -87,6 +104,11 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
         } catch (const std::exception& error) {
             result.failed = stage;
             result.message = error.what();
+            if (stage == Stage::read)
+                try {
+                    result.refused = refused_part(result.session, progress);
+                } catch (const std::exception&) { // the reason above counts
+                }
             return result;
         }
     }
@@ -96,7 +118,7 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
 std::string advice(Stage failed)
 {
     switch (failed) {
-    case Stage::read: return "Choose another file, or mend the part and open it again.";
+    case Stage::read: return "Look at the faults in the step Part, where some can be mended, or choose another file.";
     case Stage::solve: return "Look at the part's faces named above; a coarser or cleaner mesh often helps.";
     case Stage::grid: return "Drag the corners to the sharp turns of the blank, or choose the harmonic method.";
     case Stage::lift: return "Choose the automatic grid method.";

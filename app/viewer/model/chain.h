@@ -18,6 +18,7 @@ struct ChainResult {
     std::optional<Stage> failed; ///< the stage that has no result
     std::string message;         ///< why, in words
     bool cancelled = false;
+    std::shared_ptr<const PartFile> refused; ///< the part, if its mesh was the reason
 };
 
 /// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.

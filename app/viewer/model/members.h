@@ -73,4 +73,22 @@ inline constexpr auto members_of<ViewSettings> =
                member("surface_deviation", &ViewSettings::surface_deviation),
                member("quad_quality", &ViewSettings::quad_quality)};
 
+/// Takes over what `wanted` has otherwise than `seen`: two changes of different members made at the same time, each from
+/// what was seen then, both count.
+template <class T> void take_changes(const T& seen, const T& wanted, T& now)
+{
+    const auto take = [](const auto& was, const auto& is, auto& taken) {
+        if (!(is == was))
+            taken = is;
+    };
+    const auto take_member = [&](const auto& m) {
+        if constexpr (IsArray<std::remove_cvref_t<decltype(now.*m.where)>>::value)
+            for (size_t k = 0; k < (now.*m.where).size(); ++k)
+                take((seen.*m.where)[k], (wanted.*m.where)[k], (now.*m.where)[k]);
+        else
+            take(seen.*m.where, wanted.*m.where, now.*m.where);
+    };
+    std::apply([&](const auto&... m) { (take_member(m), ...); }, members_of<T>);
+}
+
 } // namespace spia::viewer

@@ -27,6 +27,7 @@ struct StoredPart {
     StoredPath path;
     std::optional<LengthUnit> unit;
     std::optional<bool> weld;
+    bool keep_largest = false;
 };
 
 struct StoredProject {
@@ -75,8 +76,9 @@ template <>
 inline constexpr auto members_of<StoredPath> =
     std::tuple{required("file", &StoredPath::file), member("was_at", &StoredPath::was_at)};
 template <>
-inline constexpr auto members_of<StoredPart> = std::tuple{
-    required("path", &StoredPart::path), member("unit", &StoredPart::unit), member("weld", &StoredPart::weld)};
+inline constexpr auto members_of<StoredPart> =
+    std::tuple{required("path", &StoredPart::path), member("unit", &StoredPart::unit),
+               member("weld", &StoredPart::weld), member("keep_largest", &StoredPart::keep_largest)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -161,6 +163,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.file = found_path(stored.part.path, folder);
     session.options.read.unit = stored.part.unit;
     session.options.read.weld = stored.part.weld;
+    session.options.read.doctor.keep_largest = stored.part.keep_largest;
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -187,7 +190,8 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.schema = fmt::format("{}{}", schema_name, version);
     stored.program = program_name();
     stored.picks = store_picks(document);
-    stored.part = {stored_path(session.file, folder), session.options.read.unit, session.options.read.weld};
+    stored.part = {stored_path(session.file, folder), session.options.read.unit, session.options.read.weld,
+                   session.options.read.doctor.keep_largest};
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

@@ -64,6 +64,8 @@ constexpr Between share{0, 1}, pixels{0, 16384};
 constexpr std::tuple forms{
     form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit)),
     form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
+    form<SetReading>("set_reading", member("weld", &SetReading::weld),
+                     member("keep_largest", &SetReading::keep_largest)),
     form<RunTo>("run_to", member("stage", &RunTo::stage)),
     form<CancelJob>("cancel_job"),
     form<SetMaterial>("set_material", required("material", &SetMaterial::material, not_empty)),
@@ -107,6 +109,8 @@ constexpr std::tuple forms{
     form<FitView>("fit_view", member("view", &FitView::view)),
     form<LookFrom>("look_from", member("view", &LookFrom::view), required("from", &LookFrom::from)),
     form<FlyTo>("fly_to", required("face", &FlyTo::face, any_index)),
+    form<ShowFault>("show_fault", required("finding", &ShowFault::finding, any_index),
+                    member("entry", &ShowFault::entry, any_index)),
     form<Undo>("undo"),
     form<Redo>("redo"),
     form<OpenProject>("open_project", required("file", &OpenProject::file, not_empty)),

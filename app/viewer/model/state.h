@@ -45,6 +45,14 @@ enum class Severity { hint, done, warning, error };
 struct Message {
     Severity severity;
     std::string text;
+    int number = 0;         ///< counts all that was ever said
+    bool dismissed = false; ///< read; kept for the list of messages
+};
+
+/// A place where the mesh of the part is at fault.
+struct ShownFault {
+    int finding = 0, entry = 0;                      ///< of the doctor's report, of Finding::place
+    Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< mm
 };
 
 /// A job as the window sees it; see Jobs.
@@ -66,7 +74,9 @@ struct ViewerState {
     std::vector<Message> messages;
     std::filesystem::path project; ///< file it was saved to or opened from; empty: none yet
     bool unsaved = false;
-    std::optional<int> hovered; ///< face under the mouse
+    std::optional<int> hovered;              ///< face under the mouse
+    std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
+    std::optional<ShownFault> fault;         ///< the one that is looked at
 };
 
 } // namespace spia::viewer

@@ -119,8 +119,23 @@ Json messages_json(const std::vector<Message>& messages)
 {
     Json list = Json::array();
     for (const Message& message : messages)
-        list.push_back({{"severity", name_in_table(message.severity)}, {"text", message.text}});
+        if (!message.dismissed)
+            list.push_back({{"severity", name_in_table(message.severity)}, {"text", message.text}});
     return list;
+}
+
+Json doctor_json(const ViewerState& state)
+{
+    const PartFile* examined = state.document.session.part ? state.document.session.part.get() : state.refused.get();
+    if (!examined)
+        return nullptr;
+    Json findings = Json::array();
+    for (const Finding& finding : examined->doctor.findings)
+        findings.push_back({{"fault", name(finding.fault)}, {"count", finding.count}, {"text", finding.text}});
+    Json json = {{"refused", state.refused != nullptr && !state.document.session.part}, {"findings", findings}};
+    if (state.fault)
+        json["shown"] = vector_json(state.fault->place);
+    return json;
 }
 
 } // namespace
@@ -143,6 +158,7 @@ Json state_report(const ViewerState& state)
             {"corners", corners_json(document.session)},
             {"history", {{"undo", state.history.undo_name()}, {"redo", state.history.redo_name()}}},
             {"messages", messages_json(state.messages)},
+            {"doctor", doctor_json(state)},
             {"job",
              {{"running", state.job.running},
               {"cancelling", state.job.cancelling},

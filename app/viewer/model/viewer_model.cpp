@@ -50,7 +50,7 @@ void ViewerModel::say(Severity severity, std::string text)
     constexpr size_t most = 50;
     const auto same = [&](const Message& message) { return message.severity == severity && message.text == text; };
     std::erase_if(state_.messages, same); // said again, it is the newest once more
-    state_.messages.push_back({severity, std::move(text)});
+    state_.messages.push_back({severity, std::move(text), ++said_});
     if (state_.messages.size() > most)
         state_.messages.erase(state_.messages.begin());
 }
@@ -154,8 +154,15 @@ void ViewerModel::take_chain_result()
     };
     take(document);
     state_.history.update_since(depth_at_start_, take); // what was picked during the run is taken back without it
-    if (std::exchange(opening_, false))
+    if (!result.failed)
+        state_.refused.reset();
+    if (std::exchange(opening_, false)) {
+        state_.fault.reset();
         part_opened();
+    }
+    if (const auto picks = std::exchange(picks_, std::nullopt); picks && document.session.part)
+        for (const std::string& lost : restore_picks(document, *picks))
+            say(Severity::warning, lost);
     if (project_)
         project_opened();
     if (!had_blank && document.session.blank && !std::exchange(keep_cameras_, false))
@@ -163,12 +170,29 @@ void ViewerModel::take_chain_result()
     if (result.cancelled)
         say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title));
     else if (result.failed)
-        say(Severity::error, fmt::format("{} {}", result.message, advice(*result.failed)));
+        say_failed(result);
     else
         for (const std::string& text : shortcomings(document.session))
             say(Severity::warning, text);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
         run_to(*next, title);
+}
+
+void ViewerModel::say_failed(const ChainResult& result)
+{
+    const bool reading = *result.failed == Stage::read;
+    state_.refused = result.refused;
+    if (!state_.refused) {
+        say(Severity::error,
+            fmt::format("{} {}", result.message, reading ? "Choose another file." : advice(*result.failed)));
+        return;
+    }
+    const auto& findings = state_.refused->doctor.findings;
+    const auto worst = std::find_if(findings.begin(), findings.end(),
+                                    [](const Finding& f) { return f.severity == spia::Severity::fatal; });
+    say(Severity::error, fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(),
+                                     worst->text, advice(*result.failed)));
+    fit(View::part);
 }
 
 void ViewerModel::take_export_result()
@@ -240,7 +264,8 @@ void ViewerModel::fit(std::optional<View> only)
     constexpr double legend = 70; // pixels
     const auto aspect = [](glm::dvec2 size) { return std::max(size.x - legend, 0.5 * size.x) / size.y; };
     const Session& session = state_.document.session;
-    if (!session.part)
+    const PartFile* part = session.part ? session.part.get() : state_.refused.get();
+    if (!part)
         return;
     const auto box_of = [](const auto& position) {
         Eigen::AlignedBox3d box;
@@ -264,8 +289,7 @@ void ViewerModel::fit(std::optional<View> only)
         }
         if (state_.view.linked && view != View::part)
             camera = state_.view.camera[size_t(View::part)];
-        camera =
-            pan(spia::viewer::fit(camera, box_of(session.part->mesh.position), aspect(size)), {legend / 2, 0}, size);
+        camera = pan(spia::viewer::fit(camera, box_of(part->mesh.position), aspect(size)), {legend / 2, 0}, size);
     }
 }
 

@@ -36,6 +36,9 @@ public:
     /// Says something to the user.
     void say(Severity severity, std::string text);
 
+    /// The mouse is free again and no text is being typed: the next change is one of its own for undo, whatever its name.
+    void gesture_ended() { state_.history.close(); }
+
     /// What a view shows at a pixel: the face there becomes the hovered one.
     void hover(View view, glm::dvec2 pixel, glm::dvec2 size);
     void hover_nothing();
@@ -55,6 +58,7 @@ private:
     void start(Stage from, Stage to, std::string title);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
+    void say_failed(const ChainResult& result);
     void take_export_result();
     void fit(std::optional<View> view);
     void part_opened();
@@ -67,12 +71,14 @@ private:
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
-    bool keep_cameras_ = false;      ///< those of a project
-    size_t depth_at_start_ = 0;      ///< of the history, when the running job began
-    bool dragging_ = false;          ///< a corner: the grid is coarse
-    std::optional<Stage> next_;      ///< run this far when the running job has ended
-    bool opening_ = false;           ///< the running job reads a new part
-    std::optional<Project> project_; ///< waits for its part
+    bool keep_cameras_ = false;        ///< those of a project
+    size_t depth_at_start_ = 0;        ///< of the history, when the running job began
+    bool dragging_ = false;            ///< a corner: the grid is coarse
+    std::optional<Stage> next_;        ///< run this far when the running job has ended
+    int said_ = 0;                     ///< messages so far
+    bool opening_ = false;             ///< the running job reads a new part
+    std::optional<Project> project_;   ///< waits for its part
+    std::optional<StoredPicks> picks_; ///< wait for the part, which is read otherwise
     Pickers pickers_;
     std::optional<Probe> under_mouse_;
 };

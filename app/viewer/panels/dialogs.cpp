@@ -159,6 +159,7 @@ void dialogs(Frame& frame)
     unsaved_dialog(frame);
     export_dialog(frame);
     shortcuts_window(frame);
+    messages_window(frame);
     const auto path = frame.ui.files.show(frame.ui.scale);
     if (!path)
         return;

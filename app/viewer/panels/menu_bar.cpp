@@ -97,6 +97,7 @@ void menu_bar(Frame& frame)
     }
     if (ImGui::BeginMenu("Help")) {
         ImGui::MenuItem("Keyboard and mouse", "F1", &frame.ui.show_shortcuts);
+        ImGui::MenuItem("Messages", nullptr, &frame.ui.show_messages);
         ImGui::EndMenu();
     }
     const std::string title =

@@ -19,12 +19,17 @@ Status status(const Frame& frame, Stage stage, bool there)
 void part_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    step_heading(frame, 1, "Part", status(frame, Stage::read, session.part != nullptr));
+    step_heading(frame, 1, "Part",
+                 frame.state.refused ? Status::failed : status(frame, Stage::read, session.part != nullptr));
     if (ImGui::Button("Open..."))
         frame.ui.files.open(FileDialog::Purpose::open_part, session.file);
     tooltip("STL, OBJ, PLY, OFF, glTF or GLB. You can also drop a file on the window.");
-    if (!session.part)
+    if (!session.part) {
+        if (frame.state.refused)
+            coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), session.file.filename().string());
+        doctor_panel(frame);
         return;
+    }
     const PartFile& part = *session.part;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(70 * frame.ui.scale);
@@ -39,30 +44,7 @@ void part_step(Frame& frame)
     const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
     figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
-    if (!part.doctor.findings.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).warning);
-        const bool open =
-            ImGui::TreeNode("doctor", part.doctor.findings.size() == 1 ? "%d note on the mesh" : "%d notes on the mesh",
-                            int(part.doctor.findings.size()));
-        ImGui::PopStyleColor();
-        if (open) {
-            for (const Finding& finding : part.doctor.findings) {
-                ImGui::PushTextWrapPos(0);
-                ImGui::TextUnformatted(finding.text.c_str());
-                ImGui::PopTextWrapPos();
-                if (finding.first >= 0) {
-                    const auto face = std::find(part.source_face.begin(), part.source_face.end(), finding.first);
-                    ImGui::PushID(&finding);
-                    if (face != part.source_face.end() && ImGui::SmallButton("Show"))
-                        frame.actions.push(FlyTo{int(face - part.source_face.begin())});
-                    ImGui::PopID();
-                }
-                if (!finding.advice.empty())
-                    muted(frame, finding.advice);
-            }
-            ImGui::TreePop();
-        }
-    }
+    doctor_panel(frame);
 }
 
 void sheet_step(Frame& frame)

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <imgui.h>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,9 @@ struct Ui {
     Fonts fonts;
     float scale = 1; ///< of the screen: 1 for 96 dots per inch
     float left_width = 300, right_width = 320;
-    bool show_left = true, show_right = true, show_shortcuts = false, show_export = false;
+    bool show_left = true, show_right = true, show_shortcuts = false, show_export = false, show_messages = false;
+    std::map<int, double> message_since; ///< seconds; by number
+    double wake_at = 0;                  ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     std::vector<KeyPress> keys;      ///< pressed since the last frame
     std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
@@ -70,10 +73,16 @@ const std::vector<SectionPiece>& section_of(Frame& frame);
 
 void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);
+/// What the mesh doctor found, where, and what can be done about it.
+void doctor_panel(Frame& frame);
 void inspect_panel(Frame& frame);
 void view_area(Frame& frame);
 void tool_bar(Frame& frame);
 void dialogs(Frame& frame);
+/// The newest messages, with their lower right corner at a place of the window; what only confirms goes by itself.
+void messages_overlay(Frame& frame, ImVec2 low_right, float width);
+/// All that was said, if asked for.
+void messages_window(Frame& frame);
 /// Keyboard shortcuts, unless a text is being typed.
 void shortcuts(Frame& frame);
 

@@ -83,49 +83,6 @@ void status_bar(Frame& frame)
     ImGui::TextUnformatted(text.c_str());
 }
 
-/// What the program has to say, the newest on top, over the lower edge of the views.
-void messages(Frame& frame, ImVec2 low_right, float width)
-{
-    const auto& all = frame.state.messages;
-    if (all.empty())
-        return;
-    const Palette p = palette_of(frame.state.view.dark);
-    constexpr size_t most = 3;
-    ImGui::SetNextWindowPos(low_right, ImGuiCond_Always, {1, 1});
-    ImGui::SetNextWindowSize({std::min(width, 460 * frame.ui.scale), 0});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * frame.ui.scale);
-    ImGui::Begin("messages", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    std::vector<Message> shown(all.rbegin(), all.rend()); // the gravest first, of these the newest
-    std::stable_sort(shown.begin(), shown.end(),
-                     [](const Message& a, const Message& b) { return a.severity > b.severity; });
-    if (shown.size() > most)
-        shown.resize(most);
-    for (const Message& message : shown) {
-        const ImVec4 colour = message.severity == Severity::error     ? p.error
-                              : message.severity == Severity::warning ? p.warning
-                              : message.severity == Severity::done    ? p.good
-                                                                      : p.accent;
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5 * frame.ui.scale, at.y + ImGui::GetTextLineHeight() / 2},
-                                                    4 * frame.ui.scale, ink(colour));
-        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 18 * frame.ui.scale);
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextUnformatted(message.text.c_str());
-        ImGui::PopTextWrapPos();
-    }
-    if (all.size() > most)
-        ImGui::TextDisabled("and %d more", int(all.size() - most));
-    if (ImGui::SmallButton("Dismiss"))
-        frame.actions.push(DismissMessages{});
-    ImGui::End();
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
-}
-
 } // namespace
 
 void workbench(Frame& frame)
@@ -182,7 +139,7 @@ void workbench(Frame& frame)
     status_bar(frame);
     selection_actions(frame);
     ImGui::End();
-    messages(frame, {at.x + left + middle - 12 * s, at.y + height - 12 * s}, middle - 24 * s);
+    messages_overlay(frame, {at.x + left + middle - 12 * s, at.y + height - 12 * s}, middle - 24 * s);
     dialogs(frame);
     shortcuts(frame);
 }

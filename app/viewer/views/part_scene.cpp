@@ -1,3 +1,4 @@
+#include "app/viewer/views/fault_scene.h"
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
@@ -10,6 +11,11 @@ Scene part_scene(const ViewerState& state, SceneCache& cache)
 {
     Scene result;
     const Session& session = state.document.session;
+    if (!session.part && state.refused) {
+        result = refused_scene(state, cache);
+        add_shown_fault(result, state);
+        return result;
+    }
     if (!session.part) {
         result.empty = "Drop a part here or open one: STL, OBJ, PLY, OFF, glTF.";
         return result;
@@ -47,6 +53,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache)
         return state.hovered ? outline_of_faces(*part.mesh, {*state.hovered}, 2, false) : LineList{};
     }));
     add_watched_places(result, state, values, session.part->mesh.position);
+    add_shown_fault(result, state);
     return result;
 }
 

@@ -92,6 +92,7 @@ struct SceneCache {
     Memo<LineList, Part> boundary_on_quads;
     Memo<StageShape, Part, Grid, Surface, bool> surface;
     Memo<StageShape, Surface, bool> control_net;
+    Memo<StageShape, Part> refused;
 };
 
 } // namespace spia::viewer

@@ -42,6 +42,8 @@ std::vector<Action> every_action()
         };
         set(OpenPart{"parts/door.stl", "inch"});
         set(SetUnit{"cm"});
+        set(SetReading{true, true});
+        set(ShowFault{2, 7});
         set(SetMaterial{"dp600"});
         set(SetThickness{0.8});
         set(SetDirection{Eigen::Vector3d(0.1, 0.2, -1)});

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+namespace {
+
+/// "Show", or for a fault in several places back and forth between them.
+void show_buttons(Frame& frame, int number, const Finding& finding)
+{
+    const int places = int(finding.place.size());
+    if (places == 0)
+        return;
+    const auto& shown = frame.state.fault;
+    const bool here = shown && shown->finding == number;
+    if (places == 1 || !here) {
+        if (ImGui::SmallButton("Show"))
+            frame.actions.push(ShowFault{number, 0});
+        return;
+    }
+    const auto go = [&](int by) { frame.actions.push(ShowFault{number, (shown->entry + by + places) % places}); };
+    if (ImGui::SmallButton("<"))
+        go(-1);
+    ImGui::SameLine(0, 4 * frame.ui.scale);
+    ImGui::TextUnformatted(fmt::format("{} of {}", shown->entry + 1, places).c_str());
+    ImGui::SameLine(0, 4 * frame.ui.scale);
+    if (ImGui::SmallButton(">"))
+        go(1);
+}
+
+/// What this program can do about a fault itself.
+void fix_button(Frame& frame, const Finding& finding)
+{
+    const ReadOptions& read = frame.state.document.session.options.read;
+    const bool cut = (finding.fault == Fault::several_components || finding.fault == Fault::crowded_edge) &&
+                     !read.doctor.keep_largest;
+    const bool apart = finding.fault == Fault::coincident_vertex && finding.severity == spia::Severity::note;
+    if (!cut && !apart)
+        return;
+    if (!finding.place.empty())
+        ImGui::SameLine();
+    ImGui::BeginDisabled(frame.model.busy());
+    if (cut && ImGui::SmallButton("Keep the largest piece"))
+        frame.actions.push(SetReading{read.weld, true});
+    if (apart && ImGui::SmallButton("Join them"))
+        frame.actions.push(SetReading{true, read.doctor.keep_largest});
+    ImGui::EndDisabled();
+    tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
+                  "three faces. Undo brings it back."
+                : "Reads the part again and joins vertices at one place. Undo brings it back.");
+}
+
+} // namespace
+
+void doctor_panel(Frame& frame)
+{
+    const ViewerState& state = frame.state;
+    const bool refused = !state.document.session.part && state.refused;
+    const PartFile* part = refused ? state.refused.get() : state.document.session.part.get();
+    if (!part || part->doctor.findings.empty())
+        return;
+    const Palette p = palette_of(state.view.dark);
+    const auto& findings = part->doctor.findings;
+    const auto fatal = std::count_if(findings.begin(), findings.end(),
+                                     [](const Finding& f) { return f.severity == spia::Severity::fatal; });
+    const std::string title = refused
+                                  ? fmt::format("Refused: {}", fatal == 1 ? "1 fault of the mesh"
+                                                                          : fmt::format("{} faults of the mesh", fatal))
+                              : findings.size() == 1 ? "1 note on the mesh"
+                                                     : fmt::format("{} notes on the mesh", findings.size());
+    ImGui::PushStyleColor(ImGuiCol_Text, refused ? p.error : p.warning);
+    const bool open =
+        ImGui::TreeNodeEx(refused ? "refused" : "doctor",
+                          refused ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None, "%s", title.c_str());
+    ImGui::PopStyleColor();
+    if (open) {
+        std::vector<int> order(findings.size());
+        for (size_t i = 0; i < order.size(); ++i)
+            order[i] = int(i);
+        std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+            return findings[size_t(a)].severity > findings[size_t(b)].severity; // the grave ones first
+        });
+        for (const int i : order) {
+            const Finding& finding = findings[size_t(i)];
+            ImGui::PushID(i);
+            ImGui::PushTextWrapPos(0);
+            if (finding.severity == spia::Severity::fatal)
+                ImGui::TextColored(p.error, "%s", finding.text.c_str());
+            else
+                ImGui::TextUnformatted(finding.text.c_str());
+            ImGui::PopTextWrapPos();
+            if (!finding.advice.empty())
+                muted(frame, finding.advice);
+            show_buttons(frame, i, finding);
+            fix_button(frame, finding);
+            ImGui::Dummy({0, 2 * frame.ui.scale});
+            ImGui::PopID();
+        }
+        ImGui::TreePop();
+    }
+    const ReadOptions& read = state.document.session.options.read;
+    if (read.doctor.keep_largest && !refused && ImGui::SmallButton("Take all pieces again"))
+        frame.actions.push(SetReading{read.weld, false});
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "app/viewer/model/members.h"
+#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/views/views.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia::viewer {
+namespace {
+
+struct RefusedPart : testing::Test {
+    ScratchFolder folder;
+    ViewerModel model{SPIA_SOURCE_DIR "/assets"};
+    const ViewerState& state = model.state();
+
+    void apply(const Action& action)
+    {
+        model.apply(action);
+        while (model.busy()) {
+            model.poll();
+            std::this_thread::yield();
+        }
+    }
+    int errors() const
+    {
+        return int(std::count_if(state.messages.begin(), state.messages.end(),
+                                 [](const Message& m) { return m.severity == Severity::error && !m.dismissed; }));
+    }
+    /// Two rectangles that do not touch: half the triangles each.
+    std::filesystem::path two_pieces()
+    {
+        const auto file = folder / "two.obj";
+        shapes::write_mesh(file, shapes::two_rectangles());
+        return file;
+    }
+};
+
+} // namespace
+
+TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
+{
+    apply(OpenPart{two_pieces(), ""});
+    EXPECT_EQ(state.document.session.part, nullptr);
+    ASSERT_NE(state.refused, nullptr);
+    EXPECT_EQ(errors(), 1);
+    EXPECT_EQ(state_report(state)["doctor"]["refused"], true);
+
+    SceneCache cache;
+    const Scene shown = scene(View::part, state, cache);
+    ASSERT_EQ(shown.layers.size(), 1u);
+    EXPECT_EQ(shown.layers[0].mesh->triangle.cols(), state.refused->mesh.triangles());
+
+    const auto& findings = state.refused->doctor.findings;
+    const auto pieces = std::find_if(findings.begin(), findings.end(),
+                                     [](const Finding& f) { return f.fault == Fault::several_components; });
+    ASSERT_NE(pieces, findings.end());
+    apply(ShowFault{int(pieces - findings.begin()), 0});
+    ASSERT_TRUE(state.fault);
+    EXPECT_EQ(state.fault->place, pieces->place[0]);
+    const glm::dvec3 target = state.view.camera[size_t(View::part)].target;
+    EXPECT_EQ(Eigen::Vector3d(target.x, target.y, target.z), pieces->place[0]);
+    EXPECT_EQ(scene(View::part, state, cache).labels.size(), 1u);
+
+    apply(ShowFault{int(pieces - findings.begin()), 1});
+    EXPECT_EQ(errors(), 2); // there is one place only
+    apply(ShowFault{int(findings.size()), 0});
+    EXPECT_EQ(errors(), 3);
+}
+
+TEST_F(RefusedPart, IsTakenWithoutItsSmallerPiecesAndRefusedAgainAfterUndo)
+{
+    const TriMesh both = shapes::two_rectangles();
+    apply(OpenPart{two_pieces(), ""});
+    apply(SetReading{{}, true});
+    ASSERT_NE(state.document.session.part, nullptr);
+    EXPECT_EQ(state.refused, nullptr);
+    EXPECT_LT(state.document.session.part->mesh.triangles(), both.triangles());
+    EXPECT_EQ(first_stale(state.document), Stage::solve);
+    EXPECT_EQ(state.history.undo_name(), "Read the part otherwise");
+    apply(Undo{});
+    EXPECT_EQ(state.document.session.part, nullptr);
+    EXPECT_FALSE(state.document.session.options.read.doctor.keep_largest);
+}
+
+TEST_F(RefusedPart, KeepsRegionsOnTheirFacesWhenFacesBeforeThemAreLeftOut)
+{
+    // A small piece first in the file, so that all numbers change.
+    const TriMesh sheet = shapes::rectangle(50, 40, 5, 4);
+    TriMesh both = sheet;
+    const TriMesh rib = shapes::rectangle(5, 4, 2, 2);
+    both.position.resize(3, rib.vertices() + sheet.vertices());
+    both.position << (rib.position.colwise() + Eigen::Vector3d(0, 0, 30)), sheet.position;
+    both.triangle.resize(3, rib.triangles() + sheet.triangles());
+    both.triangle << rib.triangle, (sheet.triangle.array() + rib.vertices()).matrix();
+    shapes::write_mesh(folder / "rib.obj", both);
+
+    apply(OpenPart{folder / "rib.obj", ""});
+    apply(SetReading{{}, true});
+    ASSERT_NE(state.document.session.part, nullptr);
+    ASSERT_EQ(state.document.session.part->mesh.triangles(), sheet.triangles());
+    apply(SelectFaces{{3, 7}, PickMode::replace});
+    apply(MakeRegion{"clamp", RegionKind::binder});
+    apply(SetReading{true, true});
+    ASSERT_EQ(state.document.regions.size(), 1u);
+    EXPECT_EQ(state.document.regions[0].faces, (std::vector<int>{3, 7}));
+    EXPECT_EQ(errors(), 0);
+}
+
+TEST_F(RefusedPart, ThatCannotBeReadAtAllIsNotShown)
+{
+    put(folder / "broken.obj", "v 0 0 x\n");
+    apply(OpenPart{folder / "broken.obj", ""});
+    EXPECT_EQ(state.refused, nullptr);
+    EXPECT_EQ(errors(), 1);
+    apply(ShowFault{0, 0});
+    EXPECT_EQ(errors(), 2);
+    apply(OpenPart{two_pieces(), ""});
+    EXPECT_NE(state.refused, nullptr);
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    EXPECT_EQ(state.refused, nullptr);
+    EXPECT_EQ(errors(), 0);
+}
+
+TEST(TakeChanges, OfTwoThatSawTheSameBothCount)
+{
+    ViewSettings seen, now;
+    ViewSettings first = seen, second = seen;
+    first.edges = true;
+    first.camera[size_t(View::blank)].height = 7;
+    second.dark = !seen.dark;
+    second.camera[size_t(View::part)].height = 9;
+    take_changes(seen, first, now);
+    take_changes(seen, second, now);
+    EXPECT_TRUE(now.edges);
+    EXPECT_EQ(now.dark, !seen.dark);
+    EXPECT_EQ(now.camera[size_t(View::blank)].height, 7);
+    EXPECT_EQ(now.camera[size_t(View::part)].height, 9);
+    EXPECT_EQ(now.camera[size_t(View::quads)], seen.camera[size_t(View::quads)]);
+}
+
+TEST_F(RefusedPart, ChangesOfOneNameAreOneForUndoUntilTheMouseIsFree)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    const double before = state.document.session.options.flatten.thickness;
+    apply(SetThickness{2});
+    apply(SetThickness{3});
+    model.gesture_ended();
+    apply(SetThickness{4});
+    apply(Undo{});
+    EXPECT_EQ(state.document.session.options.flatten.thickness, 3);
+    apply(Undo{});
+    EXPECT_EQ(state.document.session.options.flatten.thickness, before);
+}
+
+} // namespace spia::viewer
