@@ -99,9 +99,6 @@ void doctor_panel(Frame& frame)
         }
         ImGui::TreePop();
     }
-    const ReadOptions& read = state.document.session.options.read;
-    if (read.doctor.keep_largest && !refused && ImGui::SmallButton("Take all pieces again"))
-        frame.actions.push(SetReading{read.weld, false});
 }
 
 } // namespace spia::viewer

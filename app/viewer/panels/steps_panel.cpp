@@ -72,6 +72,46 @@ void sheet_step(Frame& frame)
     tooltip("Of the flat sheet, before forming");
 }
 
+/// Automatic, an axis, or any direction.
+void direction_control(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    if (!session.part)
+        return;
+    const auto& chosen = session.options.flatten.direction;
+    static constexpr const char* names[] = {"automatic", "x", "y", "z", "own"};
+    const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    int now = chosen ? 4 : 0;
+    for (int k = 0; k < 3 && chosen; ++k)
+        if (*chosen == axes.col(k))
+            now = k + 1;
+    const Eigen::Vector3d found = session.blank ? session.blank->stamping.direction : Eigen::Vector3d(axes.col(2));
+    ImGui::SetNextItemWidth(110 * frame.ui.scale);
+    int wanted = now;
+    if (ImGui::Combo("Stamping direction", &wanted, names, 5) && wanted != now)
+        frame.actions.push(SetDirection{wanted == 0   ? std::nullopt
+                                        : wanted == 4 ? std::optional(chosen.value_or(found))
+                                                      : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
+    tooltip(session.blank && !chosen
+                ? fmt::format("Found: {:.3f}, {:.3f}, {:.3f}. It gives the unfolding its start, the plane of the blank "
+                              "and its outer side.",
+                              found[0], found[1], found[2])
+                : "Of the press. It gives the unfolding its start, the plane of the blank and its outer side.");
+    if (now != 4)
+        return;
+    static constexpr const char* ids[] = {"##x", "##y", "##z"};
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+    Eigen::Vector3d edited = *chosen;
+    for (int k = 0; k < 3; ++k) {
+        if (k > 0)
+            ImGui::SameLine(0, gap);
+        ImGui::SetNextItemWidth(width);
+        ImGui::InputDouble(ids[k], &edited[k], 0, 0, "%.4g");
+        if (ImGui::IsItemDeactivatedAfterEdit())
+            frame.actions.push(SetDirection{edited});
+    }
+}
+
 void unfold_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
@@ -82,6 +122,7 @@ void unfold_step(Frame& frame)
         frame.actions.push(RunTo{Stage::solve});
     ImGui::EndDisabled();
     tooltip("Finds the flat blank that one forming step turns into the part  (F6)");
+    direction_control(frame);
     if (!session.blank)
         return;
     const FlattenResult& flat = *session.blank;
@@ -91,7 +132,8 @@ void unfold_step(Frame& frame)
     ImGui::TextColored(fine ? p.good : p.warning, fine                    ? "converged"
                                                   : flat.report.converged ? "converged, relaxed"
                                                                           : "not converged");
-    tooltip(flat.report.reason);
+    if (!fine) // how well, why not better, and what to do about it
+        coloured(p.warning, flat.report.reason);
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
     figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
     figure(
@@ -154,6 +196,13 @@ void grid_step(Frame& frame)
     }
     tooltip(
         "Coons is the paper's patch, smoothed if it folds; automatic falls back on the harmonic map, which folds no cell");
+    if (grid.method != GridMethod::harmonic) {
+        ImGui::SetNextItemWidth(width);
+        ImGui::InputInt("Smoothing", &grid.smoothing, 10, 50);
+        grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
+        changed |= edited() || (grid.smoothing != session.options.grid.smoothing && !ImGui::IsItemActive());
+        tooltip("The most Laplacian sweeps over a Coons patch that folds");
+    }
     if (changed)
         frame.actions.push(SetGrid{grid});
     if (session.grid) {

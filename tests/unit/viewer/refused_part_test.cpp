@@ -81,6 +81,12 @@ TEST_F(RefusedPart, IsTakenWithoutItsSmallerPiecesAndRefusedAgainAfterUndo)
     EXPECT_LT(state.document.session.part->mesh.triangles(), both.triangles());
     EXPECT_EQ(first_stale(state.document), Stage::solve);
     EXPECT_EQ(state.history.undo_name(), "Read the part otherwise");
+    apply(SetReading{{}, false}); // refused again: what is there stays to be looked at, out of date
+    EXPECT_EQ(errors(), 1);
+    EXPECT_EQ(first_stale(state.document), Stage::read);
+    EXPECT_NE(state.document.session.part, nullptr);
+    apply(Undo{});
+    EXPECT_EQ(first_stale(state.document), Stage::solve);
     apply(Undo{});
     EXPECT_EQ(state.document.session.part, nullptr);
     EXPECT_FALSE(state.document.session.options.read.doctor.keep_largest);
