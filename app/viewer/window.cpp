@@ -350,8 +350,8 @@ private:
 
     Picture view_picture(View view, int width, int height)
     {
-        return renderer_.picture(scene(view, model_.state(), cache_), model_.state().view.camera[size_t(view)], width,
-                                 height, look());
+        return renderer_.picture(scene(view, model_.state(), cache_, height / ui_.scale),
+                                 model_.state().view.camera[size_t(view)], width, height, look());
     }
 
     static Picture window_picture(int width, int height)

@@ -127,4 +127,21 @@ std::string advice(Stage failed)
     return "";
 }
 
+std::string advice(SolvedSystem solved)
+{
+    switch (solved) {
+    case SolvedSystem::strict: return "";
+    case SolvedSystem::continued:
+        return "The outline can be used; strains above that value are extrapolated: a softer grade or a shallower part "
+               "is needed there.";
+    case SolvedSystem::relaxed:
+        return "The outline can be used; strains around those vertices are estimates: look at the worst spots, and "
+               "mesh folds and sharp edges there finer or rounder.";
+    case SolvedSystem::energy:
+        return "Take outline and strains as a first guess: try another stamping direction or an evener mesh, or cut "
+               "the part where its worst spots are.";
+    }
+    return "";
+}
+
 } // namespace spia::viewer

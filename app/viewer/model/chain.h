@@ -27,4 +27,7 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
 /// What to do about a stage that failed, in one sentence.
 std::string advice(Stage failed);
 
+/// What to do about a blank that solves a weaker system than wanted, in one sentence; empty for the strict one.
+std::string advice(SolvedSystem solved);
+
 } // namespace spia::viewer

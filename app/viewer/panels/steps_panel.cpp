@@ -122,9 +122,10 @@ void unfold_step(Frame& frame)
         frame.actions.push(RunTo{Stage::solve});
     ImGui::EndDisabled();
     tooltip("Finds the flat blank that one forming step turns into the part  (F6)");
-    direction_control(frame);
-    if (!session.blank)
+    if (!session.blank) {
+        direction_control(frame);
         return;
+    }
     const FlattenResult& flat = *session.blank;
     const Palette p = palette_of(frame.state.view.dark);
     const bool fine = flat.report.system == SolvedSystem::strict;
@@ -132,8 +133,9 @@ void unfold_step(Frame& frame)
     ImGui::TextColored(fine ? p.good : p.warning, fine                    ? "converged"
                                                   : flat.report.converged ? "converged, relaxed"
                                                                           : "not converged");
-    if (!fine) // how well, why not better, and what to do about it
-        coloured(p.warning, flat.report.reason);
+    if (!fine)
+        coloured(p.warning, flat.report.reason + ". " + advice(flat.report.system));
+    direction_control(frame);
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
     figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
     figure(

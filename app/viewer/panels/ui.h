@@ -12,6 +12,7 @@
 #include "app/viewer/model/section.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/file_dialog.h"
+#include "app/viewer/panels/labels.h"
 #include "app/viewer/panels/theme.h"
 #include "app/viewer/views/scene_cache.h"
 
@@ -40,6 +41,7 @@ struct Ui {
     std::optional<int> dragged_corner;
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::array<ImVec2, 4> view_from{}, view_size{};
+    std::array<LabelPlaces, 4> labels;
 
     // the export dialog
     std::string export_folder; ///< empty: beside the part
