@@ -90,6 +90,15 @@ Colour faded(Colour colour, float opacity)
     return colour;
 }
 
+/// What was blended onto nothing has its colours multiplied by its opacity.
+void divide_by_opacity(std::vector<uint8_t>& rgba)
+{
+    for (size_t k = 0; k + 3 < rgba.size(); k += 4)
+        if (const int opacity = rgba[k + 3]; opacity > 0 && opacity < 255)
+            for (size_t c = k; c < k + 3; ++c)
+                rgba[c] = uint8_t(std::min(255, (rgba[c] * 255 + opacity / 2) / opacity));
+}
+
 } // namespace
 
 Colour background(const Look& look)
@@ -174,7 +183,12 @@ void Renderer::Gpu::draw(const Scene& scene, const Camera& camera, const Tile& t
     glDepthMask(GL_TRUE);
     glClearDepth(1);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_background(pass);
+    if (look.ground) {
+        draw_background(pass);
+    } else {
+        glClearColor(0, 0, 0, 0);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
 
     // Solid faces first, then all lines that they may hide, then what one looks through, then what lies on top.
     glEnable(GL_DEPTH_TEST);
@@ -421,6 +435,8 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
                 std::copy_n(rows.begin() + ptrdiff_t(size_t(row) * row_bytes), row_bytes,
                             result.rgba.begin() + (ptrdiff_t(height - 1 - y - row) * width + x) * 4);
         }
+    if (!look.ground)
+        divide_by_opacity(result.rgba);
     return result;
 }
 

@@ -58,9 +58,11 @@ std::vector<Action> every_action()
         set(SetDisplay{{Field::strain_major, true, std::array{-0.5, 0.5}, ColourMap::grey, 7, true, false, true}});
         set(LookFrom{View::quads, StandardView::left});
         set(OpenProject{"a.spia"});
-        set(ExportFiles{"out", {"step", "dxf"}});
-        set(WriteReport{"report.html"});
-        set(Screenshot{"picture.png", View::blank, 800, 600});
+        set(ExportFiles{
+            "out", {"step", "dxf"}, {LengthUnit::inch, "door", {true, false, true, false, true}, {false, true}}});
+        set(WriteReport{"report.html",
+                        {"Door <1>", "two\nlines", {View::quads}, false, {true, false, true, false, true}}});
+        set(Screenshot{"picture.png", View::blank, 800, 600, false, false, true});
         ViewSettings view;
         view.camera[1].turn = glm::dquat(0.5, 0.5, -0.5, 0.5);
         view.camera[3].target = {1, 2, 3};

@@ -1,0 +1,195 @@
+#include "app/viewer/pictures.h"
+
+#include <algorithm>
+#include <epoxy/gl.h>
+#include <imgui.h>
+#include <imgui_impl_opengl3.h>
+
+#include "app/viewer/panels/picture_overlay.h"
+#include "app/viewer/render/offscreen.h"
+#include "app/viewer/render/picture_file.h"
+#include "app/viewer/views/views.h"
+
+namespace spia::viewer {
+namespace {
+
+/// A context of ImGui beside the window's, with letters of its own size; the window's comes back at the end.
+class PictureGui {
+public:
+    PictureGui(int width, int height, float scale, bool dark)
+    {
+        ImGui::SetCurrentContext(own_);
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {float(width), float(height)};
+        ImGui_ImplOpenGL3_Init("#version 330 core");
+        fonts_ = load_fonts(scale);
+        apply_theme(dark, scale);
+    }
+    ~PictureGui()
+    {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui::DestroyContext(own_);
+        ImGui::SetCurrentContext(before_);
+    }
+    PictureGui(const PictureGui&) = delete;
+    PictureGui& operator=(const PictureGui&) = delete;
+    const Fonts& fonts() const { return fonts_; }
+
+    template <class Draw> void frame(const Draw& draw)
+    {
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui::NewFrame();
+        draw();
+        ImGui::Render();
+    }
+
+private:
+    ImGuiContext* before_ = ImGui::GetCurrentContext();
+    ImGuiContext* own_ = ImGui::CreateContext();
+    Fonts fonts_;
+};
+
+/// One pixel over another. What ImGui leaves on nothing has its colours multiplied by its opacity.
+void blend(const uint8_t* above, uint8_t* below)
+{
+    const int a = above[3];
+    if (a == 0)
+        return;
+    const int b = below[3] * (255 - a) / 255; // what is still seen of the lower one
+    for (int c = 0; c < 3; ++c)
+        below[c] = uint8_t(std::min(255, (255 * above[c] + b * below[c]) / (a + b)));
+    below[3] = uint8_t(a + b);
+}
+
+/// Lays what ImGui has drawn in its last frame over a picture of the same size.
+void lay_over(Picture& picture, ImDrawData& drawn)
+{
+    const int side = std::min(2048, longest_side());
+    std::vector<uint8_t> rows;
+    for (int y = 0; y < picture.height; y += side)
+        for (int x = 0; x < picture.width; x += side) {
+            const int width = std::min(side, picture.width - x), height = std::min(side, picture.height - y);
+            drawn.DisplayPos = {float(x), float(y)};
+            drawn.DisplaySize = {float(width), float(height)};
+            drawn.FramebufferScale = {1, 1};
+            const Offscreen target(width, height, 1);
+            target.begin();
+            glDisable(GL_SCISSOR_TEST);
+            glClearColor(0, 0, 0, 0);
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            ImGui_ImplOpenGL3_RenderDrawData(&drawn);
+            target.resolve();
+            rows.resize(size_t(width) * size_t(height) * 4);
+            glPixelStorei(GL_PACK_ALIGNMENT, 4);
+            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+            glBindFramebuffer(GL_FRAMEBUFFER, 0);
+            check_gl("drawing over a picture");
+            for (int row = 0; row < height; ++row) // OpenGL's rows run upwards
+                for (int column = 0; column < width; ++column)
+                    blend(&rows[(size_t(height - 1 - row) * size_t(width) + size_t(column)) * 4],
+                          &picture.rgba[(size_t(y + row) * size_t(picture.width) + size_t(x + column)) * 4]);
+        }
+}
+
+constexpr double legend_room = 70; // pixels at content scale 1, on the left
+
+/// The whole scene, with room for the legend.
+Camera fitted(Camera camera, const Scene& scene, int width, int height, float larger)
+{
+    const double room = scene.legend ? legend_room * larger * picture_scale(width, height) : 0;
+    camera = fit(camera, scene.box, std::max(width - room, 0.5 * width) / height);
+    return pan(camera, {room / 2, 0}, {width, height});
+}
+
+} // namespace
+
+float picture_scale(int width, int height) { return std::max(1.f, std::min(float(width) / 960, float(height) / 640)); }
+
+Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerState& state, SceneCache& cache, View view,
+                        int width, int height, const PictureContent& content)
+{
+    const Scene shown = scene(view, state, cache);
+    Look look;
+    look.dark = state.view.dark;
+    look.content_scale = content.larger * picture_scale(width, height);
+    look.ground = content.ground;
+    Picture picture = renderer.picture(shown, state.view.camera[size_t(view)], width, height, look);
+    if (!content.legend && !content.labels)
+        return picture;
+    PictureGui gui(width, height, look.content_scale, look.dark);
+    Ui ui;
+    ui.scale = look.content_scale;
+    ui.fonts = gui.fonts();
+    ActionQueue nobody;
+    Frame frame{model, state, nobody, ui, cache, {}};
+    gui.frame([&] {
+        draw_overlay(frame, view, shown, {0, 0}, {float(width), float(height)}, content.legend, content.labels,
+                     ImGui::GetBackgroundDrawList());
+    });
+    lay_over(picture, *ImGui::GetDrawData());
+    return picture;
+}
+
+Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& cache, const Ui& ui, glm::ivec2 screen,
+                          int width, int height)
+{
+    Picture picture{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
+    const float scale =
+        ui.scale * std::max(1.f, std::min(float(width) / float(screen.x), float(height) / float(screen.y)));
+    PictureGui gui(width, height, scale, model.state().view.dark);
+    ViewerState quiet = model.state();
+    quiet.messages.clear(); // they would cover a view
+    Ui aside = ui;
+    aside.fonts = gui.fonts();
+    aside.scale = scale;
+    aside.keys.clear();
+    aside.files = {};
+    aside.held.reset();
+    aside.show_export = aside.show_picture = aside.show_report = aside.show_shortcuts = false;
+    std::array<Renderer::Image, 4> images;
+    ActionQueue nobody;
+    Look look;
+    look.dark = model.state().view.dark;
+    look.content_scale = scale;
+    constexpr int64_t many = 1 << 24; // pixels: fine enough without samples, and these need memory
+    look.samples = int64_t(width) * height > many ? 1 : look.samples;
+    Frame frame{model, quiet, nobody, aside, cache, [&](const Scene& shown, View view, int w, int h) {
+                    const Camera& camera = model.state().view.camera[size_t(view)];
+                    return reinterpret_cast<ImTextureID>(
+                        uintptr_t(renderer.draw(images[size_t(view)], shown, camera, w, h, look)));
+                }};
+    constexpr int frames_to_settle = 3; // until windows that fit their content have their size
+    for (int k = 0; k < frames_to_settle; ++k)
+        gui.frame([&] { workbench(frame); });
+    lay_over(picture, *ImGui::GetDrawData());
+    for (size_t k = 3; k < picture.rgba.size(); k += 4)
+        picture.rgba[k] = 255;
+    return picture;
+}
+
+std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
+                                           const ReportOptions& options)
+{
+    constexpr int width = 1200, height = 800;
+    constexpr float larger = 1.3f;                                                    // on paper they are small
+    const PictureContent content{.ground = !options.standard_look, .larger = larger}; // white paper
+    constexpr const char* titles[] = {"Part", "Blank", "Quad mesh", "NURBS surface"};
+    ViewerState shown = options.standard_look ? standard_look(model.state()) : model.state();
+    const Session& session = shown.document.session;
+    std::vector<ReportPicture> pictures;
+    for (const View view : all_views) {
+        if (std::find(options.pictures.begin(), options.pictures.end(), view) == options.pictures.end() ||
+            (view == View::blank && !session.blank) || (view == View::quads && !session.lifted) ||
+            (view == View::surface && !session.surface))
+            continue;
+        Camera& camera = shown.view.camera[size_t(view)];
+        if (options.standard_look)
+            camera = fitted(camera, scene(view, shown, cache), width, height, larger);
+        pictures.push_back(
+            {titles[size_t(view)], png(picture_of_view(renderer, model, shown, cache, view, width, height, content))});
+    }
+    return pictures;
+}
+
+} // namespace spia::viewer
