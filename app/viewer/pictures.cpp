@@ -175,6 +175,10 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
     constexpr float larger = 1.3f;                                                    // on paper they are small
     const PictureContent content{.ground = !options.standard_look, .larger = larger}; // white paper
     constexpr const char* titles[] = {"Part", "Blank", "Quad mesh", "NURBS surface"};
+    constexpr const char* standard_titles[] = {"Part: thinning, smooth (each vertex the mean of its faces)",
+                                               "Blank: the same, with the corners of the grid",
+                                               "Quad mesh on the part: scaled Jacobian of the cells in the plane",
+                                               "NURBS surface with its control net: distance from the part"};
     ViewerState shown = options.standard_look ? standard_look(model.state()) : model.state();
     const Session& session = shown.document.session;
     std::vector<ReportPicture> pictures;
@@ -186,8 +190,8 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
         Camera& camera = shown.view.camera[size_t(view)];
         if (options.standard_look)
             camera = fitted(camera, scene(view, shown, cache), width, height, larger);
-        pictures.push_back(
-            {titles[size_t(view)], png(picture_of_view(renderer, model, shown, cache, view, width, height, content))});
+        pictures.push_back({(options.standard_look ? standard_titles : titles)[size_t(view)],
+                            png(picture_of_view(renderer, model, shown, cache, view, width, height, content))});
     }
     return pictures;
 }

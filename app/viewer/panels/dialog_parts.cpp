@@ -2,6 +2,7 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <cfloat>
 
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
@@ -61,8 +62,10 @@ Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const I
 {
     const auto shade = [&](float f) { return ImVec4(colour.x * f, colour.y * f, colour.z * f, 1); };
     const float gap = 8 * frame.ui.scale, height = ImGui::GetFrameHeight() * 1.15f;
+    const ImFont* bold = frame.ui.fonts.bold;
     const auto width = [&](const char* label) {
-        return std::max(110 * frame.ui.scale, ImGui::CalcTextSize(label).x + 28 * frame.ui.scale);
+        const float text = bold->CalcTextSizeA(bold->FontSize, FLT_MAX, 0, label).x;
+        return std::max(110 * frame.ui.scale, text + 28 * frame.ui.scale);
     };
     ImGui::Dummy({0, 2 * frame.ui.scale});
     const float whole = width(yes) + gap + width("Cancel");

@@ -78,7 +78,7 @@ void report_dialog(Frame& frame)
         ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
                                             "Remarks");
     }
-    if (ImGui::BeginTable("columns", 2)) {
+    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchSame)) {
         ImGui::TableNextColumn();
         pictures_column(frame, options);
         ImGui::TableNextColumn();
