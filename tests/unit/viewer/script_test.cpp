@@ -104,6 +104,20 @@ TEST(Script, MembersCarryTheirValuesIntoTheAction)
         std::get<SetDirection>(action_from_json(json(R"({"do":"set_direction","direction":null})"))).direction);
 }
 
+TEST(Script, OptionsOfFilesCarryTheirValuesAndKeepTheOthers)
+{
+    const auto exported = std::get<ExportFiles>(action_from_json(json(
+        R"({"do":"export","folder":"o","formats":["glb"],"options":{"unit":"inch","name":"d","glb":{"blank":false},"csv":{"outline":false}}})")));
+    EXPECT_EQ(exported.options, (OutputOptions{LengthUnit::inch, "d", {true, false, true, true, true}, {true, false}}));
+    const auto report = std::get<WriteReport>(action_from_json(json(
+        R"({"do":"write_report","file":"r","options":{"title":"t","remarks":"m","pictures":["quads"],"standard_look":false,"tables":{"solver":false}}})")));
+    EXPECT_EQ(report.options, (ReportOptions{"t", "m", {View::quads}, false, {true, true, true, false, true}}));
+    const auto picture = std::get<Screenshot>(
+        action_from_json(json(R"({"do":"screenshot","file":"p","view":"part","labels":false,"transparent":true})")));
+    EXPECT_TRUE(picture.legend && picture.transparent);
+    EXPECT_FALSE(picture.labels);
+}
+
 TEST(Script, WhatIsNotGivenStaysAsItIs)
 {
     ViewerState state;
