@@ -26,12 +26,12 @@ const uint region = 0x3fu, hovered = 0x40u, selected = 0x80u;
 
 float slope(float x) { return max(length(vec2(dFdx(x), dFdy(x))), 1e-12); } // per pixel
 
-/// 0..1 across the picture in slanted stripes, so many pixels wide together.
-float stripes(float width)
+/// 0..1 across the picture in slanted stripes: so many pixels from one to the next, of which they cover a share.
+float stripes(float width, float share)
 {
     vec2 at = (gl_FragCoord.xy + corner) / pixel;
-    float wave = abs(fract((at.x + at.y) / width) - 0.5) * width; // pixels from the middle of a stripe
-    return clamp(wave - 0.25 * width + 0.5, 0.0, 1.0);
+    float wave = (0.5 - abs(fract((at.x + at.y) / width) - 0.5)) * width; // pixels from the middle of a stripe
+    return clamp(0.5 * share * width - wave + 0.5, 0.0, 1.0);
 }
 
 vec3 map_colour(float t)
@@ -55,7 +55,7 @@ vec3 field_colour()
     float t = greatest > least ? (value - least) / (greatest - least) : 0.5;
     float along = t * float(ticks), steepness = slope(along), band_slope = slope(t * float(max(bands, 1)));
     if (!is_number(value))
-        return no_value.rgb * mix(0.86, 1.06, stripes(7.0));
+        return no_value.rgb * mix(0.86, 1.06, stripes(7.0, 0.5));
 
     vec3 result;
     if (bands > 0 && !per_face) { // the border of two bands blends over one pixel
@@ -99,10 +99,10 @@ void main()
     uint mark = has_marks ? texelFetch(face_mark, gl_PrimitiveID).r : 0u;
     if ((mark & region) != 0u) {
         vec4 tint = region_colour[(mark & region) - 1u];
-        colour.rgb = mix(colour.rgb, tint.rgb, tint.a * (has_field ? 0.2 : 0.75));
+        colour.rgb = mix(colour.rgb, tint.rgb, tint.a * (has_field ? 0.0 : 0.4)); // a field keeps its colours
     }
-    if ((mark & selected) != 0u)
-        colour.rgb = mix(colour.rgb, selected_colour.rgb, mix(0.45, 0.85, stripes(9.0)));
+    if ((mark & selected) != 0u) // between the stripes the field is read as everywhere else
+        colour.rgb = mix(colour.rgb, selected_colour.rgb, has_field ? 0.9 * stripes(16.0, 0.25) : mix(0.45, 0.85, stripes(9.0, 0.5)));
 
     if (lit) {
         float shade = light(normal);
@@ -114,6 +114,6 @@ void main()
     }
     if ((mark & hovered) != 0u) { // away from its own brightness: seen on any colour
         float brightness = dot(colour.rgb, vec3(0.30, 0.59, 0.11));
-        colour.rgb = mix(colour.rgb, brightness > 0.5 ? vec3(0.05, 0.05, 0.1) : vec3(1), 0.55);
+        colour.rgb = mix(colour.rgb, brightness > 0.5 ? vec3(0.05, 0.05, 0.1) : vec3(1), has_field ? 0.42 : 0.55);
     }
 }

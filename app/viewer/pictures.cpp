@@ -1,11 +1,9 @@
 #include "app/viewer/pictures.h"
 
 #include <algorithm>
-#include <epoxy/gl.h>
 #include <imgui.h>
 #include <imgui_impl_opengl3.h>
 
-#include "app/viewer/panels/picture_overlay.h"
 #include "app/viewer/render/offscreen.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/views/views.h"
@@ -66,7 +64,6 @@ void blend(const uint8_t* above, uint8_t* below)
 void lay_over(Picture& picture, ImDrawData& drawn)
 {
     const int side = std::min(2048, longest_side());
-    std::vector<uint8_t> rows;
     for (int y = 0; y < picture.height; y += side)
         for (int x = 0; x < picture.width; x += side) {
             const int width = std::min(side, picture.width - x), height = std::min(side, picture.height - y);
@@ -75,16 +72,9 @@ void lay_over(Picture& picture, ImDrawData& drawn)
             drawn.FramebufferScale = {1, 1};
             const Offscreen target(width, height, 1);
             target.begin();
-            glDisable(GL_SCISSOR_TEST);
-            glClearColor(0, 0, 0, 0);
-            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            target.clear();
             ImGui_ImplOpenGL3_RenderDrawData(&drawn);
-            target.resolve();
-            rows.resize(size_t(width) * size_t(height) * 4);
-            glPixelStorei(GL_PACK_ALIGNMENT, 4);
-            glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-            glBindFramebuffer(GL_FRAMEBUFFER, 0);
-            check_gl("drawing over a picture");
+            const std::vector<uint8_t> rows = target.pixels();
             for (int row = 0; row < height; ++row) // OpenGL's rows run upwards
                 for (int column = 0; column < width; ++column)
                     blend(&rows[(size_t(height - 1 - row) * size_t(width) + size_t(column)) * 4],
@@ -92,14 +82,16 @@ void lay_over(Picture& picture, ImDrawData& drawn)
         }
 }
 
-constexpr double legend_room = 70; // pixels at content scale 1, on the left
-
-/// The whole scene, with room for the legend.
-Camera fitted(Camera camera, const Scene& scene, int width, int height, float larger)
+/// The whole blank or part, with room for the legend.
+Camera fitted(const Camera& camera, const Session& session, View view, glm::dvec2 size, double scale)
 {
-    const double room = scene.legend ? legend_room * larger * picture_scale(width, height) : 0;
-    camera = fit(camera, scene.box, std::max(width - room, 0.5 * width) / height);
-    return pan(camera, {room / 2, 0}, {width, height});
+    const double around = 24 * scale, legend = 72 * scale;
+    const Margins margins{around + legend, around, around, around};
+    if (view != View::blank)
+        return fit(camera, session.part->mesh.position, size, margins);
+    Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, session.blank->blank.position.cols());
+    flat.topRows(2) = session.blank->blank.position;
+    return fit(camera, flat, size, margins);
 }
 
 } // namespace
@@ -109,23 +101,27 @@ float picture_scale(int width, int height) { return std::max(1.f, std::min(float
 Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerState& state, SceneCache& cache, View view,
                         int width, int height, const PictureContent& content)
 {
-    const Scene shown = scene(view, state, cache);
+    const float scale = content.larger * picture_scale(width, height);
+    const Scene shown = scene(view, state, cache, height / scale);
     Look look;
     look.dark = state.view.dark;
-    look.content_scale = content.larger * picture_scale(width, height);
+    look.content_scale = scale;
     look.ground = content.ground;
     Picture picture = renderer.picture(shown, state.view.camera[size_t(view)], width, height, look);
     if (!content.legend && !content.labels)
         return picture;
-    PictureGui gui(width, height, look.content_scale, look.dark);
+    PictureGui gui(width, height, scale, look.dark);
     Ui ui;
-    ui.scale = look.content_scale;
+    ui.scale = scale;
     ui.fonts = gui.fonts();
     ActionQueue nobody;
     Frame frame{model, state, nobody, ui, cache, {}};
     gui.frame([&] {
-        draw_overlay(frame, view, shown, {0, 0}, {float(width), float(height)}, content.legend, content.labels,
-                     ImGui::GetBackgroundDrawList());
+        ImDrawList* const draw = ImGui::GetBackgroundDrawList();
+        const ImVec2 size{float(width), float(height)};
+        const auto legend = content.legend ? draw_legend(frame, shown, {0, 0}, size, draw) : std::nullopt;
+        if (content.labels)
+            draw_labels(frame, view, shown, {0, 0}, size, legend, draw);
     });
     lay_over(picture, *ImGui::GetDrawData());
     return picture;
@@ -144,6 +140,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.fonts = gui.fonts();
     aside.scale = scale;
     aside.keys.clear();
+    aside.labels = {};
     aside.files = {};
     aside.held.reset();
     aside.show_export = aside.show_picture = aside.show_report = aside.show_shortcuts = false;
@@ -189,7 +186,7 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
             continue;
         Camera& camera = shown.view.camera[size_t(view)];
         if (options.standard_look)
-            camera = fitted(camera, scene(view, shown, cache), width, height, larger);
+            camera = fitted(camera, session, view, {width, height}, larger * picture_scale(width, height));
         pictures.push_back({(options.standard_look ? standard_titles : titles)[size_t(view)],
                             png(picture_of_view(renderer, model, shown, cache, view, width, height, content))});
     }

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 namespace spia::viewer {
 namespace {
@@ -146,23 +147,46 @@ Camera fit(Camera camera, const Eigen::AlignedBox3d& box, double aspect)
 {
     if (box.isEmpty())
         return camera;
-    const glm::dvec3 middle = to_glm(box.center());
+    Eigen::Matrix3Xd corner(3, 8);
+    for (int i = 0; i < 8; ++i)
+        corner.col(i) = box.corner(Eigen::AlignedBox3d::CornerType(i));
+    const double across = 0.5 * (1 - 1 / margin) * aspect, upwards = 0.5 * (1 - 1 / margin);
+    return fit(camera, corner, {aspect, 1}, {across, across, upwards, upwards});
+}
+
+Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margins margins)
+{
+    if (point.cols() == 0)
+        return camera;
+    constexpr double most = 0.6; // of the view is left free
+    for (const auto& [one, other, whole] :
+         {std::tuple(&margins.left, &margins.right, size.x), {&margins.top, &margins.bottom, size.y}})
+        if (const double sum = *one + *other; sum > most * whole) {
+            *one *= most * whole / sum;
+            *other *= most * whole / sum;
+        }
+    const glm::dvec3 low = to_glm(point.rowwise().minCoeff()), high = to_glm(point.rowwise().maxCoeff()),
+                     middle = (low + high) / 2.;
     const glm::dquat into_view = glm::conjugate(camera.turn);
-    // A place (x, y, z) from the middle is in the picture if |x - a| <= slope * (d - z), with the eye at (a, b, d). The
-    // tightest two sides give a and the least d; an orthographic camera has parallel sides instead.
-    const double lean = camera.perspective ? slope / margin : 0;
-    glm::dvec2 high(-std::numeric_limits<double>::infinity()), low = high;
-    const glm::dvec2 leaning(lean * aspect, lean);
-    for (const glm::dvec3& corner : corners(box)) {
-        const glm::dvec3 seen = into_view * (corner - middle);
-        high = glm::max(high, glm::dvec2(seen) + leaning * seen.z);
-        low = glm::max(low, -glm::dvec2(seen) + leaning * seen.z);
+    // The view's upper side is at `slope` from the line of sight, the borders of what is filled at these. A place (x, y, z)
+    // from the middle is within them if x - a <= right * (d - z) and so on, with the eye at (a, b, d). The tightest two
+    // sides give the least d, and a. In an orthographic view the depth does not matter.
+    const glm::dvec2 greater = 2 * slope / size.y * (size / 2. - glm::dvec2(margins.right, margins.top)),
+                     less = 2 * slope / size.y * (size / 2. - glm::dvec2(margins.left, margins.bottom));
+    glm::dvec2 most_up(-std::numeric_limits<double>::infinity()), most_down = most_up;
+    for (Eigen::Index i = 0; i < point.cols(); ++i) {
+        const glm::dvec3 seen = into_view * (to_glm(point.col(i)) - middle);
+        const double depth = camera.perspective ? seen.z : 0;
+        most_up = glm::max(most_up, glm::dvec2(seen) + greater * depth);
+        most_down = glm::max(most_down, -glm::dvec2(seen) + less * depth);
     }
-    const glm::dvec2 centre = (high - low) / 2., extent = high + low;
-    const double height = std::max(extent.x / aspect, extent.y) * margin;
-    const double least = std::max(1e-3 * box.sizes().norm(), least_height); // a line seen from its end, a point
-    camera.target = middle + camera.turn * glm::dvec3(centre, 0);
+    const glm::dvec2 least_distance = (most_up + most_down) / (greater + less);
+    const double height = 2 * slope * std::max(least_distance.x, least_distance.y);
+    const double least = std::max(1e-3 * glm::length(high - low), least_height); // a line seen from its end, a point
     camera.height = std::clamp(height, least, greatest_height);
+    const double distance = eye_distance(camera);
+    const glm::dvec2 centre = (most_up - greater * distance - most_down + less * distance) / 2.;
+    camera.target = middle + camera.turn * glm::dvec3(centre, 0);
     return camera;
 }
 

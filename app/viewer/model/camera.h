@@ -45,6 +45,12 @@ Camera pan(Camera camera, glm::dvec2 drag, glm::dvec2 size);
 Camera zoom(Camera camera, double factor, glm::dvec2 pixel, glm::dvec2 size);
 /// Shows the whole box with a small margin, without turning.
 Camera fit(Camera camera, const Eigen::AlignedBox3d& box, double aspect);
+/// What stays free on each side of a view, pixels; less in a view that has no room for it.
+struct Margins {
+    double left = 0, right = 0, top = 0, bottom = 0;
+};
+/// Shows all points, as large as the margins allow, without turning. @param point 3 by #points, mm
+Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margins margins);
 /// Turns to a standard view about the target.
 Camera look(Camera camera, StandardView view);
 

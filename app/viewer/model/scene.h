@@ -65,11 +65,23 @@ struct ScenePoints {
     bool on_top = true;
 };
 
+/// What a label says; the first kinds get their place first.
+enum class LabelKind { watched, corner, region };
+
 /// A short text at a place in space; the panels draw it, not the renderer.
 struct SceneLabel {
     Eigen::Vector3d place; ///< mm
     std::string text;
     Colour colour{0, 0, 0, 1};
+    LabelKind kind = LabelKind::watched;
+
+    friend bool operator==(const SceneLabel&, const SceneLabel&) = default;
+};
+
+/// Where a smooth field has one value. Needed for the numbers on the lines; the renderer draws the lines by itself.
+struct Isoline {
+    double value = 0;
+    Eigen::Matrix3Xd point; ///< 3 by #points, mm; of a closed line the last one is the first
 };
 
 /// What the colours of a scene mean; the panels draw it.
@@ -77,6 +89,7 @@ struct SceneLegend {
     std::string title; ///< e.g. "Thinning"
     std::string unit;  ///< "" for a pure number
     ColourScale scale;
+    bool below = false, above = false; ///< there are values outside of the scale, in the colours of its ends
 };
 
 /// One layer of triangles and how it is drawn.
@@ -99,10 +112,11 @@ struct Scene {
     std::vector<std::shared_ptr<const SceneLines>> lines;
     std::vector<std::shared_ptr<const ScenePoints>> points;
     std::vector<SceneLabel> labels;
-    std::optional<SceneLegend> legend;  ///< of the field that is shown
-    std::vector<Colour> region_colours; ///< by number of region
-    Eigen::AlignedBox3d box;            ///< mm, around everything worth seeing: what "fit" shows
-    std::string empty;                  ///< if there is nothing to show: what to do about it
+    std::shared_ptr<const std::vector<Isoline>> isolines; ///< null: none are shown
+    std::optional<SceneLegend> legend;                    ///< of the field that is shown
+    std::vector<Colour> region_colours;                   ///< by number of region
+    Eigen::AlignedBox3d box;                              ///< mm, around everything worth seeing: what "fit" shows
+    std::string empty;                                    ///< if there is nothing to show: what to do about it
 };
 
 } // namespace spia::viewer

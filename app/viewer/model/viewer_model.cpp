@@ -236,37 +236,47 @@ void ViewerModel::hover_nothing()
 
 void ViewerModel::fit(std::optional<View> only)
 {
-    // Beside what is shown there is room for the legend.
-    constexpr double legend = 70; // pixels
-    const auto aspect = [](glm::dvec2 size) { return std::max(size.x - legend, 0.5 * size.x) / size.y; };
     const Session& session = state_.document.session;
     if (!session.part)
         return;
-    const auto box_of = [](const auto& position) {
-        Eigen::AlignedBox3d box;
-        for (Eigen::Index v = 0; v < position.cols(); ++v) {
-            Eigen::Vector3d p = Eigen::Vector3d::Zero();
-            p.head(position.rows()) = position.col(v);
-            box.extend(p);
-        }
-        return box;
-    };
     for (const View view : all_views) {
         if (only && *only != view)
             continue;
         Camera& camera = state_.view.camera[size_t(view)];
-        const glm::dvec2 size = size_[size_t(view)];
         if (view == View::blank) {
-            if (session.blank)
-                camera = pan(spia::viewer::fit(camera, box_of(session.blank->blank.position), aspect(size)),
-                             {legend / 2, 0}, size);
-            continue;
+            if (!session.blank)
+                continue;
+            Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, session.blank->blank.position.cols());
+            flat.topRows<2>() = session.blank->blank.position;
+            camera = spia::viewer::fit(camera, flat, size_[size_t(view)], margins(view));
+        } else {
+            if (state_.view.linked && view != View::part)
+                camera = state_.view.camera[size_t(View::part)];
+            camera = spia::viewer::fit(camera, session.part->mesh.position, size_[size_t(view)], margins(view));
         }
-        if (state_.view.linked && view != View::part)
-            camera = state_.view.camera[size_t(View::part)];
-        camera =
-            pan(spia::viewer::fit(camera, box_of(session.part->mesh.position), aspect(size)), {legend / 2, 0}, size);
+        fitted_[size_t(view)] = camera;
     }
+}
+
+void ViewerModel::resized(View view, glm::dvec2 size, double scale)
+{
+    if (size_[size_t(view)] == size && scale_ == scale)
+        return;
+    size_[size_t(view)] = size;
+    scale_ = scale;
+    if (fitted_[size_t(view)] == state_.view.camera[size_t(view)])
+        fit(view);
+}
+
+/// Beside what is shown there is room for the legend if there is one.
+Margins ViewerModel::margins(View view) const
+{
+    constexpr double around = 24, legend = 72; // pixels
+    const Document& document = state_.document;
+    const bool coloured = view == View::quads     ? state_.view.quad_quality
+                          : view == View::surface ? state_.view.surface_deviation
+                                                  : document.display.field != Field::none;
+    return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};
 }
 
 } // namespace spia::viewer

@@ -44,8 +44,9 @@ public:
     Pickers& pickers() { return pickers_; }
     /// Whether a job is running; closing the window then cancels it.
     bool busy() const { return chain_job_ || export_job_; }
-    /// The size of a view on the screen: what "fit" fills. Pixels.
-    void resized(View view, glm::dvec2 size) { size_[size_t(view)] = size; }
+    /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
+    /// has not been moved since it was fitted is so again.
+    void resized(View view, glm::dvec2 size, double scale = 1);
 
 private:
     struct Live; ///< what the solver tells while it runs
@@ -57,6 +58,7 @@ private:
     void take_chain_result();
     void take_export_result();
     void fit(std::optional<View> view);
+    Margins margins(View view) const;
     void part_opened();
     void project_opened();
 
@@ -64,6 +66,8 @@ private:
     std::function<void()> wake_;
     ViewerState state_;
     std::array<glm::dvec2, 4> size_;
+    double scale_ = 1;                            ///< of the screen
+    std::array<std::optional<Camera>, 4> fitted_; ///< by View, what "fit" has made of it
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;

@@ -12,6 +12,7 @@
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
+#include "app/viewer/panels/labels.h"
 #include "app/viewer/panels/picture_dialog.h"
 #include "app/viewer/panels/report_dialog.h"
 #include "app/viewer/panels/theme.h"
@@ -41,6 +42,7 @@ struct Ui {
     std::optional<int> dragged_corner;
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::array<ImVec2, 4> view_from{}, view_size{};
+    std::array<LabelPlaces, 4> labels;
 
     ExportChoices exporting;
     PictureChoices picturing;

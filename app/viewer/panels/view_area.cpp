@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 
+#include "app/viewer/panels/labels.h"
 #include "app/viewer/panels/widgets.h"
-#include "app/viewer/views/colour_scale.h"
-#include "app/viewer/views/colours.h"
 #include "app/viewer/views/views.h"
 
 namespace spia::viewer {
@@ -22,49 +20,6 @@ const char* title(View view)
 }
 
 glm::dvec2 vec(ImVec2 v) { return {v.x, v.y}; }
-
-/// Text with an outline that is read on any ground.
-void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* text)
-{
-    for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1), ImVec2(-1, -1), ImVec2(1, 1),
-                           ImVec2(1, -1), ImVec2(-1, 1)})
-        draw->AddText({at.x + d.x, at.y + d.y}, halo, text);
-    draw->AddText(at, colour, text);
-}
-
-void legend(const Frame& frame, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw)
-{
-    if (!scene.legend || size.y < 180 * frame.ui.scale || size.x < 200 * frame.ui.scale)
-        return;
-    const ColourScale& scale = scene.legend->scale;
-    const std::string title = scene.legend->title + (scene.legend->unit.empty() ? "" : ", " + scene.legend->unit);
-    const float s = frame.ui.scale, height = std::min(200 * s, size.y - 110 * s), width = 13 * s;
-    const ImVec2 low{from.x + 14 * s, from.y + size.y - 18 * s}, high{low.x + width, low.y - height};
-    const bool dark = frame.state.view.dark;
-    const ImU32 text = dark ? IM_COL32(235, 238, 242, 255) : IM_COL32(24, 28, 34, 255),
-                halo = dark ? IM_COL32(20, 24, 30, 200) : IM_COL32(255, 255, 255, 200);
-    constexpr int strips = 64;
-    for (int k = 0; k < strips; ++k) {
-        const float value = scale.least + (float(k) + 0.5f) / strips * (scale.greatest - scale.least);
-        draw->AddRectFilled({low.x, low.y - height * float(k + 1) / strips},
-                            {high.x, low.y - height * float(k) / strips + 0.5f}, ink(colour_of(scale, value)));
-    }
-    draw->AddRect({low.x, high.y}, {high.x, low.y}, text);
-    ImGui::PushFont(frame.ui.fonts.small);
-    const int ticks = scale.bands > 0 ? scale.bands : scale.ticks;
-    const int every = std::max(1, int(std::ceil(double(ticks) * 18 * s / height)));
-    for (int k = 0; k <= ticks; k += every) {
-        const float y = low.y - height * float(k) / float(ticks);
-        double value = scale.least + double(k) / ticks * (scale.greatest - scale.least);
-        if (std::abs(value) < 1e-6 * (scale.greatest - scale.least))
-            value = 0;
-        draw->AddLine({high.x, y}, {high.x + 4 * s, y}, text);
-        haloed(draw, {high.x + 7 * s, y - ImGui::GetTextLineHeight() / 2}, text, halo,
-               fmt::format("{:.4g}", value).c_str());
-    }
-    haloed(draw, {low.x, high.y - 1.5f * ImGui::GetTextLineHeight()}, text, halo, title.c_str());
-    ImGui::PopFont();
-}
 
 struct Mouse {
     glm::dvec2 pixel, size;
@@ -319,8 +274,8 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const ImVec2 from{at.x, at.y + bar}, size{whole.x, std::max(1.f, whole.y - bar)};
     frame.ui.view_from[size_t(view)] = from;
     frame.ui.view_size[size_t(view)] = size;
-    frame.model.resized(view, vec(size));
-    const Scene shown = scene(view, frame.state, frame.cache);
+    frame.model.resized(view, vec(size), frame.ui.scale);
+    const Scene shown = scene(view, frame.state, frame.cache, size.y / frame.ui.scale);
     const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
     ImGui::SetCursorScreenPos(from);
     ImGui::Image(frame.draw(shown, view, std::max(1, int(size.x * dots.x)), std::max(1, int(size.y * dots.y))), size,
@@ -332,16 +287,6 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const Mouse mouse{vec(ImGui::GetMousePos()) - vec(from), vec(size), ImGui::IsItemHovered()};
 
     draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
-    const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
-    for (const SceneLabel& label : shown.labels) {
-        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], label.place, mouse.size);
-        const float width = ImGui::CalcTextSize(label.text.c_str()).x, gap = 7 * frame.ui.scale;
-        const bool left = float(pixel.x) + gap + width > size.x; // no room on the right
-        haloed(draw,
-               {from.x + float(pixel.x) + (left ? -gap - width : gap),
-                from.y + float(pixel.y) - gap - ImGui::GetTextLineHeight() / 2},
-               ink(label.colour), halo, label.text.c_str());
-    }
     if (!shown.empty.empty()) {
         const float wrap = std::min(size.x - 40, 320 * frame.ui.scale);
         const ImVec2 text = ImGui::CalcTextSize(shown.empty.c_str(), nullptr, false, wrap);
@@ -356,7 +301,8 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
             };
             draw->AddLine(dot(piece.from), dot(piece.to), ink(p.warning), 2 * frame.ui.scale);
         }
-    legend(frame, shown, from, size, draw);
+    const auto legend = draw_legend(frame, shown, from, size, draw);
+    draw_labels(frame, view, shown, from, size, legend, draw);
     use_tool(frame, view, mouse, from, draw);
     draw->PopClipRect();
     navigate(frame, view, mouse);

@@ -415,7 +415,6 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
     Picture result{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
     // Even, so that the groups of 2 x 2 pixels from which slopes are taken are the same in every tiling.
     const int side = std::max(2, std::min(largest_tile, longest_side()) / 2 * 2);
-    std::vector<uint8_t> rows;
     for (int y = 0; y < height; y += side)
         for (int x = 0; x < width; x += side) {
             const Tile tile{.picture = {width, height},
@@ -424,12 +423,7 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
             const Offscreen target(tile.size.x, tile.size.y, look.samples);
             target.begin();
             gpu_->draw(scene, camera, tile, look);
-            target.resolve();
-            rows.resize(size_t(tile.size.x) * size_t(tile.size.y) * 4);
-            glPixelStorei(GL_PACK_ALIGNMENT, 4);
-            glReadPixels(0, 0, tile.size.x, tile.size.y, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-            glBindFramebuffer(GL_FRAMEBUFFER, 0);
-            check_gl("reading a picture");
+            const std::vector<uint8_t> rows = target.pixels();
             const size_t row_bytes = size_t(tile.size.x) * 4;
             for (int row = 0; row < tile.size.y; ++row) // OpenGL's rows run upwards
                 std::copy_n(rows.begin() + ptrdiff_t(size_t(row) * row_bytes), row_bytes,

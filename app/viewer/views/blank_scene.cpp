@@ -1,11 +1,9 @@
 #include <algorithm>
 
 #include "app/viewer/views/grid_shapes.h"
-#include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
-#include "app/viewer/views/strain_glyphs.h"
 #include "app/viewer/views/views.h"
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
@@ -94,7 +92,7 @@ LineList outline_lines(const Eigen::Matrix3Xd& position, const Eigen::Matrix<uin
 
 } // namespace
 
-Scene blank_scene(const ViewerState& state, SceneCache& cache)
+Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
 {
     Scene result;
     const Session& session = state.document.session;
@@ -110,26 +108,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache)
     }
     const PartShape& part = part_shape(state, cache);
     const FlatShape& flat = flat_shape(state, live, cache);
-    const FieldDisplay& display = state.document.display;
     result.box = flat.box;
-    result.region_colours = region_colours(state.document.regions);
-
-    SceneLayer sheet;
-    sheet.mesh = flat.mesh;
-    sheet.marks = marks_of(state, cache);
-    sheet.lit = false;
-    sheet.edges = state.view.edges;
-    sheet.features = state.view.features;
-    const FieldValues* const values = live ? nullptr : field_values(state, cache);
-    if (values) {
-        result.legend = legend_of(state, *values);
-        sheet.scale = result.legend->scale;
-        sheet.field = cache.field_on_blank.of(
-            {flat.mesh, session.part, session.blank, session.surface, display.field, display.per_face},
-            [&] { return scene_field(*flat.mesh, values->value, display.per_face); });
-    }
-    result.layers.push_back(std::move(sheet));
-
     const auto add = [&](const LineList& lines) {
         result.lines.insert(result.lines.end(), lines.begin(), lines.end());
     };
@@ -144,18 +123,15 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache)
         add(cache.sides.of({flat.mesh, session.grid},
                            [&] { return side_lines(session.grid->boundary, flat.position); }));
     }
-    if (display.directions && session.blank && !live)
-        add(cache.glyphs_on_blank.of({session.part, session.blank},
-                                     [&] { return strain_glyphs(session.part->mesh, *session.blank, flat.position); }));
-    add(cache.selection_on_blank.of({flat.mesh, state.document.selected}, [&] {
-        return outline_of_faces(*flat.mesh, state.document.selected, 1.5f, false);
-    }));
-    add(cache.hover_on_blank.of({flat.mesh, state.hovered}, [&] {
-        return state.hovered ? outline_of_faces(*flat.mesh, {*state.hovered}, 2, false) : LineList{};
-    }));
+    add_sheet(result, state,
+              {.mesh = flat.mesh,
+               .position = flat.position,
+               .flat = true,
+               .converging = live != nullptr,
+               .mm_per_pixel = state.view.camera[size_t(View::blank)].height / pixels},
+              cache.on_blank, cache);
     if (live)
         return result;
-    add_watched_places(result, state, values, flat.position);
     if (const auto corner = corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
     return result;

@@ -79,6 +79,48 @@ ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>
     return scale;
 }
 
+std::vector<double> tick_values(const ColourScale& scale)
+{
+    const int count = std::max(1, scale.bands > 0 ? scale.bands : scale.ticks);
+    const double length = double(scale.greatest) - double(scale.least);
+    std::vector<double> values;
+    for (int k = 0; k <= count; ++k)
+        values.push_back(double(scale.least) + k * length / count);
+    return values;
+}
+
+std::string tick_text(const ColourScale& scale, double value)
+{
+    if (std::abs(value) < 1e-6 * (double(scale.greatest) - double(scale.least)))
+        value = 0; // a remainder of single precision
+    return fmt::format("{:.4g}", value);
+}
+
+bool below(const ColourScale& scale, double value)
+{
+    return value < double(scale.least) - 1e-4 * (double(scale.greatest) - double(scale.least));
+}
+
+bool above(const ColourScale& scale, double value)
+{
+    return value > double(scale.greatest) + 1e-4 * (double(scale.greatest) - double(scale.least));
+}
+
+std::vector<LegendTick> legend_ticks(const SceneLegend& legend, int most)
+{
+    const std::vector<double> values = tick_values(legend.scale);
+    const int last = int(values.size()) - 1, every = (last + std::max(1, most - 1) - 1) / std::max(1, most - 1);
+    std::vector<LegendTick> ticks;
+    for (int k = 0; k <= last; ++k) {
+        const bool fits = k % every == 0 && (k + every <= last || k == last); // the upper end is always told
+        if (!fits && k != last)
+            continue;
+        const char* sign = k == 0 && legend.below ? "\u2264 " : k == last && legend.above ? "\u2265 " : "";
+        ticks.push_back({double(k) / last, sign + tick_text(legend.scale, values[size_t(k)])});
+    }
+    return ticks;
+}
+
 std::string value_text(double value, std::string_view unit)
 {
     std::string number;

@@ -2,6 +2,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/viewer/model/document.h"
 #include "app/viewer/model/scene.h"
@@ -23,6 +24,26 @@ RoundRange round_range(double least, double greatest, int intervals = 0, bool ab
 /// values, symmetric about 0 where zero matters.
 /// @param extremes the field's least and greatest value
 ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes);
+
+/// A value written beside the colours of a scale.
+struct LegendTick {
+    double share = 0; ///< of the scale's length, from its lower end
+    std::string text; ///< e.g. "0.25"; at an end with values beyond it "\u2264 0" or "\u2265 0.25"
+};
+
+/// Ticks of a legend from below, its ends among them.
+/// @param most  how many there is room for, 2 at least
+std::vector<LegendTick> legend_ticks(const SceneLegend& legend, int most);
+
+/// The value of a tick or an isoline: no digits that mean nothing.
+std::string tick_text(const ColourScale& scale, double value);
+
+/// Where the ticks are, and the isolines if there are any; from below.
+std::vector<double> tick_values(const ColourScale& scale);
+
+/// Whether a value lies beyond the ends of a scale by more than the eye could tell.
+bool below(const ColourScale& scale, double value);
+bool above(const ColourScale& scale, double value);
 
 /// A value for people: three significant digits at least, no exponent within 1e-4 to 1e6, its unit behind it.
 std::string value_text(double value, std::string_view unit);

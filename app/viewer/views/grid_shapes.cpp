@@ -128,7 +128,7 @@ void add_corners(Scene& scene, const Eigen::Matrix3Xd& place, bool dark)
     points->size = 11;
     scene.points.push_back(points);
     for (int k = 0; k < 4; ++k)
-        scene.labels.push_back({place.col(k), fmt::format("{}", k + 1), palette::text(dark)});
+        scene.labels.push_back({place.col(k), fmt::format("{}", k + 1), palette::text(dark), LabelKind::corner});
 }
 
 } // namespace spia::viewer

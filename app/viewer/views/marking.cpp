@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <limits>
 #include <map>
 
 #include "app/viewer/views/colour_scale.h"
@@ -74,6 +75,50 @@ LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, 
     core->colour = core_colour;
     core->width = width;
     return {casing, core};
+}
+
+LineList region_borders(const SceneMesh& mesh, const std::vector<FaceRegion>& regions)
+{
+    LineList result;
+    for (const FaceRegion& region : regions) {
+        const LineList lines = outline_of_faces(mesh, region.faces, 3.5f, false, region.colour);
+        result.insert(result.end(), lines.begin(), lines.end());
+    }
+    return result;
+}
+
+std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix3Xd& position,
+                                      const std::vector<FaceRegion>& regions, bool dark)
+{
+    std::vector<SceneLabel> labels;
+    for (const FaceRegion& region : regions) {
+        double area = 0;
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        const auto there = [&](int face) { return face >= 0 && face < triangle.cols(); };
+        const auto centre = [&](int face) {
+            return place_on(position, triangle, face, Eigen::Vector3d::Constant(1. / 3));
+        };
+        for (const int face : region.faces)
+            if (there(face)) {
+                const Eigen::Matrix3d corner = position(Eigen::all, triangle.col(face));
+                const double twice = (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).norm();
+                middle += twice * centre(face);
+                area += twice;
+            }
+        if (!(area > 0))
+            continue;
+        middle /= area;
+        double least = std::numeric_limits<double>::infinity();
+        Eigen::Vector3d place = middle; // may lie beside the faces, as in the middle of a ring
+        for (const int face : region.faces)
+            if (there(face))
+                if (const double away = (centre(face) - middle).squaredNorm(); away < least) {
+                    least = away;
+                    place = centre(face);
+                }
+        labels.push_back({place, region.name, palette::text(dark), LabelKind::region});
+    }
+    return labels;
 }
 
 Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,

@@ -16,6 +16,14 @@ std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions);
 LineList outline_of_faces(const SceneMesh& mesh, const std::vector<int>& faces, float width, bool on_top,
                           const Colour& core = {1, 1, 1, 1});
 
+/// The border of each region in its colour.
+LineList region_borders(const SceneMesh& mesh, const std::vector<FaceRegion>& regions);
+
+/// The name of each region on the face that is nearest to its middle.
+/// @param position 3 by #V of the part, mm: on the part or flat
+std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix3Xd& position,
+                                      const std::vector<FaceRegion>& regions, bool dark);
+
 /// Place of barycentric coordinates on a face, mm.
 Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,
                          const Eigen::Vector3d& barycentric);

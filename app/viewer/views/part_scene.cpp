@@ -1,12 +1,9 @@
-#include "app/viewer/views/marking.h"
-#include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
-#include "app/viewer/views/strain_glyphs.h"
 #include "app/viewer/views/views.h"
 
 namespace spia::viewer {
 
-Scene part_scene(const ViewerState& state, SceneCache& cache)
+Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
 {
     Scene result;
     const Session& session = state.document.session;
@@ -15,46 +12,20 @@ Scene part_scene(const ViewerState& state, SceneCache& cache)
         return result;
     }
     const PartShape& part = part_shape(state, cache);
-    const FieldDisplay& display = state.document.display;
     result.box = part.box;
-    result.region_colours = region_colours(state.document.regions);
-
-    SceneLayer sheet;
-    sheet.mesh = part.mesh;
-    sheet.marks = marks_of(state, cache);
-    sheet.edges = state.view.edges;
-    sheet.features = state.view.features;
-    const FieldValues* const values = field_values(state, cache);
-    if (values) {
-        result.legend = legend_of(state, *values);
-        sheet.scale = result.legend->scale;
-        sheet.field = cache.field_on_part.of(
-            {part.mesh, session.part, session.blank, session.surface, display.field, display.per_face},
-            [&] { return scene_field(*part.mesh, values->value, display.per_face); });
-    }
-    result.layers.push_back(std::move(sheet));
-
-    const auto add = [&](const LineList& lines) {
-        result.lines.insert(result.lines.end(), lines.begin(), lines.end());
-    };
-    if (display.directions && session.blank)
-        add(cache.glyphs_on_part.of({session.part, session.blank}, [&] {
-            return strain_glyphs(session.part->mesh, *session.blank, session.part->mesh.position);
-        }));
-    add(cache.selection_on_part.of({part.mesh, state.document.selected},
-                                   [&] { return outline_of_faces(*part.mesh, state.document.selected, 1.5f, false); }));
-    add(cache.hover_on_part.of({part.mesh, state.hovered}, [&] {
-        return state.hovered ? outline_of_faces(*part.mesh, {*state.hovered}, 2, false) : LineList{};
-    }));
-    add_watched_places(result, state, values, session.part->mesh.position);
+    add_sheet(result, state,
+              {.mesh = part.mesh,
+               .position = session.part->mesh.position,
+               .mm_per_pixel = state.view.camera[size_t(View::part)].height / pixels},
+              cache.on_part, cache);
     return result;
 }
 
-Scene scene(View view, const ViewerState& state, SceneCache& cache)
+Scene scene(View view, const ViewerState& state, SceneCache& cache, double pixels)
 {
     switch (view) {
-    case View::part: return part_scene(state, cache);
-    case View::blank: return blank_scene(state, cache);
+    case View::part: return part_scene(state, cache, pixels);
+    case View::blank: return blank_scene(state, cache, pixels);
     case View::quads: return quad_scene(state, cache);
     case View::surface: return surface_scene(state, cache);
     }

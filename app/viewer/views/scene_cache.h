@@ -64,6 +64,22 @@ struct StageShape {
     Eigen::AlignedBox3d box; ///< mm
 };
 
+/// What is shown on the sheet, once for the part and once for the blank.
+struct SheetCache {
+    using Mesh = std::shared_ptr<const SceneMesh>;
+    using Part = std::shared_ptr<const PartFile>;
+    using Blank = std::shared_ptr<const FlattenResult>;
+    using Surface = std::shared_ptr<const SurfaceStage>;
+
+    Memo<std::shared_ptr<const SceneField>, Mesh, Part, Blank, Surface, Field, bool> field;
+    Memo<std::shared_ptr<const std::vector<Isoline>>, std::shared_ptr<const SceneField>, float, float, int> isolines;
+    Memo<LineList, Mesh, std::vector<FaceRegion>> regions;
+    Memo<std::vector<SceneLabel>, Mesh, std::vector<FaceRegion>, bool> region_labels;
+    Memo<LineList, Part, Blank, double> glyphs;
+    Memo<LineList, Mesh, std::vector<int>> selection;
+    Memo<LineList, Mesh, std::optional<int>> hover;
+};
+
 /// What the scenes of a window have in common and what they are made of, so that nothing is made again in each frame.
 /// One per window.
 struct SceneCache {
@@ -77,13 +93,10 @@ struct SceneCache {
     Memo<PartShape, Part> part;
     Memo<FlatShape, Part, Blank, LiveBlank> flat;
     Memo<FieldValues, Part, Blank, Surface, Field, bool> values;
-    Memo<std::shared_ptr<const SceneField>, std::shared_ptr<const SceneMesh>, Part, Blank, Surface, Field, bool>
-        field_on_part, field_on_blank;
+    SheetCache on_part, on_blank;
     Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>, std::optional<int>> marks;
-    Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_on_part, selection_on_blank,
-        selection_elsewhere;
-    Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_on_part, hover_on_blank, hover_elsewhere;
-    Memo<LineList, Part, Blank> glyphs_on_part, glyphs_on_blank;
+    Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
+    Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_elsewhere;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;

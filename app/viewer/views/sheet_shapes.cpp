@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "app/viewer/views/colour_scale.h"
+#include "app/viewer/views/isolines.h"
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
+#include "app/viewer/views/strain_glyphs.h"
 
 namespace spia::viewer {
 namespace {
@@ -48,7 +50,12 @@ const FieldValues* field_values(const ViewerState& state, SceneCache& cache)
 SceneLegend legend_of(const ViewerState& state, const FieldValues& values)
 {
     const FieldInfo& field = info(state.document.display.field);
-    return {std::string(field.label), std::string(field.unit), field_scale(state.document.display, values.extremes())};
+    const std::array<double, 2> extremes = values.extremes();
+    SceneLegend legend{std::string(field.label), std::string(field.unit),
+                       field_scale(state.document.display, extremes)};
+    legend.below = below(legend.scale, extremes[0]);
+    legend.above = above(legend.scale, extremes[1]);
+    return legend;
 }
 
 std::shared_ptr<const FaceMarks> marks_of(const ViewerState& state, SceneCache& cache)
@@ -57,6 +64,58 @@ std::shared_ptr<const FaceMarks> marks_of(const ViewerState& state, SceneCache& 
     return cache.marks.of({document.session.part, document.selected, document.regions, state.hovered}, [&] {
         return face_marks(document.session.part->mesh.triangles(), document.selected, document.regions, state.hovered);
     });
+}
+
+void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, SheetCache& cache, SceneCache& shared)
+{
+    const Document& document = state.document;
+    const Session& session = document.session;
+    const FieldDisplay& display = document.display;
+    const TriMesh& part = session.part->mesh;
+    const auto& mesh = place.mesh;
+    scene.region_colours = region_colours(document.regions);
+
+    SceneLayer sheet;
+    sheet.mesh = mesh;
+    sheet.marks = marks_of(state, shared);
+    sheet.edges = state.view.edges;
+    sheet.features = state.view.features;
+    sheet.lit = !place.flat;
+    const FieldValues* const values = place.converging ? nullptr : field_values(state, shared);
+    if (values) {
+        scene.legend = legend_of(state, *values);
+        sheet.scale = scene.legend->scale;
+        sheet.field =
+            cache.field.of({mesh, session.part, session.blank, session.surface, display.field, display.per_face},
+                           [&] { return scene_field(*mesh, values->value, display.per_face); });
+        if (display.isolines && !display.per_face)
+            scene.isolines =
+                cache.isolines.of({sheet.field, sheet.scale.least, sheet.scale.greatest, sheet.scale.ticks}, [&] {
+                    return std::make_shared<const std::vector<Isoline>>(
+                        isolines(place.position, part.triangle, values->value, tick_values(sheet.scale)));
+                });
+    }
+    scene.layers.insert(scene.layers.begin(), std::move(sheet));
+
+    const auto add = [&](const LineList& lines) { scene.lines.insert(scene.lines.end(), lines.begin(), lines.end()); };
+    add(cache.regions.of({mesh, document.regions}, [&] { return region_borders(*mesh, document.regions); }));
+    if (display.directions && session.blank && !place.converging) {
+        const double spacing = glyph_spacing(place.mm_per_pixel, scene.box.diagonal().norm());
+        add(cache.glyphs.of({session.part, session.blank, spacing},
+                            [&] { return strain_glyphs(part, *session.blank, place.position, spacing); }));
+    }
+    add(cache.selection.of({mesh, document.selected},
+                           [&] { return outline_of_faces(*mesh, document.selected, 1.5f, false); }));
+    add(cache.hover.of({mesh, state.hovered}, [&] {
+        return state.hovered ? outline_of_faces(*mesh, {*state.hovered}, 2, false) : LineList{};
+    }));
+    if (place.converging)
+        return;
+    add_watched_places(scene, state, values, place.position);
+    const auto& names = cache.region_labels.of({mesh, document.regions, state.view.dark}, [&] {
+        return region_labels(part.triangle, place.position, document.regions, state.view.dark);
+    });
+    scene.labels.insert(scene.labels.end(), names.begin(), names.end());
 }
 
 void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache)

@@ -13,6 +13,21 @@ const FieldValues* field_values(const ViewerState& state, SceneCache& cache);
 /// How that field is called and coloured.
 SceneLegend legend_of(const ViewerState& state, const FieldValues& values);
 
+/// Where the sheet of the part is drawn: formed or flat.
+struct SheetPlace {
+    std::shared_ptr<const SceneMesh> mesh;
+    const Eigen::Matrix3Xd& position; ///< 3 by #V of the part, mm
+    bool flat = false;                ///< not shaded
+    bool converging = false;          ///< a shape so far: it has no values yet
+    double mm_per_pixel = 1;          ///< of the view it is seen in
+};
+
+/// The sheet with all that is shown on it: field, isolines, regions, selection, the face under the mouse, principal
+/// strains, watched places. Its layer comes first, its lines and labels last.
+/// @param scene  with its box
+/// @param state  with a part
+void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, SheetCache& cache, SceneCache& shared);
+
 std::shared_ptr<const FaceMarks> marks_of(const ViewerState& state, SceneCache& cache);
 
 /// The selection and the face under the mouse as outlines on the part, in front of everything: for views whose faces

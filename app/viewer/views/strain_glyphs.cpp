@@ -3,7 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <cstdint>
+#include <unordered_set>
 
 #include "app/viewer/views/palette.h"
 #include "engine/mesh/topology.h"
@@ -14,12 +15,14 @@ namespace {
 /// One face in each occupied cube of a grid, the first one.
 std::vector<int> spread_faces(const TriMesh& part, double spacing)
 {
-    std::set<std::array<int, 3>> occupied;
+    std::unordered_set<uint64_t> occupied;
     std::vector<int> faces;
     for (int f = 0; f < part.triangles(); ++f) {
         const Eigen::Vector3d middle = part.position(Eigen::all, part.triangle.col(f)).rowwise().mean() / spacing;
-        if (occupied.insert({int(std::floor(middle.x())), int(std::floor(middle.y())), int(std::floor(middle.z()))})
-                .second)
+        uint64_t cube = 0;
+        for (int k = 0; k < 3; ++k)
+            cube = cube << 21 | (uint64_t(int64_t(std::floor(middle[k]))) & 0x1fffff);
+        if (occupied.insert(cube).second)
             faces.push_back(f);
     }
     return faces;
@@ -50,12 +53,19 @@ std::shared_ptr<SceneLines> lines_of(const std::vector<Eigen::Vector3d>& ends, c
 
 } // namespace
 
-LineList strain_glyphs(const TriMesh& part, const FlattenResult& blank, const Eigen::Matrix3Xd& position, int crosses)
+double glyph_spacing(double mm_per_pixel, double diagonal)
+{
+    constexpr double pixels = 30, most_across = 250;
+    return std::exp2(
+        std::max(std::round(std::log2(pixels * mm_per_pixel)), std::ceil(std::log2(diagonal / most_across))));
+}
+
+LineList strain_glyphs(const TriMesh& part, const FlattenResult& blank, const Eigen::Matrix3Xd& position,
+                       double spacing)
 {
     if (part.triangles() == 0)
         return {};
     const SheetFields& strain = blank.face;
-    const double spacing = std::sqrt(area(part) / crosses);
     const std::vector<int> faces = spread_faces(part, spacing);
 
     // Nearly all crosses fit between their neighbours; the few largest strains may not.

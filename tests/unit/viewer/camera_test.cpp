@@ -132,6 +132,33 @@ TEST(Camera, FitShowsAllCornersAndLeavesLittleRoom)
         }
 }
 
+TEST(Camera, FitToPointsKeepsTheMarginsAndTouchesTwoOfThemOppositeEachOther)
+{
+    const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, 60) * 70;
+    const Margins margins{96, 24, 30, 20};
+    for (const Camera& camera : cameras())
+        for (const glm::dvec2 pixels : {glm::dvec2(900, 400), {300, 700}}) {
+            const Camera fitted = fit(camera, points, pixels, margins);
+            EXPECT_EQ(fitted.turn, camera.turn);
+            glm::dvec2 least(1e300), greatest(-1e300);
+            for (const auto point : points.colwise()) {
+                const glm::dvec2 p = pixel_of(fitted, point, pixels);
+                least = glm::min(least, p);
+                greatest = glm::max(greatest, p);
+            }
+            const double left = least.x - margins.left, right = pixels.x - margins.right - greatest.x,
+                         top = least.y - margins.top, bottom = pixels.y - margins.bottom - greatest.y;
+            EXPECT_GT(std::min({left, right, top, bottom}), -1e-6);
+            EXPECT_LT(std::min(std::max(left, right), std::max(top, bottom)), 1e-6);
+            if (!camera.perspective) {
+                EXPECT_NEAR(left, right, 1e-6) << "in the middle";
+                EXPECT_NEAR(top, bottom, 1e-6);
+            }
+        }
+    const Camera narrow = fit({}, points, {60, 400}, {96, 24, 24, 24}); // more margin than view
+    EXPECT_TRUE(std::isfinite(narrow.height));
+}
+
 TEST(Camera, FitOfAPointALineOrNothingStaysFinite)
 {
     const Eigen::Vector3d point(3, 4, 5);

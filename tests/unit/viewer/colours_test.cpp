@@ -145,6 +145,35 @@ TEST(FieldScale, IsSymmetricWhereZeroMattersAndObeysTheUser)
     EXPECT_EQ(field_scale(display, {0, 1}).ticks, 8) << "of 2.5";
 }
 
+TEST(LegendTicks, AreRoundWithBothEndsAndTellOfValuesBeyond)
+{
+    SceneLegend legend{"Thinning", "%", {.least = -0.1f, .greatest = 0.3f, .ticks = 8}};
+    const auto texts = [&](int most) {
+        std::vector<std::string> result;
+        for (const LegendTick& tick : legend_ticks(legend, most))
+            result.push_back(tick.text);
+        return result;
+    };
+    EXPECT_EQ(texts(20), (std::vector<std::string>{"-0.1", "-0.05", "0", "0.05", "0.1", "0.15", "0.2", "0.25", "0.3"}));
+    legend.above = true;
+    EXPECT_EQ(texts(5), (std::vector<std::string>{"-0.1", "0", "0.1", "0.2", "\u2265 0.3"}));
+    legend.below = true;
+    EXPECT_EQ(texts(4), (std::vector<std::string>{"\u2264 -0.1", "0.05", "\u2265 0.3"}));
+    for (int most = 2; most < 12; ++most) {
+        const auto ticks = legend_ticks(legend, most);
+        EXPECT_LE(int(ticks.size()), most);
+        EXPECT_EQ(ticks.front().share, 0);
+        EXPECT_EQ(ticks.back().share, 1);
+    }
+}
+
+TEST(LegendTicks, ValuesJustAtTheEndsAreNotBeyond)
+{
+    const ColourScale scale{.least = 0.1f, .greatest = 0.7f}; // not the same numbers in double precision
+    EXPECT_FALSE(below(scale, 0.1) || above(scale, 0.7));
+    EXPECT_TRUE(below(scale, 0.099) && above(scale, 0.701));
+}
+
 TEST(ValueText, HasThreeDigitsAndTheUnit)
 {
     EXPECT_EQ(value_text(12.345, "%"), "12.3 %");

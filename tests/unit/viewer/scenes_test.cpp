@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
@@ -140,6 +142,80 @@ TEST_F(Scenes, TheLeastAndTheGreatestValueAreMarkedWhereTheyAre)
     EXPECT_LT((on_blank.labels[1].place.head<2>() - session->blank->blank.position.col(greatest)).norm(), 1e-9);
     state.document.display.extremes = false;
     EXPECT_TRUE(part_scene(state, cache).labels.empty());
+}
+
+TEST_F(Scenes, TheLegendSaysWhetherValuesLieBeyondItsEnds)
+{
+    state.document.display.field = Field::strain_major;
+    const auto legend = [&] { return *part_scene(state, cache).legend; };
+    EXPECT_FALSE(legend().below || legend().above) << "the automatic range holds all";
+    const double least = session->blank->node.strain_major.minCoeff(),
+                 greatest = session->blank->node.strain_major.maxCoeff();
+    state.document.display.range = {{least - 0.1, (least + greatest) / 2}};
+    EXPECT_TRUE(!legend().below && legend().above);
+    state.document.display.range = {{(least + greatest) / 2, greatest + 0.1}};
+    EXPECT_TRUE(legend().below && !legend().above);
+}
+
+TEST_F(Scenes, IsolinesLieOnTheSheetOfTheirViewAndAFieldPerFaceHasNone)
+{
+    EXPECT_FALSE(part_scene(state, cache).isolines);
+    state.document.display.isolines = true;
+    const auto on_part = part_scene(state, cache).isolines, on_blank = blank_scene(state, cache).isolines;
+    ASSERT_TRUE(on_part && on_blank);
+    ASSERT_FALSE(on_part->empty());
+    EXPECT_EQ(part_scene(state, cache).isolines, on_part) << "kept";
+    ASSERT_EQ(on_blank->size(), on_part->size());
+    for (const Isoline& line : *on_blank)
+        EXPECT_EQ(line.point.row(2).cwiseAbs().maxCoeff(), 0);
+    for (const Isoline& line : *on_part) { // z = (x^2 - y^2) / 300, but for the flat triangles in between
+        const Eigen::ArrayXd x = line.point.row(0).array() - 60, y = line.point.row(1).array() - 40;
+        EXPECT_LT(((x * x - y * y) / 300 - line.point.row(2).transpose().array()).abs().maxCoeff(), 0.2);
+    }
+    state.document.display.per_face = true;
+    EXPECT_FALSE(part_scene(state, cache).isolines);
+}
+
+TEST_F(Scenes, ARegionHasItsBorderInItsColourAndItsNameOnOneOfItsFaces)
+{
+    state.document.display.extremes = false;
+    state.document.regions = {{"clamped", RegionKind::fixed, {0.1f, 0.8f, 0.3f, 1}, {3, 4, 5, 6, 200}}};
+    for (const Scene& shown : {part_scene(state, cache), blank_scene(state, cache)}) {
+        EXPECT_EQ(std::count_if(shown.lines.begin(), shown.lines.end(),
+                                [&](const auto& l) { return l->colour == state.document.regions[0].colour; }),
+                  1);
+        const auto label = std::find_if(shown.labels.begin(), shown.labels.end(),
+                                        [](const SceneLabel& l) { return l.kind == LabelKind::region; });
+        ASSERT_NE(label, shown.labels.end());
+        EXPECT_EQ(label->text, "clamped");
+    }
+    const Scene shown = part_scene(state, cache);
+    double nearest = 1e300;
+    for (const int face : state.document.regions[0].faces)
+        nearest = std::min(
+            nearest,
+            (part().position(Eigen::all, part().triangle.col(face)).rowwise().mean() - shown.labels[0].place).norm());
+    EXPECT_LT(nearest, 1e-9);
+}
+
+TEST_F(Scenes, PrincipalStrainsAreAsDenseOnTheScreenHoweverNearTheCameraIs)
+{
+    state.document.display.directions = true;
+    Camera& camera = state.view.camera[size_t(View::part)];
+    const auto glyphs = [&](double height) {
+        camera.height = height;
+        const Scene shown = part_scene(state, cache, 500);
+        Eigen::Index count = 0;
+        for (const auto& lines : shown.lines)
+            count += lines->colour == palette::stretched ? lines->point.cols() / 2 : 0;
+        return count;
+    };
+    const auto far = glyphs(300), nearer = glyphs(150);
+    EXPECT_GT(nearer, 2 * far);
+    camera.height = 160;
+    const auto before = part_scene(state, cache, 500).lines;
+    camera.height = 155;
+    EXPECT_EQ(part_scene(state, cache, 500).lines, before) << "no flicker within a step";
 }
 
 TEST_F(Scenes, AProbeShowsTheValueAtItsPlace)
@@ -326,7 +402,7 @@ Eigen::Matrix3Xd vectors(const SceneLines& lines)
 TEST(StrainGlyphs, PointAlongThePrincipalStrainsAreAsLongAndColouredBySign)
 {
     const Stretched plate;
-    const LineList lines = strain_glyphs(plate.part, plate.flat, plate.part.position, 60);
+    const LineList lines = strain_glyphs(plate.part, plate.flat, plate.part.position, 6.3);
     ASSERT_EQ(lines.size(), 4u) << "casing and core of the stretched and the squeezed ones";
     EXPECT_EQ(lines[1]->colour, palette::stretched);
     EXPECT_EQ(lines[3]->colour, palette::squeezed);
@@ -337,12 +413,41 @@ TEST(StrainGlyphs, PointAlongThePrincipalStrainsAreAsLongAndColouredBySign)
     EXPECT_NEAR(along.col(0).norm() / across.col(0).norm(), std::log(1.2) / -std::log(0.8), 1e-3);
 }
 
+TEST(StrainGlyphs, SpacingIsAPowerOfTwoNearThirtyPixelsAndEndsSomewhere)
+{
+    for (double mm_per_pixel = 0.05; mm_per_pixel < 5; mm_per_pixel *= 1.1) {
+        const double spacing = glyph_spacing(mm_per_pixel, 100);
+        EXPECT_EQ(spacing, std::exp2(std::round(std::log2(spacing))));
+        EXPECT_GT(spacing / mm_per_pixel, 30 / 1.4143);
+        EXPECT_LT(spacing / mm_per_pixel, 30 * 1.4143);
+    }
+    EXPECT_GE(glyph_spacing(1e-5, 100), 0.4);
+}
+
+TEST(StrainGlyphs, ThoseOfAWiderSpacingAreAmongThoseOfHalfOfIt)
+{
+    const Stretched plate;
+    const auto middles = [&](double spacing) {
+        const LineList lines = strain_glyphs(plate.part, plate.flat, plate.part.position, spacing);
+        std::set<std::pair<int, int>> result; // in hundredths of a mm
+        const auto& point = lines.at(1)->point;
+        for (Eigen::Index i = 0; i < point.cols(); i += 2) {
+            const Eigen::Vector3d middle = (point.col(i) + point.col(i + 1)).cast<double>() / 2 + lines[1]->origin;
+            result.emplace(std::lround(100 * middle.x()), std::lround(100 * middle.y()));
+        }
+        return result;
+    };
+    const auto wide = middles(8), narrow = middles(4);
+    EXPECT_GT(narrow.size(), 2 * wide.size());
+    EXPECT_TRUE(std::includes(narrow.begin(), narrow.end(), wide.begin(), wide.end()));
+}
+
 TEST(StrainGlyphs, OnTheBlankTheyLieInTheDirectionsThatBecomeThoseOfThePart)
 {
     const Stretched plate;
     Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, plate.part.vertices());
     flat.topRows<2>() = plate.flat.blank.position;
-    const LineList lines = strain_glyphs(plate.part, plate.flat, flat, 60);
+    const LineList lines = strain_glyphs(plate.part, plate.flat, flat, 6.3);
     ASSERT_EQ(lines.size(), 4u);
     const Eigen::Vector2d x = plate.turn.col(0), y = plate.turn.col(1);
     const Eigen::Matrix3Xd along = vectors(*lines[1]), across = vectors(*lines[3]);

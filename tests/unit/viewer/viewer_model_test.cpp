@@ -141,6 +141,31 @@ TEST_F(ViewerModelTest, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
     EXPECT_EQ(document.session.grid->boundary.corner, before);
 }
 
+TEST_F(ViewerModelTest, AViewThatShowsAllOfThePartStillDoesSoInAnotherSize)
+{
+    open();
+    const auto free = [&](glm::dvec2 size) { // left, right, top, bottom
+        std::array<double, 4> result{1e300, 1e300, 1e300, 1e300};
+        for (const auto point : document.session.part->mesh.position.colwise()) {
+            const glm::dvec2 p = pixel_of(state.view.camera[size_t(View::part)], point, size);
+            result = {std::min(result[0], p.x), std::min(result[1], size.x - p.x), std::min(result[2], p.y),
+                      std::min(result[3], size.y - p.y)};
+        }
+        return result;
+    };
+    for (const glm::dvec2 size : {glm::dvec2(400, 300), {1400, 500}, {500, 1200}}) {
+        model.resized(View::part, size);
+        const auto [left, right, top, bottom] = free(size);
+        EXPECT_GT(left, 90) << "room for the legend";
+        EXPECT_NEAR(std::min(right, std::min(top, bottom)), 24, 1e-6);
+    }
+    Camera& moved = const_cast<Camera&>(state.view.camera[size_t(View::part)]);
+    moved.height *= 2;
+    const Camera before = moved;
+    model.resized(View::part, {800, 600});
+    EXPECT_EQ(state.view.camera[size_t(View::part)], before) << "what the user has turned to stays";
+}
+
 TEST_F(ViewerModelTest, EveryPickingToolTakesFacesAndSaysNothing)
 {
     open();

@@ -1,0 +1,94 @@
+#include "app/viewer/views/label_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace spia::viewer {
+namespace {
+
+const glm::dvec2 view(800, 600);
+
+std::vector<LabelWish> crowd(int count)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> x(200, 500), y(200, 400), width(8, 90);
+    std::vector<LabelWish> wishes;
+    for (int i = 0; i < count; ++i)
+        wishes.push_back({{x(random), y(random)}, {width(random), 16}, LabelKind(i % 3)});
+    return wishes;
+}
+
+TEST(LabelLayout, NoLabelCoversAnotherOrADotOrTheLegendOrLeavesTheView)
+{
+    const PixelBox legend{{150, 250}, {300, 500}};
+    const auto wishes = crowd(40);
+    const auto placed = place_labels(wishes, view, {legend});
+    EXPECT_GT(placed.size(), 30u);
+    for (size_t i = 0; i < placed.size(); ++i) {
+        EXPECT_TRUE(inside(placed[i].box, view));
+        EXPECT_FALSE(meet(placed[i].box, legend));
+        EXPECT_LT(glm::length(placed[i].box.greatest - placed[i].box.least - wishes[placed[i].wish].size), 1e-9);
+        for (size_t j = 0; j < i; ++j)
+            EXPECT_FALSE(meet(placed[i].box, placed[j].box)) << i << " and " << j;
+        for (const LabelWish& wish : wishes) {
+            const bool dot = wish.kind != LabelKind::region;
+            EXPECT_FALSE(dot && meet(placed[i].box, around(wish.place, {8, 8})));
+        }
+    }
+}
+
+TEST(LabelLayout, TheSameWishesGetTheSamePlaces)
+{
+    const auto once = place_labels(crowd(40), view, {}), again = place_labels(crowd(40), view, {});
+    ASSERT_EQ(once.size(), again.size());
+    for (size_t i = 0; i < once.size(); ++i) {
+        EXPECT_EQ(once[i].wish, again[i].wish);
+        EXPECT_EQ(once[i].box.least, again[i].box.least);
+    }
+}
+
+TEST(LabelLayout, AWatchedPlaceChoosesBeforeACornerAndACornerBeforeARegion)
+{
+    const glm::dvec2 size(60, 16);
+    const auto alone = place_labels({{{400, 300}, size, LabelKind::watched}}, view, {});
+    const auto placed = place_labels({{{400, 300}, size, LabelKind::region},
+                                      {{396, 300}, size, LabelKind::corner},
+                                      {{400, 300}, size, LabelKind::watched}},
+                                     view, {});
+    ASSERT_EQ(placed.size(), 3u);
+    EXPECT_EQ(placed[0].wish, 0u);
+    EXPECT_EQ(placed[2].box.least, alone[0].box.least);
+    EXPECT_FALSE(placed[2].pushed);
+    EXPECT_TRUE(placed[0].pushed) << "the dots are in its place";
+}
+
+TEST(LabelLayout, OnlyALabelThatHadToGoFarIsPushed)
+{
+    const std::vector<LabelWish> wish{{{400, 300}, {60, 16}, LabelKind::watched}};
+    EXPECT_FALSE(place_labels(wish, view, {}).at(0).pushed);
+    const PixelBox wall{{320, 270}, {480, 330}};
+    const auto pushed = place_labels(wish, view, {wall});
+    ASSERT_EQ(pushed.size(), 1u);
+    EXPECT_TRUE(pushed[0].pushed);
+    const glm::dvec2 near = glm::clamp(wish[0].place, pushed[0].box.least, pushed[0].box.greatest);
+    EXPECT_LT(glm::length(near - wish[0].place), 120);
+}
+
+TEST(LabelLayout, WhatIsOutsideOfTheViewHasNoLabel)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<LabelWish> wishes;
+    for (const glm::dvec2 place : {glm::dvec2(-1, 300), {801, 300}, {400, -1}, {400, 601}, {nan, nan}})
+        wishes.push_back({place, {40, 16}, LabelKind::watched});
+    EXPECT_TRUE(place_labels(wishes, view, {}).empty());
+    wishes.push_back({{799, 1}, {40, 16}, LabelKind::watched}); // in the corner, but it fits in
+    const auto placed = place_labels(wishes, view, {});
+    ASSERT_EQ(placed.size(), 1u);
+    EXPECT_EQ(placed[0].wish, 5u);
+    EXPECT_TRUE(inside(placed[0].box, view));
+}
+
+} // namespace
+} // namespace spia::viewer
