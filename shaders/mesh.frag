@@ -114,6 +114,6 @@ void main()
     }
     if ((mark & hovered) != 0u) { // away from its own brightness: seen on any colour
         float brightness = dot(colour.rgb, vec3(0.30, 0.59, 0.11));
-        colour.rgb = mix(colour.rgb, brightness > 0.5 ? vec3(0.05, 0.05, 0.1) : vec3(1), has_field ? 0.42 : 0.55);
+        colour.rgb = mix(colour.rgb, brightness > 0.5 ? vec3(0.05, 0.05, 0.1) : vec3(1), 0.55);
     }
 }

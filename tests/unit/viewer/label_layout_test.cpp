@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace spia::viewer {
 namespace {
@@ -52,16 +53,16 @@ TEST(LabelLayout, TheSameWishesGetTheSamePlaces)
 TEST(LabelLayout, AWatchedPlaceChoosesBeforeACornerAndACornerBeforeARegion)
 {
     const glm::dvec2 size(60, 16);
-    const auto alone = place_labels({{{400, 300}, size, LabelKind::watched}}, view, {});
-    const auto placed = place_labels({{{400, 300}, size, LabelKind::region},
-                                      {{396, 300}, size, LabelKind::corner},
-                                      {{400, 300}, size, LabelKind::watched}},
-                                     view, {});
-    ASSERT_EQ(placed.size(), 3u);
-    EXPECT_EQ(placed[0].wish, 0u);
-    EXPECT_EQ(placed[2].box.least, alone[0].box.least);
-    EXPECT_FALSE(placed[2].pushed);
-    EXPECT_TRUE(placed[0].pushed) << "the dots are in its place";
+    const LabelWish region{{445, 292}, size, LabelKind::region}, corner{{400, 288}, size, LabelKind::corner},
+        watched{{400, 300}, size, LabelKind::watched}; // any two want the same place
+    for (const auto& [later, first] : {std::pair(region, corner), {region, watched}, {corner, watched}}) {
+        const PixelBox wanted = place_labels({first}, view, {}).at(0).box;
+        EXPECT_TRUE(meet(wanted, place_labels({later}, view, {}).at(0).box));
+        const auto placed = place_labels({later, first}, view, {});
+        ASSERT_EQ(placed.size(), 2u);
+        EXPECT_EQ(placed[1].wish, 1u);
+        EXPECT_EQ(placed[1].box.least, wanted.least);
+    }
 }
 
 TEST(LabelLayout, OnlyALabelThatHadToGoFarIsPushed)
