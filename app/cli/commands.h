@@ -17,6 +17,9 @@ struct RunArguments {
     std::vector<double> direction;
     std::string grid_method = "automatic", ends = "averaged";
     std::vector<std::string> formats;
+    std::string export_unit = "mm", name; ///< of the files; empty name: the part's
+    std::vector<std::string> glb_nodes = {"part", "blank", "quad_mesh", "surface", "control_net"};
+    std::vector<std::string> csv_tables = {"fields", "outline"};
     bool strict = false, weld = false, keep_largest = false;
 };
 

@@ -74,6 +74,20 @@ int main(int count, char** values)
         ->check(CLI::IsMember(output_formats()))
         ->type_name("LIST")
         ->capture_default_str();
+    run_command->add_option("--export-unit", run.export_unit, "of IGES, STEP, DXF, CSV and VTU (glTF: always metres)")
+        ->check(CLI::IsMember({"mm", "cm", "m", "inch"}))
+        ->capture_default_str();
+    run_command->add_option("--glb-nodes", run.glb_nodes, "what the GLB file shows")
+        ->delimiter(',')
+        ->check(CLI::IsMember(run.glb_nodes))
+        ->type_name("LIST")
+        ->capture_default_str();
+    run_command->add_option("--csv-tables", run.csv_tables, "which CSV files")
+        ->delimiter(',')
+        ->check(CLI::IsMember(run.csv_tables))
+        ->type_name("LIST")
+        ->capture_default_str();
+    run_command->add_option("--name", run.name, "of the files, without ending (default: the part's)");
     run_command->add_option("--json", run.json, "write the figures of the run")->type_name("FILE");
     run_command->add_flag("--strict", run.strict, "exit 1 if the result has shortcomings");
     run_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 
@@ -48,6 +49,21 @@ SessionOptions options(const RunArguments& arguments)
     return result;
 }
 
+OutputOptions output_options(const RunArguments& arguments)
+{
+    const auto among = [](const std::vector<std::string>& list, const char* name) {
+        return std::find(list.begin(), list.end(), name) != list.end();
+    };
+    const auto& nodes = arguments.glb_nodes;
+    OutputOptions result;
+    result.unit = length_unit(arguments.export_unit);
+    result.name = arguments.name;
+    result.glb = {among(nodes, "part"), among(nodes, "blank"), among(nodes, "quad_mesh"), among(nodes, "surface"),
+                  among(nodes, "control_net")};
+    result.csv = {among(arguments.csv_tables, "fields"), among(arguments.csv_tables, "outline")};
+    return result;
+}
+
 void print_doctor(const PartFile& part)
 {
     for (const std::string& note : part.notes)
@@ -90,6 +106,7 @@ int run(const RunArguments& arguments)
     Session session;
     session.file = arguments.part;
     session.options = options(arguments);
+    const OutputOptions wanted = output_options(arguments);
     std::exception_ptr error; // of a stage after the solver: the blank is worth writing all the same
     std::optional<Failure> failure;
     for (const Stage stage : chain) {
@@ -109,12 +126,12 @@ int run(const RunArguments& arguments)
         if (stage == Stage::read) {
             print_doctor(*session.part);
             require_possible(session);
-            require_place(session, arguments.folder, arguments.formats, arguments.json);
+            require_place(session, arguments.folder, arguments.formats, arguments.json, wanted);
         }
     }
     const auto clock = std::chrono::steady_clock::now();
     JobDisplay display{"write"};
-    const auto files = write_outputs(session, arguments.folder, arguments.formats, display.progress());
+    const auto files = write_outputs(session, arguments.folder, arguments.formats, wanted, display.progress());
     const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     display.done(write_seconds);
     if (!arguments.json.empty())

@@ -18,6 +18,7 @@
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/state_report.h"
 #include "app/viewer/panels/ui.h"
+#include "app/viewer/pictures.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/render/renderer.h"
 #include "app/viewer/render/view_images.h"
@@ -312,7 +313,7 @@ private:
             if (const auto* picture = std::get_if<Screenshot>(&action))
                 pictures_.push_back(*picture);
             else if (const auto* wanted = std::get_if<WriteReport>(&action))
-                write_report(wanted->file);
+                write_report(*wanted);
             else if (std::get_if<Quit>(&action))
                 quit_ = true;
             else
@@ -335,12 +336,12 @@ private:
             return;
         for (const Screenshot& wanted : std::exchange(pictures_, {}))
             try {
-                if (wanted.view) {
-                    const glm::dvec2 size(ui_.view_size[size_t(*wanted.view)].x, ui_.view_size[size_t(*wanted.view)].y);
-                    const int w = wanted.width > 0 ? wanted.width : int(size.x),
-                              h = wanted.height > 0 ? wanted.height : int(size.y);
-                    write_png(wanted.file, view_picture(*wanted.view, w, h));
-                } else
+                if (wanted.view)
+                    write_png(wanted.file, view_picture(wanted));
+                else if (wanted.width > 0 && wanted.height > 0)
+                    write_png(wanted.file, picture_of_window(renderer_, model_, cache_, ui_, {width, height},
+                                                             wanted.width, wanted.height));
+                else
                     write_png(wanted.file, window_picture(width, height));
                 model_.say(Severity::done, fmt::format("Wrote {}", wanted.file.string()));
             } catch (const std::exception& error) {
@@ -348,10 +349,12 @@ private:
             }
     }
 
-    Picture view_picture(View view, int width, int height)
+    Picture view_picture(const Screenshot& wanted)
     {
-        return renderer_.picture(scene(view, model_.state(), cache_, height / ui_.scale),
-                                 model_.state().view.camera[size_t(view)], width, height, look());
+        const ImVec2 size = ui_.view_size[size_t(*wanted.view)];
+        return picture_of_view(
+            renderer_, model_, model_.state(), cache_, *wanted.view, wanted.width > 0 ? wanted.width : int(size.x),
+            wanted.height > 0 ? wanted.height : int(size.y), {wanted.legend, wanted.labels, !wanted.transparent});
     }
 
     static Picture window_picture(int width, int height)
@@ -368,19 +371,14 @@ private:
         return picture;
     }
 
-    void write_report(const std::filesystem::path& file)
+    void write_report(const WriteReport& wanted)
     {
         const Session& session = model_.state().document.session;
         if (!session.blank)
             throw InputError("There is nothing to report yet: unfold the part first.");
-        std::vector<ReportPicture> pictures;
-        const char* titles[] = {"Part", "Blank", "Quad mesh", "NURBS surface"};
-        for (const View view : all_views)
-            if (view == View::part || view == View::blank || (view == View::quads && session.lifted) ||
-                (view == View::surface && session.surface))
-                pictures.push_back({titles[size_t(view)], png(view_picture(view, 1000, 700))});
-        write_html_report(file, session, pictures);
-        model_.say(Severity::done, fmt::format("Wrote {}", file.string()));
+        write_html_report(wanted.file, session, report_pictures(renderer_, model_, cache_, wanted.options),
+                          wanted.options);
+        model_.say(Severity::done, fmt::format("Wrote {}", wanted.file.string()));
     }
 
     /// A new part belongs into the list of recent files.

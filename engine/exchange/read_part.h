@@ -2,20 +2,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/length_unit.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
-
-enum class LengthUnit { mm, cm, m, inch };
-
-double millimetres(LengthUnit unit); ///< length of one unit
-std::string_view name(LengthUnit unit);
-LengthUnit length_unit(std::string_view name); ///< @throws InputError unless mm, cm, m or inch
 
 struct ReadOptions {
     std::optional<LengthUnit> unit = {}; ///< of the file; not given: m for glTF (its specification), else mm

@@ -2,18 +2,22 @@
 #include <filesystem>
 
 #include "engine/exchange/blank_outline.h"
+#include "engine/exchange/length_unit.h"
 
 namespace spia {
 
 /// vertex,x,y,z,blank_x,blank_y,thickness,thinning,strain_major,strain_minor,strain_equivalent - one row per
 /// vertex in the order of the input. Each number has the fewest digits that read back as the same double.
+/// Columns of lengths in another unit than mm say so: x_inch, y_inch, z_inch, blank_x_inch, blank_y_inch, thickness_inch.
 /// @param number what each vertex is called in the first column; empty: 0, 1, 2, ...
 /// @throws InputError if blank or fields do not match the part; ExchangeError if the file cannot be written
 void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
-                      const SheetFields& node_fields, const std::vector<int>& number = {});
+                      const SheetFields& node_fields, const std::vector<int>& number = {},
+                      LengthUnit unit = LengthUnit::mm);
 
 /// loop,index,x,y - one row per point; loop 0 is the outer one. Numbers as above.
 /// @throws InputError if there is no outline; ExchangeError if the file cannot be written
-void write_outline_csv(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops);
+void write_outline_csv(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops,
+                       LengthUnit unit = LengthUnit::mm);
 
 } // namespace spia

@@ -88,11 +88,24 @@ Extent extent_of(const std::vector<OutlineLoop>& loops)
     return extent;
 }
 
-void write_header(DxfText& dxf, const Extent& extent, int next_handle)
+/// As $INSUNITS counts.
+int dxf_number(LengthUnit unit)
 {
+    switch (unit) {
+    case LengthUnit::inch: return 1;
+    case LengthUnit::mm: return 4;
+    case LengthUnit::cm: return 5;
+    case LengthUnit::m: return 6;
+    }
+    return 4;
+}
+
+void write_header(DxfText& dxf, const Extent& extent, int next_handle, LengthUnit unit)
+{
+    const int metric = unit != LengthUnit::inch;
     dxf.begin_section("HEADER");
     dxf(9, "$ACADVER")(1, "AC1015")(9, "$DWGCODEPAGE")(3, "ANSI_1252");
-    dxf(9, "$INSUNITS")(70, 4)(9, "$MEASUREMENT")(70, 1); // millimetres, metric
+    dxf(9, "$INSUNITS")(70, dxf_number(unit))(9, "$MEASUREMENT")(70, metric);
     dxf(9, "$EXTMIN").point(10, extent.low)(30, 0.0)(9, "$EXTMAX").point(10, extent.high)(30, 0.0);
     dxf(9, "$HANDSEED").handle(5, next_handle);
     dxf.end_section();
@@ -184,12 +197,15 @@ void write_objects(DxfText& dxf)
 
 } // namespace
 
-void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops)
+void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops_mm, LengthUnit unit)
 {
-    require_outline(loops);
+    require_outline(loops_mm);
+    std::vector<OutlineLoop> loops = loops_mm;
+    for (OutlineLoop& loop : loops)
+        loop /= millimetres(unit);
     const Extent extent = extent_of(loops);
     DxfText dxf;
-    write_header(dxf, extent, first_entity + int(loops.size()));
+    write_header(dxf, extent, first_entity + int(loops.size()), unit);
     write_tables(dxf, extent);
     write_blocks(dxf);
     write_loops(dxf, loops);

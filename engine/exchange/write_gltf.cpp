@@ -112,20 +112,22 @@ int material(tinygltf::Model& model, const std::string& name, const Eigen::Vecto
 
 class SceneWriter {
 public:
-    explicit SceneWriter(const ExportScene& scene)
-        : scene_(scene), range_(colour_range(scene.fields->thinning)), centre_(whole_centre(scene.part->position))
+    SceneWriter(const ExportScene& scene, const GltfNodes& wanted)
+        : scene_(scene), wanted_(wanted), range_(colour_range(scene.fields->thinning)),
+          centre_(whole_centre(scene.part->position))
     {
     }
 
     tinygltf::Model model()
     {
         add_root();
-        add_part_and_blank();
-        if (scene_.quad_mesh)
+        if (wanted_.part || wanted_.blank)
+            add_part_and_blank();
+        if (scene_.quad_mesh && wanted_.quad_mesh)
             add_quad_mesh(*scene_.quad_mesh);
-        if (scene_.surface)
+        if (scene_.surface && wanted_.surface)
             add_surface(*scene_.surface);
-        if (scene_.control_net)
+        if (scene_.control_net && wanted_.control_net)
             add_control_net(*scene_.control_net);
         return std::move(model_);
     }
@@ -204,7 +206,15 @@ private:
         const int faces = buffer_.indices(part.triangle);
         const int sheet = material(model_, "sheet", {1, 1, 1}); // white: the vertex colours show as they are
 
-        auto attributes = shared;
+        if (wanted_.part)
+            add_part(shared, faces, sheet);
+        if (wanted_.blank)
+            add_blank(shared, faces, sheet);
+    }
+
+    void add_part(std::map<std::string, int> attributes, int faces, int sheet)
+    {
+        const TriMesh& part = *scene_.part;
         attributes["POSITION"] = points(part.position);
         attributes["NORMAL"] = buffer_.vertices(unit(vertex_normals(part)));
         tinygltf::Mesh mesh;
@@ -212,7 +222,12 @@ private:
         mesh.extras = Value(colour_extras());
         mesh.primitives = {primitive(TINYGLTF_MODE_TRIANGLES, faces, attributes, sheet)};
         add_node(mesh, centre_);
+    }
 
+    void add_blank(std::map<std::string, int> attributes, int faces, int sheet)
+    {
+        const TriMesh& part = *scene_.part;
+        const int count = part.vertices();
         Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, count);
         flat.topRows(2) = scene_.blank->position;
         const Eigen::Vector3d origin = whole_centre(flat);
@@ -220,7 +235,9 @@ private:
         Eigen::MatrixXf up = Eigen::MatrixXf::Zero(3, count);
         up.row(2).setOnes();
         attributes["NORMAL"] = buffer_.vertices(up);
+        tinygltf::Mesh mesh;
         mesh.name = "blank";
+        mesh.extras = Value(colour_extras());
         mesh.primitives = {primitive(TINYGLTF_MODE_TRIANGLES, faces, attributes, sheet)};
         const Eigen::Vector3d low = part.position.rowwise().minCoeff(), high = part.position.rowwise().maxCoeff();
         const double gap = 0.1 * (high - low).norm();
@@ -271,6 +288,7 @@ private:
     }
 
     const ExportScene& scene_;
+    const GltfNodes wanted_;
     const ColourRange range_;      // of thinning
     const Eigen::Vector3d centre_; // mm, of the part
     tinygltf::Model model_;
@@ -279,10 +297,13 @@ private:
 
 } // namespace
 
-void write_gltf(const std::filesystem::path& path, const ExportScene& scene)
+void write_gltf(const std::filesystem::path& path, const ExportScene& scene, const GltfNodes& nodes)
 {
     require_complete(scene);
-    tinygltf::Model model = SceneWriter(scene).model();
+    tinygltf::Model model = SceneWriter(scene, nodes).model();
+    if (model.meshes.empty())
+        throw InputError(
+            fmt::format("there is nothing to write to {}: choose a node that the result has", path.string()));
     tinygltf::TinyGLTF writer;
     std::ostringstream stream;
     const bool binary = path.extension() != ".gltf";

@@ -41,16 +41,28 @@ Handle(TColStd_HArray1OfReal) knots_from_minus_degree(const std::vector<double>&
     return result;
 }
 
+/// What IGES calls the unit in its header.
+const char* iges_name(LengthUnit unit)
+{
+    switch (unit) {
+    case LengthUnit::mm: return "MM";
+    case LengthUnit::cm: return "CM";
+    case LengthUnit::m: return "M";
+    case LengthUnit::inch: return "INCH";
+    }
+    return "MM";
+}
+
 /// Filled field by field, not through a kernel surface: that way nothing between us and the file can touch a
-/// number.
-Handle(IGESGeom_BSplineSurface) entity_128(const NurbsSurface& surface)
+/// number. OpenCASCADE scales shapes, not entities, so the poles are in the unit of the file here.
+Handle(IGESGeom_BSplineSurface) entity_128(const NurbsSurface& surface, LengthUnit unit)
 {
     const int last_u = surface.count_u - 1, last_v = surface.count_v - 1;
     Handle(TColStd_HArray2OfReal) weights = new TColStd_HArray2OfReal(0, last_u, 0, last_v);
     Handle(TColgp_HArray2OfXYZ) poles = new TColgp_HArray2OfXYZ(0, last_u, 0, last_v);
     for (int j = 0; j <= last_v; ++j)
         for (int i = 0; i <= last_u; ++i) {
-            const auto point = surface.control.col(surface.index(i, j));
+            const Eigen::Vector3d point = surface.control.col(surface.index(i, j)) / millimetres(unit);
             poles->SetValue(i, j, gp_XYZ(point.x(), point.y(), point.z()));
             weights->SetValue(i, j, surface.weight[surface.index(i, j)]);
         }
@@ -78,7 +90,7 @@ double largest_coordinate(std::span<const NurbsSurface> surfaces)
 }
 
 void fill_header(const Handle(IGESData_IGESModel) & model, const std::string& file_name, const std::string& part_name,
-                 double largest)
+                 double largest, LengthUnit unit)
 {
     IGESData_GlobalSection header = model->GlobalSection();
     const std::string date = time_stamp("%Y%m%d.%H%M%S");
@@ -91,21 +103,21 @@ void fill_header(const Handle(IGESData_IGESModel) & model, const std::string& fi
     header.SetCompanyName(text(""));
     header.SetDate(text(date));
     header.SetLastChangeDate(text(date));
-    header.SetResolution(1e-6); // mm; readers take it as their tolerance
-    header.SetMaxCoord(largest);
+    header.SetResolution(1e-6 / millimetres(unit)); // readers take it as their tolerance
+    header.SetMaxCoord(largest / millimetres(unit));
     model->SetGlobalSection(header);
 }
 
 std::string iges_text(std::span<const NurbsSurface> surfaces, const std::string& file_name,
-                      const std::string& part_name)
+                      const std::string& part_name, LengthUnit unit)
 {
     const OcctSession session;
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-    Interface_Static::SetCVal("write.iges.unit", "MM");
-    IGESControl_Writer collector("MM", 0);
+    Interface_Static::SetCVal("write.iges.unit", iges_name(unit));
+    IGESControl_Writer collector(iges_name(unit), 0);
     for (const NurbsSurface& surface : surfaces)
-        collector.AddEntity(entity_128(surface));
-    fill_header(collector.Model(), file_name, part_name, largest_coordinate(surfaces));
+        collector.AddEntity(entity_128(surface, unit));
+    fill_header(collector.Model(), file_name, part_name, largest_coordinate(surfaces), unit);
     collector.ComputeModel();
 
     IGESData_IGESWriter writer(collector.Model());
@@ -119,9 +131,10 @@ std::string iges_text(std::span<const NurbsSurface> surfaces, const std::string&
 
 } // namespace
 
-void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name)
+void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name,
+                LengthUnit unit)
 {
-    write_cad_file(path, surfaces, [&] { return iges_text(surfaces, path.filename().string(), part_name); });
+    write_cad_file(path, surfaces, [&] { return iges_text(surfaces, path.filename().string(), part_name, unit); });
 }
 
 } // namespace spia

@@ -3,24 +3,26 @@
 #include <span>
 #include <string>
 
+#include "engine/exchange/length_unit.h"
 #include "engine/nurbs/surface.h"
 
 namespace spia {
 
-/// Writes an IGES 5.3 file in mm: one plain entity 128 per surface, in the order given. Every number has 17
-/// digits, so poles, weights and knots come back bit for bit; lines keep to 80 columns. The header names this
+/// Writes an IGES 5.3 file: one plain entity 128 per surface, in the order given. Every number has 17
+/// digits, so poles (in mm), weights and knots come back bit for bit; lines keep to 80 columns. The header names this
 /// program, never the user; its date comes from time_stamp() (provenance.h): the same input gives the same
 /// bytes under SOURCE_DATE_EPOCH.
 /// @param part_name names the product in the header
+/// @param unit what the lengths in the file are, also its header's
 /// @throws InputError if a surface is not one (see require_exchangeable); ExchangeError if the file cannot be
 /// written
 void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces,
-                const std::string& part_name = "part");
+                const std::string& part_name = "part", LengthUnit unit = LengthUnit::mm);
 
 inline void write_iges(const std::filesystem::path& path, const NurbsSurface& surface,
-                       const std::string& part_name = "part")
+                       const std::string& part_name = "part", LengthUnit unit = LengthUnit::mm)
 {
-    write_iges(path, std::span(&surface, 1), part_name);
+    write_iges(path, std::span(&surface, 1), part_name, unit);
 }
 
 } // namespace spia

@@ -36,6 +36,18 @@ Handle(Interface_HArray1OfHAsciiString) one_text(const std::string& value)
     return new Interface_HArray1OfHAsciiString(1, 1, text(value));
 }
 
+/// OpenCASCADE's name of the unit.
+const char* occt_name(LengthUnit unit)
+{
+    switch (unit) {
+    case LengthUnit::mm: return "MM";
+    case LengthUnit::cm: return "CM";
+    case LengthUnit::m: return "M";
+    case LengthUnit::inch: return "INCH";
+    }
+    return "MM";
+}
+
 TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces)
 {
     TopoDS_Shell shell;
@@ -109,11 +121,11 @@ std::string with_encoded_names(const std::string& utf8)
 }
 
 std::string step_text(std::span<const NurbsSurface> surfaces, const std::string& file_name,
-                      const std::string& part_name)
+                      const std::string& part_name, LengthUnit unit)
 {
     const OcctSession session;
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-    Interface_Static::SetCVal("write.step.unit", "MM");
+    Interface_Static::SetCVal("write.step.unit", occt_name(unit));
     Interface_Static::SetCVal("write.step.schema", "AP242DIS");
     Interface_Static::SetCVal("write.step.product.name", part_name.c_str());
     Interface_Static::SetIVal("write.step.assembly", 0);
@@ -147,9 +159,10 @@ std::string step_text(std::span<const NurbsSurface> surfaces, const std::string&
 
 } // namespace
 
-void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name)
+void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name,
+                LengthUnit unit)
 {
-    write_cad_file(path, surfaces, [&] { return step_text(surfaces, path.filename().string(), part_name); });
+    write_cad_file(path, surfaces, [&] { return step_text(surfaces, path.filename().string(), part_name, unit); });
 }
 
 } // namespace spia

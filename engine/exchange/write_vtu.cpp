@@ -33,22 +33,34 @@ template <class Matrix> std::string array(const std::string& name, const Matrix&
         vtk_type<Number>(), escaped(name), components, base64(bytes));
 }
 
-std::string sheet_fields(const SheetFields& fields)
+std::string sheet_fields(const SheetFields& fields, double mm)
 {
-    std::string result;
+    std::string result = array("thickness", Eigen::VectorXd(fields.thickness / mm));
     for (const NamedField& field : forming_fields(fields))
-        result += array(field.name, *field.value);
+        if (field.value != &fields.thickness)
+            result += array(field.name, *field.value);
     for (const NamedField& field : stress_fields(fields))
         result += array(field.name, *field.value);
     return result + array("direction_major", fields.direction_major, 3) + array("necking", fields.necking);
 }
 
-std::string blank_fields(const TriMesh& part, const Blank& blank)
+std::string blank_fields(const TriMesh& part, const Blank& blank, double mm)
 {
-    const Eigen::VectorXd x = blank.position.row(0), y = blank.position.row(1);
+    const Eigen::VectorXd x = blank.position.row(0) / mm, y = blank.position.row(1) / mm;
     Eigen::Matrix3Xd displacement = -part.position;
     displacement.topRows(2) += blank.position;
+    displacement /= mm;
     return array("blank_x", x) + array("blank_y", y) + array("displacement_to_blank", displacement, 3);
+}
+
+/// A text of VTK: the codes of its characters and a zero.
+std::string text_array(const std::string& name, std::string_view text)
+{
+    std::string codes;
+    for (const char c : text)
+        codes += fmt::format("{} ", int(c));
+    return fmt::format("<DataArray type=\"String\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}0</DataArray>\n",
+                       name, codes);
 }
 
 std::string cells(const TriMesh& part)
@@ -66,26 +78,31 @@ std::string cells(const TriMesh& part)
 } // namespace
 
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
-               const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra)
+               const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra,
+               LengthUnit unit)
 {
+    const double mm = millimetres(unit);
     require_blank_of(part, blank);
     require_fields(face_fields, part.triangles(), "face");
     require_fields(node_fields, part.vertices(), "vertex");
-    std::string point_data = sheet_fields(node_fields) + blank_fields(part, blank);
+    std::string point_data = sheet_fields(node_fields, mm) + blank_fields(part, blank, mm);
     for (const NamedField& field : extra) {
         require_finite(field, part.vertices(), "vertex");
-        point_data += array(field.name, *field.value);
+        point_data += array(field.name, Eigen::VectorXd(*field.value / mm));
     }
     write_atomically(
-        path, fmt::format("<?xml version=\"1.0\"?>\n<!-- {} : lengths mm, stresses MPa, strains logarithmic -->\n"
-                          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                          "header_type=\"UInt64\">\n"
-                          "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-                          "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
-                          "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
-                          "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-                          program_name(), part.vertices(), part.triangles(), point_data, sheet_fields(face_fields),
-                          array("Points", part.position, 3), cells(part)));
+        path,
+        fmt::format(
+            "<?xml version=\"1.0\"?>\n<!-- {} : lengths {}, stresses MPa, strains logarithmic -->\n"
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+            "header_type=\"UInt64\">\n"
+            "<UnstructuredGrid>\n<FieldData>\n{}</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+            "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
+            "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
+            "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+            program_name(), name(unit), text_array("length_unit", name(unit)), part.vertices(), part.triangles(),
+            point_data, sheet_fields(face_fields, mm), array("Points", Eigen::Matrix3Xd(part.position / mm), 3),
+            cells(part)));
 }
 
 } // namespace spia

@@ -2,17 +2,20 @@
 #include <filesystem>
 #include <span>
 
+#include "engine/exchange/length_unit.h"
 #include "engine/exchange/sheet_field_list.h"
 
 namespace spia {
 
 /// Writes the part as a VTK XML unstructured grid for ParaView, binary, every number in full. Point data: the
 /// node fields, blank_x and blank_y, displacement_to_blank ("Warp By Vector" with factor 1 shows the blank in
-/// the plane z = 0) and the extra fields (e.g. the deviation of the surface). Cell data: the face fields.
-/// @param extra one value per vertex each
+/// the plane z = 0) and the extra lengths (e.g. the deviation of the surface). Cell data: the face fields. Field data:
+/// length_unit, the name of the unit of points, displacement, thickness and extra fields.
+/// @param extra one length per vertex each, mm
 /// @throws InputError if the fields do not match the part or are not finite; ExchangeError if the file cannot
 /// be written
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
-               const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {});
+               const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {},
+               LengthUnit unit = LengthUnit::mm);
 
 } // namespace spia

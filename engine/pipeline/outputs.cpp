@@ -22,17 +22,44 @@ namespace fs = std::filesystem;
 namespace spia {
 namespace {
 
-bool needs_surface(const std::string& format) { return format == "iges" || format == "step"; }
+std::string file_stem(const Session& session, const OutputOptions& options)
+{
+    return options.name.empty() ? session.file.stem().string() : options.name;
+}
 
-/// @throws InputError if the format is unknown
-std::vector<std::string> file_names(const std::string& format, const Session& session)
+/// Whether the session has anything for a file of this format.
+bool has_content(const std::string& format, const Session& session, const OutputOptions& options)
+{
+    if (format == "iges" || format == "step")
+        return session.surface != nullptr;
+    const GltfNodes& glb = options.glb;
+    return format != "glb" || glb.part || glb.blank || (glb.quad_mesh && session.lifted) ||
+           ((glb.surface || glb.control_net) && session.surface);
+}
+
+/// @throws InputError if the format is unknown, the name is none, or nothing is chosen of the format
+std::vector<std::string> file_names(const std::string& format, const Session& session, const OutputOptions& options)
 {
     if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
         throw InputError(
             fmt::format("the format \"{}\" is not known; known are {}", format, fmt::join(output_formats(), ", ")));
-    if (format == "csv")
-        return {"fields.csv", "outline.csv"};
-    return {session.file.stem().string() + "." + format};
+    if (options.name.find_first_of(std::string_view("/\\\0", 3)) != std::string::npos || options.name == "." ||
+        options.name == "..")
+        throw InputError(fmt::format("\"{}\" is no name of a file; leave out folders", options.name));
+    if (format == "csv") {
+        if (!options.csv.fields && !options.csv.outline)
+            throw InputError("nothing is chosen of the CSV tables; take fields, outline or both");
+        const std::string first = options.name.empty() ? "" : options.name + "-";
+        std::vector<std::string> names;
+        if (options.csv.fields)
+            names.push_back(first + "fields.csv");
+        if (options.csv.outline)
+            names.push_back(first + "outline.csv");
+        return names;
+    }
+    if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
+        throw InputError("nothing is chosen of the GLB file; take part, blank, quad_mesh, surface or control_net");
+    return {file_stem(session, options) + "." + format};
 }
 
 } // namespace
@@ -43,8 +70,19 @@ const std::vector<std::string>& output_formats()
     return formats;
 }
 
+std::vector<fs::path> output_files(const Session& session, const fs::path& folder,
+                                   const std::vector<std::string>& formats, const OutputOptions& options)
+{
+    std::vector<fs::path> files;
+    for (const std::string& format : formats)
+        for (const std::string& file : file_names(format, session, options))
+            if (has_content(format, session, options))
+                files.push_back(folder / file);
+    return files;
+}
+
 void require_place(const Session& session, const fs::path& folder, const std::vector<std::string>& formats,
-                   const fs::path& other)
+                   const fs::path& other, const OutputOptions& options)
 {
     std::error_code failed;
     fs::create_directories(folder, failed);
@@ -57,7 +95,7 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
     };
     std::vector<fs::path> files;
     for (const std::string& format : formats)
-        for (const std::string& file : file_names(format, session))
+        for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
             files.push_back(folder / file);
     if (!other.empty()) {
         for (const fs::path& file : files)
@@ -74,15 +112,17 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
 }
 
 std::vector<fs::path> write_outputs(const Session& session, const fs::path& folder,
-                                    const std::vector<std::string>& formats, const Progress& progress)
+                                    const std::vector<std::string>& formats, const OutputOptions& options,
+                                    const Progress& progress)
 {
     if (!session.blank)
         throw InputError("there is nothing to write yet: solve the part first");
-    require_place(session, folder, formats);
+    require_place(session, folder, formats, {}, options);
 
     const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
-    const std::string name = session.file.stem().string();
+    const std::string name = file_stem(session, options);
+    const LengthUnit unit = options.unit;
     ExportScene scene;
     scene.name = name;
     scene.part = &part;
@@ -103,19 +143,19 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     std::vector<fs::path> files;
     for (size_t i = 0; i < formats.size(); ++i) {
         const std::string& format = formats[i];
-        if (!surface && needs_surface(format))
+        if (!has_content(format, session, options))
             continue;
         progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
         const size_t first = files.size();
-        for (const std::string& file : file_names(format, session))
+        for (const std::string& file : file_names(format, session, options))
             files.push_back(folder / file);
-        const fs::path& path = files[first];
+        const fs::path path = files[first];
         if (format == "iges")
-            write_iges(path, *surface, name);
+            write_iges(path, *surface, name, unit);
         else if (format == "step")
-            write_step(path, *surface, name);
+            write_step(path, *surface, name, unit);
         else if (format == "glb")
-            write_gltf(path, scene);
+            write_gltf(path, scene, options.glb);
         else if (format == "vtu") {
             Eigen::VectorXd deviation;
             std::vector<NamedField> extra;
@@ -123,12 +163,14 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
                 deviation = session.surface->deviation.at_vertex.head(part.vertices());
                 extra.push_back({"deviation", &deviation});
             }
-            write_vtu(path, part, flat.blank, flat.face, flat.node, extra);
+            write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit);
         } else if (format == "dxf")
-            write_dxf(path, blank_outline(part, flat.blank));
+            write_dxf(path, blank_outline(part, flat.blank), unit);
         else if (format == "csv") {
-            write_fields_csv(path, part, flat.blank, flat.node, session.part->source_vertex);
-            write_outline_csv(files[first + 1], blank_outline(part, flat.blank));
+            if (options.csv.fields)
+                write_fields_csv(path, part, flat.blank, flat.node, session.part->source_vertex, unit);
+            if (options.csv.outline)
+                write_outline_csv(files.back(), blank_outline(part, flat.blank), unit);
         } else
             write_picture(path, scene);
     }

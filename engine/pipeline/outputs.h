@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/length_unit.h"
+#include "engine/exchange/write_gltf.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {
@@ -11,21 +13,45 @@ namespace spia {
 /// Formats by the names the command line uses.
 const std::vector<std::string>& output_formats();
 
+/// What a CSV export consists of; each is a file of its own.
+struct CsvTables {
+    bool fields = true, outline = true;
+
+    friend bool operator==(const CsvTables&, const CsvTables&) = default;
+};
+
+/// What the files hold, whatever their format.
+struct OutputOptions {
+    LengthUnit unit = LengthUnit::mm; ///< of IGES, STEP, DXF, CSV and VTU; glTF has metres by its specification
+    std::string name;                 ///< of the files, without folder and ending; empty: the part's
+    GltfNodes glb;
+    CsvTables csv;
+
+    friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
+};
+
+/// The files that write_outputs() would write now, in the order of `formats`: PART.iges, PART.step, PART.glb, PART.vtu,
+/// PART.dxf, PART.png, and for csv the two tables fields.csv and outline.csv (with a name: NAME-fields.csv ...). IGES and
+/// STEP need a surface, a GLB file one of its nodes; without it they are left out.
+/// @throws InputError if a format is unknown, the name is none, or nothing is chosen of a CSV or GLB file
+std::vector<std::filesystem::path> output_files(const Session& session, const std::filesystem::path& folder,
+                                                const std::vector<std::string>& formats,
+                                                const OutputOptions& options = {});
+
 /// Finds out what would keep write_outputs() from writing, before the work that fills the files; makes the folder.
 /// @param other one more file that the caller will write; may be empty
-/// @throws InputError if a format is unknown; ExchangeError if a place cannot be written, or a file would take the place of
+/// @throws InputError as output_files(); ExchangeError if a place cannot be written, or a file would take the place of
 ///         the part itself or of another output
 void require_place(const Session& session, const std::filesystem::path& folder, const std::vector<std::string>& formats,
-                   const std::filesystem::path& other = {});
+                   const std::filesystem::path& other = {}, const OutputOptions& options = {});
 
-/// Writes the results of a session, solved at least, into a folder, which is made if need be: PART.iges, PART.step, PART.glb,
-/// PART.vtu, PART.dxf, PART.png, and for csv the two tables fields.csv and outline.csv. Each file appears whole or not
-/// at all. What has no surface yet leaves out IGES and STEP, and of the other files what belongs to it.
+/// Writes the results of a session, solved at least, into a folder, which is made if need be: output_files(). Each file
+/// appears whole or not at all. What has no surface yet leaves out of each file what belongs to it.
 /// @param formats some of output_formats()
 /// @returns the files, in the order of `formats`
-/// @throws InputError if the part is not solved or a format is unknown; ExchangeError if a file cannot be written
+/// @throws InputError if the part is not solved, else as output_files(); ExchangeError if a file cannot be written
 std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
                                                  const std::vector<std::string>& formats,
-                                                 const Progress& progress = {});
+                                                 const OutputOptions& options = {}, const Progress& progress = {});
 
 } // namespace spia

@@ -14,31 +14,10 @@
 #include "app/viewer/views/colours.h"
 #include "engine/core/error.h"
 #include "engine/exchange/colour_map.h"
+#include "tests/ui/hidden_window.h"
 
 namespace spia::viewer {
 namespace {
-
-/// A window that is never shown, with OpenGL 3.3 core; or with what the driver has.
-struct HiddenWindow {
-    explicit HiddenWindow(bool core_3_3 = true)
-    {
-        glfwDefaultWindowHints();
-        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-        if (core_3_3) {
-            glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-            glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-            glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        }
-        window = glfwCreateWindow(64, 64, "test", nullptr, nullptr);
-        if (!window)
-            throw Error("no window; is there a display?");
-        glfwMakeContextCurrent(window);
-    }
-    ~HiddenWindow() { glfwDestroyWindow(window); }
-    HiddenWindow(const HiddenWindow&) = delete;
-    HiddenWindow& operator=(const HiddenWindow&) = delete;
-    GLFWwindow* window;
-};
 
 constexpr int side = 200;   // pixels of the square pictures
 constexpr double room = 10; // mm that they show: 20 pixels per mm, the origin in the middle
@@ -514,6 +493,26 @@ TEST_F(Render, WhatNoSceneHoldsAnyMoreIsForgotten)
     }
     draw(Scene{});
     EXPECT_EQ(renderer.uploads(), 0u);
+}
+
+TEST_F(Render, WithoutAGroundOnlyWhatIsThereIsOpaqueWithItsOwnColour)
+{
+    const Colour glass{0, 0, 1, 0.5f};
+    const Scene scene = scene_of({layer(rectangle(-4, -4, 0, 4, -1)), layer(rectangle(1, -4, 4, 4), glass)});
+    Look look = plain;
+    look.ground = false;
+    const Picture picture = draw(scene, from_above(), look);
+    const auto at = [&](double x, double y) {
+        const int column = int((x / room + 0.5) * side), row = int((0.5 - y / room) * side);
+        return &picture.rgba[(size_t(row) * side + size_t(column)) * 4];
+    };
+    EXPECT_EQ(at(-2, 0)[3], 255);
+    EXPECT_EQ(at(-2, 0)[0], 255);
+    EXPECT_EQ(at(0.5, 0)[3], 0);
+    EXPECT_EQ(at(4.9, 4.9)[3], 0);
+    EXPECT_NEAR(at(2, 0)[3], 128, 2);
+    EXPECT_NEAR(at(2, 0)[2], 255, 2); // not darkened by its opacity
+    EXPECT_EQ(at(2, 0)[0], 0);
 }
 
 TEST_F(Render, AnEmptySceneShowsTheBackground)

@@ -7,7 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
+#include "engine/pipeline/outputs.h"
 
 /// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply() carries them out
 /// between two frames. In a script an action is an object {"do": NAME, ...} with the members of its struct; NAME is given here.
@@ -155,15 +157,20 @@ struct SaveProject {
 struct ExportFiles {
     std::filesystem::path folder;
     std::vector<std::string> formats;
-}; ///< "export", in the background
+    OutputOptions options;
+}; ///< "export", in the background; options: unit, name, glb {part, ...}, csv {fields, outline}
 struct WriteReport {
     std::filesystem::path file;
-}; ///< "write_report": HTML with pictures of the views
+    ReportOptions options;
+}; ///< "write_report": HTML; options: title, remarks, pictures, standard_look, tables {key_figures, ...}
+/// "screenshot" (PNG); no view: the window. Without a size it is as large as on the screen.
 struct Screenshot {
     std::filesystem::path file;
     std::optional<View> view;
     int width = 0, height = 0;
-};                         ///< "screenshot" (PNG); no view: the window
+    bool legend = true, labels = true; ///< of a view; the window shows what it shows
+    bool transparent = false;          ///< ground of a view; else that of the theme
+};
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 

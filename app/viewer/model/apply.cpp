@@ -455,7 +455,7 @@ struct ViewerModel::Apply {
         state.job.title = "Exporting";
         model.export_job_ = std::make_unique<Job<std::vector<std::filesystem::path>>>(
             [session = session, action](const Progress& progress) {
-                return write_outputs(session, action.folder, action.formats, progress);
+                return write_outputs(session, action.folder, action.formats, action.options, progress);
             },
             model.wake_);
     }

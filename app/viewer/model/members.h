@@ -3,7 +3,9 @@
 #include <tuple>
 
 #include "app/viewer/model/json_members.h"
+#include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
+#include "engine/pipeline/outputs.h"
 
 /// The members of the structs that scripts, projects and reports share.
 namespace spia::viewer {
@@ -27,6 +29,33 @@ inline constexpr auto in_space = [](const glm::dvec3& place_mm, const Place& pla
     for (int k = 0; k < 3; ++k)
         Between{-most_mm, most_mm}(place_mm[k], place.entry(size_t(k)));
 };
+
+template <>
+inline constexpr auto members_of<GltfNodes> =
+    std::tuple{member("part", &GltfNodes::part), member("blank", &GltfNodes::blank),
+               member("quad_mesh", &GltfNodes::quad_mesh), member("surface", &GltfNodes::surface),
+               member("control_net", &GltfNodes::control_net)};
+
+template <>
+inline constexpr auto members_of<CsvTables> =
+    std::tuple{member("fields", &CsvTables::fields), member("outline", &CsvTables::outline)};
+
+template <>
+inline constexpr auto members_of<OutputOptions> =
+    std::tuple{member("unit", &OutputOptions::unit), member("name", &OutputOptions::name),
+               member("glb", &OutputOptions::glb), member("csv", &OutputOptions::csv)};
+
+template <>
+inline constexpr auto members_of<ReportTables> =
+    std::tuple{member("key_figures", &ReportTables::key_figures), member("worst_spots", &ReportTables::worst_spots),
+               member("assumptions", &ReportTables::assumptions), member("solver", &ReportTables::solver),
+               member("repairs", &ReportTables::repairs)};
+
+template <>
+inline constexpr auto members_of<ReportOptions> =
+    std::tuple{member("title", &ReportOptions::title), member("remarks", &ReportOptions::remarks),
+               member("pictures", &ReportOptions::pictures), member("standard_look", &ReportOptions::standard_look),
+               member("tables", &ReportOptions::tables)};
 
 template <>
 inline constexpr auto members_of<GridOptions> = std::tuple{

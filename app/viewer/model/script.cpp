@@ -116,10 +116,13 @@ constexpr std::tuple forms{
     form<OpenProject>("open_project", required("file", &OpenProject::file, not_empty)),
     form<SaveProject>("save_project", member("file", &SaveProject::file)),
     form<ExportFiles>("export", required("folder", &ExportFiles::folder, not_empty),
-                      required("formats", &ExportFiles::formats, not_empty)),
-    form<WriteReport>("write_report", required("file", &WriteReport::file, not_empty)),
+                      required("formats", &ExportFiles::formats, not_empty), member("options", &ExportFiles::options)),
+    form<WriteReport>("write_report", required("file", &WriteReport::file, not_empty),
+                      member("options", &WriteReport::options)),
     form<Screenshot>("screenshot", required("file", &Screenshot::file, not_empty), member("view", &Screenshot::view),
-                     member("width", &Screenshot::width, pixels), member("height", &Screenshot::height, pixels)),
+                     member("width", &Screenshot::width, pixels), member("height", &Screenshot::height, pixels),
+                     member("legend", &Screenshot::legend), member("labels", &Screenshot::labels),
+                     member("transparent", &Screenshot::transparent)),
     form<DismissMessages>("dismiss_messages"),
     form<Quit>("quit")};
 

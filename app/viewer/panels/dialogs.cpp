@@ -14,66 +14,6 @@ bool escape(const Frame& frame)
                        [](const KeyPress& press) { return press.key == GLFW_KEY_ESCAPE; });
 }
 
-void export_dialog(Frame& frame)
-{
-    if (frame.ui.show_export) {
-        ImGui::OpenPopup("Export");
-        if (frame.ui.export_folder.empty())
-            frame.ui.export_folder =
-                (std::filesystem::absolute(frame.state.document.session.file).parent_path() / "spia-out").string();
-    }
-    frame.ui.show_export = false;
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(520 * frame.ui.scale, screen.x - 40), 0});
-    if (!ImGui::BeginPopupModal("Export", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
-        return;
-    const Session& session = frame.state.document.session;
-    const Palette p = palette_of(frame.state.view.dark);
-    if (session.surface) {
-        const double worst = session.surface->deviation.max();
-        coloured(worst > 0.1 ? p.warning : p.good,
-                 fmt::format("The surface is within {:.3g} mm of the part (95 % of it within {:.3g} mm).", worst,
-                             session.surface->deviation.mesh_to_surface.p95));
-    } else
-        coloured(p.warning, "There is no surface yet: IGES and STEP are left out.");
-    struct Choice {
-        const char *format, *text;
-    };
-    static constexpr Choice choices[] = {{"iges", "IGES: the NURBS surface for CAD"},
-                                         {"step", "STEP AP242: the NURBS surface for CAD"},
-                                         {"glb", "glTF binary: part, blank, quads, surface with their fields"},
-                                         {"vtu", "VTU: all fields, for ParaView"},
-                                         {"dxf", "DXF: outline of the blank"},
-                                         {"csv", "CSV: fields per vertex, outline"},
-                                         {"png", "PNG: one picture of the whole chain"}};
-    auto& formats = frame.ui.export_formats;
-    for (const Choice& choice : choices) {
-        bool on = std::find(formats.begin(), formats.end(), choice.format) != formats.end();
-        if (ImGui::Checkbox(choice.text, &on)) {
-            std::erase(formats, choice.format);
-            if (on)
-                formats.push_back(choice.format);
-        }
-    }
-    muted(frame, "Lengths in mm (glTF: metres, as its specification wants).");
-    ImGui::SetNextItemWidth(-90 * frame.ui.scale);
-    text_input("##folder", frame.ui.export_folder, false, "folder");
-    ImGui::SameLine();
-    if (ImGui::Button("Choose...")) {
-        ImGui::CloseCurrentPopup();
-        frame.ui.files.open(FileDialog::Purpose::export_folder, frame.ui.export_folder);
-    }
-    ImGui::Dummy({0, 2});
-    if (primary_button(frame, "Export", !formats.empty() && !frame.ui.export_folder.empty())) {
-        frame.actions.push(ExportFiles{frame.ui.export_folder, formats});
-        ImGui::CloseCurrentPopup();
-    }
-    if (ImGui::Button("Cancel", {-1, 0}) || escape(frame))
-        ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-}
-
 void shortcuts_window(Frame& frame)
 {
     if (!frame.ui.show_shortcuts)
@@ -158,6 +98,8 @@ void dialogs(Frame& frame)
 {
     unsaved_dialog(frame);
     export_dialog(frame);
+    picture_dialog(frame);
+    report_dialog(frame);
     shortcuts_window(frame);
     messages_window(frame);
     const auto path = frame.ui.files.show(frame.ui.scale);
@@ -168,10 +110,16 @@ void dialogs(Frame& frame)
     case FileDialog::Purpose::open_project: frame.actions.push(OpenProject{*path}); break;
     case FileDialog::Purpose::save_project: frame.actions.push(SaveProject{*path}); break;
     case FileDialog::Purpose::open_material: frame.actions.push(SetMaterial{path->string()}); break;
-    case FileDialog::Purpose::save_report: frame.actions.push(WriteReport{*path}); break;
-    case FileDialog::Purpose::save_picture: frame.actions.push(Screenshot{*path, {}, 0, 0}); break;
+    case FileDialog::Purpose::save_report:
+        frame.ui.reporting.file = path->string();
+        frame.ui.show_report = true;
+        break;
+    case FileDialog::Purpose::save_picture:
+        frame.ui.picturing.file = path->string();
+        frame.ui.show_picture = true;
+        break;
     case FileDialog::Purpose::export_folder:
-        frame.ui.export_folder = path->string();
+        frame.ui.exporting.folder = path->string();
         frame.ui.show_export = true;
         break;
     }

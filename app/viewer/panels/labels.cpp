@@ -106,9 +106,10 @@ void leader(ImDrawList* draw, ImVec2 from, const PixelBox& box, glm::dvec2 place
 
 void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* text)
 {
+    const float wide = std::max(1.f, std::round(ImGui::GetFontSize() / 15)); // as wide for large letters
     for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1), ImVec2(-1, -1), ImVec2(1, 1),
                            ImVec2(1, -1), ImVec2(-1, 1)})
-        draw->AddText({at.x + d.x, at.y + d.y}, halo, text);
+        draw->AddText({at.x + wide * d.x, at.y + wide * d.y}, halo, text);
     draw->AddText(at, colour, text);
 }
 

@@ -42,10 +42,9 @@ void menu_bar(Frame& frame)
         if (ImGui::MenuItem("Export...", "Ctrl+E", false, state.document.session.blank != nullptr))
             frame.ui.show_export = true;
         if (ImGui::MenuItem("Report (HTML)...", nullptr, false, state.document.session.blank != nullptr))
-            frame.ui.files.open(FileDialog::Purpose::save_report,
-                                std::filesystem::path(state.document.session.file).replace_extension(".html"));
-        if (ImGui::MenuItem("Picture of the window...", nullptr))
-            frame.ui.files.open(FileDialog::Purpose::save_picture, "spia.png");
+            frame.ui.show_report = true;
+        if (ImGui::MenuItem("Picture...", nullptr, false, part))
+            frame.ui.show_picture = true;
         ImGui::Separator();
         if (ImGui::MenuItem("Quit", "Ctrl+Q"))
             frame.actions.push(Quit{});

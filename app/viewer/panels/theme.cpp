@@ -10,6 +10,9 @@ constexpr const char* inter = "/usr/share/fonts/opentype/inter/"; // Debian's fo
 
 ImFont* load(const char* file, float size, Fonts& fonts)
 {
+    // In large pictures only those that labels and legends have, or the texture of all letters would be too large.
+    static const ImWchar few[] = {0x20, 0xff, 0x2010, 0x2027, 0x2212, 0x2212, 0x2264, 0x2265, 0};
+    constexpr float large = 80; // pixels
     static const ImWchar glyphs[] = {0x20,   0x17f,  0x2010, 0x2027, 0x2190, 0x2199, 0x2200,
                                      0x22ff, 0x25a0, 0x25ff, 0x2713, 0x2717, 0};
     ImGuiIO& io = ImGui::GetIO();
@@ -20,7 +23,7 @@ ImFont* load(const char* file, float size, Fonts& fonts)
         config.SizePixels = std::round(size);
         return io.Fonts->AddFontDefault(&config);
     }
-    return io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size), nullptr, glyphs);
+    return io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size), nullptr, size > large ? few : glyphs);
 }
 
 ImVec4 rgb(unsigned hex, float alpha = 1)

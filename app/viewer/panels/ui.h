@@ -11,8 +11,11 @@
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/section.h"
 #include "app/viewer/model/viewer_model.h"
+#include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/labels.h"
+#include "app/viewer/panels/picture_dialog.h"
+#include "app/viewer/panels/report_dialog.h"
 #include "app/viewer/panels/theme.h"
 #include "app/viewer/views/scene_cache.h"
 
@@ -28,7 +31,8 @@ struct Ui {
     Fonts fonts;
     float scale = 1; ///< of the screen: 1 for 96 dots per inch
     float left_width = 300, right_width = 320;
-    bool show_left = true, show_right = true, show_shortcuts = false, show_export = false, show_messages = false;
+    bool show_left = true, show_right = true, show_shortcuts = false, show_messages = false;
+    bool show_export = false, show_picture = false, show_report = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since; ///< seconds; by number
     double wake_at = 0;                  ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
@@ -43,9 +47,9 @@ struct Ui {
     std::array<ImVec2, 4> view_from{}, view_size{};
     std::array<LabelPlaces, 4> labels;
 
-    // the export dialog
-    std::string export_folder; ///< empty: beside the part
-    std::vector<std::string> export_formats = {"iges", "step", "glb"};
+    ExportChoices exporting;
+    PictureChoices picturing;
+    ReportChoices reporting;
 
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;

@@ -71,6 +71,24 @@ void Offscreen::begin() const
     glViewport(0, 0, width_, height_);
 }
 
+void Offscreen::clear() const
+{
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+std::vector<uint8_t> Offscreen::pixels() const
+{
+    resolve();
+    std::vector<uint8_t> rows(size_t(width_) * size_t(height_) * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    check_gl("reading a picture");
+    return rows;
+}
+
 void Offscreen::resolve() const
 {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);

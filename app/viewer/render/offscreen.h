@@ -1,4 +1,7 @@
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include "app/viewer/render/gl_objects.h"
 
 namespace spia::viewer {
@@ -16,7 +19,11 @@ public:
     GLuint texture() const { return texture_; }
 
     void begin() const;   ///< what is drawn from now on lands here
+    void clear() const;   ///< to nothing, transparent
     void resolve() const; ///< to the texture, which is then bound for reading
+    /// Resolves and reads: 4 bytes per pixel, rows from below. Leaves the framebuffer of the window bound.
+    std::vector<uint8_t> pixels() const;
+
 private:
     int width_, height_, samples_asked_;
     Renderbuffer colour_, depth_;

@@ -98,6 +98,15 @@ Colour faded(Colour colour, float opacity)
     return colour;
 }
 
+/// What was blended onto nothing has its colours multiplied by its opacity.
+void divide_by_opacity(std::vector<uint8_t>& rgba)
+{
+    for (size_t k = 0; k + 3 < rgba.size(); k += 4)
+        if (const int opacity = rgba[k + 3]; opacity > 0 && opacity < 255)
+            for (size_t c = k; c < k + 3; ++c)
+                rgba[c] = uint8_t(std::min(255, (rgba[c] * 255 + opacity / 2) / opacity));
+}
+
 } // namespace
 
 Colour background(const Look& look)
@@ -182,7 +191,12 @@ void Renderer::Gpu::draw(const Scene& scene, const Camera& camera, const Tile& t
     glDepthMask(GL_TRUE);
     glClearDepth(1);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_background(pass);
+    if (look.ground) {
+        draw_background(pass);
+    } else {
+        glClearColor(0, 0, 0, 0);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
 
     // Solid faces first, then all lines that they may hide, then what one looks through, then what lies on top.
     glEnable(GL_DEPTH_TEST);
@@ -423,7 +437,6 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
     Picture result{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
     // Even, so that the groups of 2 x 2 pixels from which slopes are taken are the same in every tiling.
     const int side = std::max(2, std::min(largest_tile, longest_side()) / 2 * 2);
-    std::vector<uint8_t> rows;
     for (int y = 0; y < height; y += side)
         for (int x = 0; x < width; x += side) {
             const Tile tile{.picture = {width, height},
@@ -432,17 +445,14 @@ Picture Renderer::picture(const Scene& scene, const Camera& camera, int width, i
             const Offscreen target(tile.size.x, tile.size.y, look.samples);
             target.begin();
             gpu_->draw(scene, camera, tile, look);
-            target.resolve();
-            rows.resize(size_t(tile.size.x) * size_t(tile.size.y) * 4);
-            glPixelStorei(GL_PACK_ALIGNMENT, 4);
-            glReadPixels(0, 0, tile.size.x, tile.size.y, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-            glBindFramebuffer(GL_FRAMEBUFFER, 0);
-            check_gl("reading a picture");
+            const std::vector<uint8_t> rows = target.pixels();
             const size_t row_bytes = size_t(tile.size.x) * 4;
             for (int row = 0; row < tile.size.y; ++row) // OpenGL's rows run upwards
                 std::copy_n(rows.begin() + ptrdiff_t(size_t(row) * row_bytes), row_bytes,
                             result.rgba.begin() + (ptrdiff_t(height - 1 - y - row) * width + x) * 4);
         }
+    if (!look.ground)
+        divide_by_opacity(result.rgba);
     return result;
 }
 

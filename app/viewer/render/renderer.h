@@ -13,6 +13,7 @@ namespace spia::viewer {
 struct Look {
     bool dark = true;
     bool gradient = true;    ///< of the background; else it has one colour
+    bool ground = true;      ///< else what shows nothing is transparent; `dark` is then of no matter
     float content_scale = 1; ///< of the screen: how many pixels a line of width 1 has
     int samples = 4;         ///< per pixel, against jagged edges; fewer if the graphics card cannot
 
@@ -25,7 +26,7 @@ Colour background(const Look& look);
 /// A picture in memory.
 struct Picture {
     int width = 0, height = 0;
-    std::vector<uint8_t> rgba; ///< rows from the top, 4 bytes per pixel, sRGB, opaque
+    std::vector<uint8_t> rgba; ///< rows from the top, 4 bytes per pixel, sRGB, not multiplied by the opacity
 };
 
 /// Draws scenes with OpenGL 3.3 core. Made, used and destroyed on one thread while the same context is current.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -64,17 +65,69 @@ struct FixedDate {
     ~FixedDate() { ::unsetenv("SOURCE_DATE_EPOCH"); }
 };
 
+/// Every number after `begin` in a text, up to `end`.
+std::vector<double> numbers_between(const std::string& text, size_t begin, size_t end)
+{
+    std::vector<double> numbers;
+    for (const char* at = text.c_str() + begin; at < text.c_str() + end;) {
+        char* after = nullptr;
+        const double number = std::strtod(at, &after);
+        if (after == at)
+            ++at;
+        else {
+            numbers.push_back(number);
+            at = after;
+        }
+    }
+    return numbers;
+}
+
+/// Coordinates as they stand in the file, without any reader: of the CARTESIAN_POINTs, or of the one entity 128.
+std::vector<double> raw_coordinates(const std::string& file)
+{
+    std::vector<double> result;
+    if (file.starts_with("ISO-10303-21")) {
+        for (size_t at = 0; (at = file.find("CARTESIAN_POINT('',(", at)) != std::string::npos;) {
+            at += 20;
+            for (const double number : numbers_between(file, at, file.find(')', at)))
+                result.push_back(number);
+        }
+        return result;
+    }
+    std::string parameters;
+    for (size_t line = 0; line + 80 <= file.size(); line += 81)
+        if (file[line + 72] == 'P')
+            parameters += file.substr(line, 64);
+    const std::vector<double> all = numbers_between(parameters, 0, parameters.size());
+    const size_t count_u = size_t(all.at(1)) + 1, count_v = size_t(all.at(2)) + 1;
+    const size_t knots = count_u + size_t(all.at(3)) + 1 + count_v + size_t(all.at(4)) + 1;
+    const size_t first = 10 + knots + count_u * count_v;
+    result.assign(all.begin() + long(first), all.begin() + long(first + 3 * count_u * count_v));
+    return result;
+}
+
 struct Format {
     const char* name;
-    void (*write)(const std::filesystem::path&, const NurbsSurface&, const std::string&);
+    std::function<void(const std::filesystem::path&, const NurbsSurface&, const std::string&, LengthUnit)> write_in;
     std::vector<NurbsSurface> (*read)(const std::filesystem::path&);
+
+    void write(const std::filesystem::path& path, const NurbsSurface& surface, const std::string& title) const
+    {
+        write_in(path, surface, title, LengthUnit::mm);
+    }
 };
 
 class CadFile : public ::testing::TestWithParam<Format> {};
 
 INSTANTIATE_TEST_SUITE_P(Formats, CadFile,
-                         ::testing::Values(Format{"iges", write_iges, read_iges_surfaces},
-                                           Format{"step", write_step, read_step_surfaces}),
+                         ::testing::Values(Format{"iges",
+                                                  [](const auto& path, const NurbsSurface& surface, const auto& name,
+                                                     LengthUnit unit) { write_iges(path, surface, name, unit); },
+                                                  read_iges_surfaces},
+                                           Format{"step",
+                                                  [](const auto& path, const NurbsSurface& surface, const auto& name,
+                                                     LengthUnit unit) { write_step(path, surface, name, unit); },
+                                                  read_step_surfaces}),
                          [](const auto& format) { return format.param.name; });
 
 } // namespace
@@ -168,6 +221,43 @@ TEST_P(CadFile, NamesWithQuotesAndAccentsKeepTheFileReadable)
         const auto read = GetParam().read(folder / "s");
         ASSERT_EQ(read.size(), 1u) << name;
         expect_same(read[0], surface);
+    }
+}
+
+TEST_P(CadFile, LengthsInAnotherUnitAreTheSameSizeAndTheHeaderNamesIt)
+{
+    const ScratchFolder folder;
+    const NurbsSurface surface = samples::curved_surface(500, true);
+    GetParam().write(folder / "mm", surface, "sheet");
+    const std::vector<double> in_mm = raw_coordinates(content_of(folder / "mm"));
+    ASSERT_GE(in_mm.size(), size_t(surface.control.size()));
+    struct Unit {
+        LengthUnit unit;
+        double mm;
+        const char *iges, *step; // in the header
+    };
+    for (const Unit& unit : {Unit{LengthUnit::inch, 25.4, ",1,4HINCH,", "CONVERSION_BASED_UNIT('INCH'"},
+                             Unit{LengthUnit::cm, 10, ",10,2HCM,", "SI_UNIT(.CENTI.,.METRE.)"},
+                             Unit{LengthUnit::m, 1000, ",6,1HM,", "SI_UNIT($,.METRE.)"}}) {
+        GetParam().write_in(folder / "other", surface, "sheet", unit.unit);
+        const std::string file = content_of(folder / "other");
+        std::string header = file; // IGES breaks its lines anywhere
+        if (std::string(GetParam().name) == "iges") {
+            header.clear();
+            for (size_t line = 0; line + 80 <= file.size(); line += 81)
+                if (file[line + 72] == 'G')
+                    header += file.substr(line, 72);
+        }
+        EXPECT_NE(header.find(std::string(GetParam().name) == "iges" ? unit.iges : unit.step), std::string::npos)
+            << header.substr(0, 3000);
+        const std::vector<double> raw = raw_coordinates(file);
+        ASSERT_EQ(raw.size(), in_mm.size());
+        for (size_t k = 0; k < raw.size(); ++k)
+            EXPECT_NEAR(raw[k] * unit.mm, in_mm[k], 1e-10) << k;
+        const auto read = GetParam().read(folder / "other"); // by OpenCASCADE, in mm
+        ASSERT_EQ(read.size(), 1u);
+        EXPECT_LT((read[0].control - surface.control).cwiseAbs().maxCoeff(), 1e-10);
+        EXPECT_LT((read[0].weight - surface.weight).cwiseAbs().maxCoeff(), 1e-12);
     }
 }
 

@@ -92,6 +92,31 @@ TEST_P(Gltf, FieldsOnPartAndBlankAreTheNodeFieldsInFloat)
     }
 }
 
+TEST_P(Gltf, HoldsOnlyTheNodesThatAreWanted)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const auto names = [&](const GltfNodes& wanted) {
+        write_gltf(folder / GetParam(), chain.scene(), wanted);
+        const tinygltf::Model model = read(folder / GetParam());
+        std::vector<std::string> result;
+        for (const int child : model.nodes.at(0).children)
+            result.push_back(model.nodes.at(size_t(child)).name);
+        EXPECT_EQ(model.meshes.size(), result.size());
+        for (const tinygltf::Mesh& each : model.meshes) // nothing is in the file that no mesh needs
+            EXPECT_LT(size_t(each.primitives.back().indices), model.accessors.size());
+        return result;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names({}), (Names{"part", "blank", "quad_mesh", "surface", "control_net"}));
+    EXPECT_EQ(names({true, false, false, false, false}), Names{"part"});
+    EXPECT_EQ(names({false, true, false, false, false}), Names{"blank"});
+    EXPECT_EQ(names({false, false, true, false, false}), Names{"quad_mesh"});
+    EXPECT_EQ(names({false, false, false, true, false}), Names{"surface"});
+    EXPECT_EQ(names({false, true, false, false, true}), (Names{"blank", "control_net"}));
+    EXPECT_THROW(write_gltf(folder / "none.glb", chain.scene(), {false, false, false, false, false}), InputError);
+}
+
 TEST_P(Gltf, EveryShapeStandsWhereItIsInMetresWithYUp)
 {
     const ScratchFolder folder;

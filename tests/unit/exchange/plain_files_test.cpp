@@ -321,6 +321,65 @@ TEST(BlankOutline, TheLoopAroundTheLargestAreaComesFirst)
     EXPECT_EQ(loops[1], before[1]);
 }
 
+TEST(PlainFiles, LengthsAreInTheUnitAskedForAndNothingElseChanges)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const auto loops = blank_outline(chain.part, chain.blank);
+    const Eigen::VectorXd deviation = Eigen::VectorXd::LinSpaced(chain.part.vertices(), 0, 2);
+    const std::vector<NamedField> extra{{"deviation", &deviation}};
+    constexpr double inch = 25.4; // mm
+
+    write_dxf(folder / "x.dxf", loops, LengthUnit::inch);
+    const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
+    const auto after = [&](const char* variable) {
+        return *(std::find(pairs.begin(), pairs.end(), DxfPair(9, variable)) + 1);
+    };
+    EXPECT_EQ(after("$INSUNITS"), DxfPair(70, "1"));
+    EXPECT_EQ(after("$MEASUREMENT"), DxfPair(70, "0"));
+    const auto lines = polylines(pairs);
+    for (size_t l = 0; l < loops.size(); ++l)
+        for (size_t i = 0; i < lines.at(l).x.size(); ++i)
+            EXPECT_NEAR(inch * lines[l].x[i], loops[l](0, Eigen::Index(i)), 1e-11);
+
+    write_outline_csv(folder / "o.csv", loops, LengthUnit::inch);
+    auto rows = split(content_of(folder / "o.csv"), '\n');
+    EXPECT_EQ(rows[0], "loop,index,x_inch,y_inch");
+    EXPECT_NEAR(inch * std::stod(split(rows[2], ',').at(3)), loops[0](1, 1), 1e-11);
+    write_fields_csv(folder / "f.csv", chain.part, chain.blank, chain.node, {}, LengthUnit::inch);
+    rows = split(content_of(folder / "f.csv"), '\n');
+    EXPECT_EQ(rows[0], "vertex,x_inch,y_inch,z_inch,blank_x_inch,blank_y_inch,thickness_inch,thinning,strain_major,"
+                       "strain_minor,strain_equivalent");
+    const auto cell = split(rows[6], ',');
+    EXPECT_NEAR(inch * std::stod(cell[3]), chain.part.position(2, 5), 1e-11);
+    EXPECT_NEAR(inch * std::stod(cell[4]), chain.blank.position(0, 5), 1e-11);
+    EXPECT_NEAR(inch * std::stod(cell[6]), chain.node.thickness[5], 1e-11);
+    EXPECT_EQ(std::stod(cell[7]), chain.node.thinning[5]);
+
+    write_vtu(folder / "x.vtu", chain.part, chain.blank, chain.face, chain.node, extra, LengthUnit::inch);
+    const std::string file = content_of(folder / "x.vtu");
+    EXPECT_NE(file.find("Name=\"length_unit\" NumberOfTuples=\"1\" format=\"ascii\">105 110 99 104 0<"),
+              std::string::npos); // "inch"
+    const auto point = arrays_of(file, "PointData"), faces = arrays_of(file, "CellData");
+    const auto near = [&](const auto& arrays, const char* name, const double* mm, Eigen::Index count) {
+        const auto read = decoded<double>(arrays.at(name).base64);
+        ASSERT_EQ(read.size(), size_t(count)) << name;
+        for (Eigen::Index k = 0; k < count; ++k)
+            EXPECT_NEAR(inch * read[size_t(k)], mm[k], 1e-11) << name;
+    };
+    const Eigen::VectorXd blank_y = chain.blank.position.row(1);
+    Eigen::Matrix3Xd displacement = -chain.part.position;
+    displacement.topRows(2) += chain.blank.position;
+    near(arrays_of(file, "Points"), "Points", chain.part.position.data(), chain.part.position.size());
+    near(point, "blank_y", blank_y.data(), blank_y.size());
+    near(point, "displacement_to_blank", displacement.data(), displacement.size());
+    near(point, "deviation", deviation.data(), deviation.size());
+    near(point, "thickness", chain.node.thickness.data(), chain.node.thickness.size());
+    near(faces, "thickness", chain.face.thickness.data(), chain.face.thickness.size());
+    expect_array(point, "stress_major", chain.node.stress_major);
+    expect_array(point, "thinning", chain.node.thinning);
+}
+
 TEST(PlainFiles, SameInputGivesTheSameBytes)
 {
     const ScratchFolder folder;

@@ -225,6 +225,40 @@ TEST(Outputs, AFileNeverTakesThePlaceOfThePart)
     EXPECT_FALSE(std::filesystem::exists(folder / "new.json"));
 }
 
+TEST(Outputs, OptionsSayWhatIsWrittenUnderWhichName)
+{
+    const ScratchFolder folder;
+    Session session = finished("dome.obj");
+    OutputOptions options;
+    options.name = "door v2";
+    options.unit = LengthUnit::inch;
+    options.csv.outline = false;
+    const std::vector<std::string> formats = {"iges", "step", "glb", "csv"};
+    const auto expected = output_files(session, folder / "out", formats, options);
+    const auto written = write_outputs(session, folder / "out", formats, options);
+    EXPECT_EQ(written, expected);
+    std::set<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(folder / "out"))
+        names.insert(file.path().filename().string());
+    EXPECT_EQ(names, (std::set<std::string>{"door v2.iges", "door v2.step", "door v2.glb", "door v2-fields.csv"}));
+    EXPECT_THROW(require_place(session, folder / "new", {"iges"}, folder / "new" / "door v2.iges", options),
+                 ExchangeError);
+
+    options.csv.fields = false;
+    EXPECT_THROW(output_files(session, folder / "out", {"csv"}, options), InputError);
+    options.glb = {false, false, false, false, false};
+    EXPECT_THROW(write_outputs(session, folder / "out", {"glb"}, options), InputError);
+    options = {};
+    for (const char* name : {"../x", "a/b", "..", "a\\b"}) {
+        options.name = name;
+        EXPECT_THROW(output_files(session, folder / "out", {"dxf"}, options), InputError) << name;
+    }
+    options = {};
+    options.glb = {false, false, false, true, true};
+    session.surface.reset();
+    EXPECT_TRUE(write_outputs(session, folder / "none", {"iges", "glb"}, options).empty()); // no surface yet
+}
+
 TEST(Outputs, TheTableOfFieldsCallsVerticesAsTheFileDoes)
 {
     const ScratchFolder folder;

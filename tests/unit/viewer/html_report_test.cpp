@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include "app/viewer/model/statistics.h"
 #include "app/viewer/model/svg_chart.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 std::string report(const fs::path& file, const Session& session, const std::vector<ReportPicture>& pictures = {},
                    const std::vector<std::string>& notes = {})
 {
-    write_html_report(file, session, pictures, notes);
+    write_html_report(file, session, pictures, {}, notes);
     return content_of(file);
 }
 
@@ -105,6 +106,109 @@ TEST(HtmlReport, EscapesWhateverComesFromOutside)
     for (const char* raw : {"<script>", "<b>steel", "a < b", "<i>", "<u>", "alt=\"<"})
         EXPECT_EQ(html.find(raw), std::string::npos) << raw;
     EXPECT_NE(html.find("&lt;script&gt;&amp;&quot;x&#39;.obj"), std::string::npos);
+}
+
+TEST(HtmlReport, HasTheTablesThatWereChosenAndTheUsersOwnWords)
+{
+    const ScratchFolder folder;
+    const Session session = viewer::document_of(dome, Stage::fit).session;
+    const auto has = [&](const std::string& html, const char* text) { return html.find(text) != std::string::npos; };
+    const std::pair<const char*, bool ReportTables::*> tables[] = {
+        {"<h2>Key figures", &ReportTables::key_figures},
+        {"<h2>Where the sheet thins most", &ReportTables::worst_spots},
+        {"<h2>Assumptions", &ReportTables::assumptions},
+        {"<h2>How the solver got there", &ReportTables::solver}};
+    for (const auto& [only, member] : tables) {
+        ReportOptions options;
+        options.tables = {false, false, false, false, false};
+        options.tables.*member = true;
+        write_html_report(folder / "r.html", session, {}, options);
+        const std::string html = content_of(folder / "r.html");
+        EXPECT_EQ(unbalanced(html), "");
+        for (const auto& [heading, unused] : tables)
+            EXPECT_EQ(has(html, heading), heading == only) << heading << " with " << only;
+    }
+    ReportOptions options;
+    options.title = "Door <left>";
+    options.remarks = "line 1 & <script>\nline 2";
+    write_html_report(folder / "r.html", session, {}, options);
+    const std::string html = content_of(folder / "r.html");
+    EXPECT_EQ(unbalanced(html), "");
+    EXPECT_TRUE(has(html, "<h1>Door &lt;left&gt;</h1><p>dome.obj, "));
+    EXPECT_TRUE(has(html, "<title>Unfolding report: Door &lt;left&gt;</title>"));
+    EXPECT_TRUE(has(html, "line 1 &amp; &lt;script&gt;\nline 2"));
+    EXPECT_FALSE(has(html, "<script>"));
+}
+
+TEST(HtmlReport, TheThinnestPlacesAreThoseOfTheInspectPanel)
+{
+    const ScratchFolder folder;
+    const Session session = viewer::document_of(dome, Stage::solve).session;
+    const Eigen::VectorXd& thinning = session.blank->face.thinning;
+    const std::string html = report(folder / "r.html", session);
+    int rank = 0;
+    for (const int f : worst_spots(session.part->mesh, thinning, 5, false))
+        if (thinning[f] > 0) {
+            const std::string begin = fmt::format("<tr><td>{}</td><td>{:.1f}</td>", ++rank, 100 * thinning[f]);
+            const size_t at = html.find(begin);
+            ASSERT_NE(at, std::string::npos) << begin;
+            const std::string face = fmt::format("<td>{}</td></tr>", session.part->source_face[size_t(f)]);
+            EXPECT_EQ(html.find("</tr>", at) + 5, html.find(face, at) + face.size()) << rank;
+        }
+    EXPECT_GT(rank, 1);
+    EXPECT_EQ(html.find(fmt::format("<tr><td>{}</td><td>", rank + 1)), std::string::npos);
+}
+
+TEST(HtmlReport, TheAssumptionsNameWhatWasRelaxedAndRepaired)
+{
+    const ScratchFolder folder;
+    Session session = viewer::document_of(dome, Stage::solve).session;
+    const auto row_of = [&](const std::string& name) {
+        const std::string html = report(folder / "r.html", session);
+        const size_t at = html.find("<tr><td>" + name + "</td><td>");
+        return at == std::string::npos ? "no row" : html.substr(at, html.find("</tr>", at) - at);
+    };
+    const auto says = [&](const char* row, const std::string& words) {
+        EXPECT_NE(row_of(row).find(words), std::string::npos) << row_of(row);
+    };
+    says("Friction", "none");
+    says("Sheet thickness", "1 mm");
+    says("Method", "one step");
+    says("Stamping direction", "found automatically");
+    says("Equations", "nothing was relaxed");
+    says("Repairs of the mesh", "none");
+    auto relaxed = std::make_shared<FlattenResult>(*session.blank);
+    relaxed->report.system = SolvedSystem::relaxed;
+    relaxed->report.relaxed_vertices = 37;
+    session.blank = relaxed;
+    auto part = std::make_shared<PartFile>(*session.part);
+    part->doctor.findings.push_back({{}, spia::Severity::repaired, 2, 0, "2 doubled faces were removed", ""});
+    session.part = part;
+    session.options.flatten.direction = Eigen::Vector3d(0, 0, -1);
+    says("Equations", "equilibrium of 37 vertices");
+    says("Repairs of the mesh", "2 doubled faces were removed");
+    says("Stamping direction", "as given");
+}
+
+TEST(HtmlReport, TheStandardLookIsTheSameWhateverTheUserLooksAt)
+{
+    ViewerState state;
+    state.document = viewer::document_of(dome, Stage::solve);
+    const ViewerState before = standard_look(state);
+    state.document.display = {Field::strain_minor, true, std::array{-1.0, 1.0}, ColourMap::grey, 5, true, false, true};
+    state.document.selected = {1, 2, 3};
+    state.view.dark = true;
+    state.view.edges = true;
+    state.view.camera[0].perspective = true;
+    state.view.camera[0].turn = glm::dquat(0, 1, 0, 0);
+    state.hovered = 7;
+    const ViewerState look = standard_look(state);
+    EXPECT_EQ(look.view.camera, before.view.camera);
+    EXPECT_EQ(look.document.display.field, Field::thinning);
+    EXPECT_TRUE(look.document.selected.empty());
+    EXPECT_FALSE(look.view.dark || look.view.edges || look.hovered);
+    EXPECT_TRUE(look.view.camera[size_t(View::blank)].flat);
+    EXPECT_EQ(look.document.session.blank, state.document.session.blank);
 }
 
 TEST(HtmlReport, SaysWhatMakesTheResultPoorer)

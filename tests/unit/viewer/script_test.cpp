@@ -60,9 +60,11 @@ std::vector<Action> every_action()
         set(SetDisplay{{Field::strain_major, true, std::array{-0.5, 0.5}, ColourMap::grey, 7, true, false, true}});
         set(LookFrom{View::quads, StandardView::left});
         set(OpenProject{"a.spia"});
-        set(ExportFiles{"out", {"step", "dxf"}});
-        set(WriteReport{"report.html"});
-        set(Screenshot{"picture.png", View::blank, 800, 600});
+        set(ExportFiles{
+            "out", {"step", "dxf"}, {LengthUnit::inch, "door", {true, false, true, false, true}, {false, true}}});
+        set(WriteReport{"report.html",
+                        {"Door <1>", "two\nlines", {View::quads}, false, {true, false, true, false, true}}});
+        set(Screenshot{"picture.png", View::blank, 800, 600, false, false, true});
         ViewSettings view;
         view.camera[1].turn = glm::dquat(0.5, 0.5, -0.5, 0.5);
         view.camera[3].target = {1, 2, 3};
@@ -102,6 +104,20 @@ TEST(Script, MembersCarryTheirValuesIntoTheAction)
     EXPECT_EQ(area.mode, PickMode::add);
     EXPECT_FALSE(
         std::get<SetDirection>(action_from_json(json(R"({"do":"set_direction","direction":null})"))).direction);
+}
+
+TEST(Script, OptionsOfFilesCarryTheirValuesAndKeepTheOthers)
+{
+    const auto exported = std::get<ExportFiles>(action_from_json(json(
+        R"({"do":"export","folder":"o","formats":["glb"],"options":{"unit":"inch","name":"d","glb":{"blank":false},"csv":{"outline":false}}})")));
+    EXPECT_EQ(exported.options, (OutputOptions{LengthUnit::inch, "d", {true, false, true, true, true}, {true, false}}));
+    const auto report = std::get<WriteReport>(action_from_json(json(
+        R"({"do":"write_report","file":"r","options":{"title":"t","remarks":"m","pictures":["quads"],"standard_look":false,"tables":{"solver":false}}})")));
+    EXPECT_EQ(report.options, (ReportOptions{"t", "m", {View::quads}, false, {true, true, true, false, true}}));
+    const auto picture = std::get<Screenshot>(
+        action_from_json(json(R"({"do":"screenshot","file":"p","view":"part","labels":false,"transparent":true})")));
+    EXPECT_TRUE(picture.legend && picture.transparent);
+    EXPECT_FALSE(picture.labels);
 }
 
 TEST(Script, WhatIsNotGivenStaysAsItIs)

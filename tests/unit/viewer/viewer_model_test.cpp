@@ -213,7 +213,7 @@ TEST_F(ViewerModelTest, WhatGoesWrongIsSaidAndChangesNothing)
     model.apply(MakeRegion{});
     model.apply(SetMaterial{"unobtainium"});
     model.apply(SetCorner{0, 0});
-    model.apply(ExportFiles{folder / "out", {"iges"}});
+    model.apply(ExportFiles{folder / "out", {"iges"}, {}});
     EXPECT_EQ(state.history.undo_name(), "");
     EXPECT_EQ(document.session.options.flatten.thickness, 1);
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
@@ -257,7 +257,7 @@ TEST_F(ViewerModelTest, ExportsInTheBackground)
     open();
     model.apply(RunTo{Stage::fit});
     wait();
-    model.apply(ExportFiles{folder / "out", {"iges", "csv"}});
+    model.apply(ExportFiles{folder / "out", {"iges", "csv"}, {}});
     EXPECT_TRUE(model.busy());
     wait();
     for (const char* file : {"dome.iges", "fields.csv", "outline.csv"})

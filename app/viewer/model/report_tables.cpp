@@ -1,0 +1,247 @@
+#include "app/viewer/model/report_tables.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/html_text.h"
+#include "app/viewer/model/statistics.h"
+#include "app/viewer/model/svg_chart.h"
+#include "engine/exchange/text_encoding.h"
+
+namespace spia::viewer {
+namespace {
+
+Eigen::Vector2d blank_size(const FlattenResult& flat)
+{
+    return flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
+}
+
+/// As HTML.
+std::string law(const Hardening& hardening)
+{
+    struct Words {
+        std::string operator()(const Swift& s) const
+        {
+            return fmt::format("Swift, \u03c3 = {:.5g} MPa \u00b7 ({:.4g} + \u03b5)<sup>{:.4g}</sup>", s.K_MPa, s.e0,
+                               s.n);
+        }
+        std::string operator()(const Hollomon& h) const
+        {
+            return fmt::format("Hollomon, \u03c3 = {:.5g} MPa \u00b7 \u03b5<sup>{:.4g}</sup>", h.K_MPa, h.n);
+        }
+        std::string operator()(const Voce& v) const
+        {
+            return fmt::format("Voce, \u03c3 = {0:.5g} \u2212 ({0:.5g} \u2212 {1:.5g}) exp(\u2212{2:.4g} \u03b5) MPa",
+                               v.sigma_sat_MPa, v.sigma0_MPa, v.c);
+        }
+        std::string operator()(const HardeningTable& t) const
+        {
+            return fmt::format("table of {} points", t.strain.size());
+        }
+    };
+    return std::visit(Words{}, hardening);
+}
+
+/// What the solver could keep of its equations, and what it had to relax.
+std::string equations(const SolveReport& report)
+{
+    switch (report.system) {
+    case SolvedSystem::strict: return "virtual work at every vertex, with the material as given; nothing was relaxed";
+    case SolvedSystem::continued:
+        return fmt::format("virtual work at every vertex; relaxed: the hardening curve is continued from the uniform "
+                           "strain {} on",
+                           fixed(report.trusted_strain, 2));
+    case SolvedSystem::relaxed:
+        return fmt::format("virtual work; relaxed: the equilibrium of {} vertices, where the mesh does not resolve the "
+                           "change of strain",
+                           grouped(report.relaxed_vertices));
+    case SolvedSystem::energy:
+        return "relaxed altogether: the blank of least energy with the thickness held, not in equilibrium";
+    }
+    return "";
+}
+
+std::string repairs_in_words(const DoctorReport& doctor)
+{
+    std::string text;
+    for (const Finding& finding : doctor.findings)
+        if (finding.severity == spia::Severity::repaired)
+            text += (text.empty() ? "" : "; ") + finding.text;
+    return text.empty() ? "none" : text;
+}
+
+std::string hardening_chart(const Session& session)
+{
+    const FlattenOptions& options = session.options.flatten;
+    StressCurve::Options until = options.curve;
+    until.trusted_strain = session.blank->report.trusted_strain;
+    const StressCurve curve(options.material.hardening, options.material.young_MPa, until);
+    const double greatest = session.blank->face.strain_equivalent.maxCoeff();
+    const double end = 1.15 * std::max(until.trusted_strain, greatest);
+    Curve law{"", "#1f5f8b", {}};
+    constexpr int pieces = 200;
+    for (int i = 0; i <= pieces; ++i)
+        law.points.emplace_back(end * i / pieces, curve(end * i / pieces).stress);
+    return svg({"equivalent strain",
+                "Flow stress, MPa",
+                false,
+                true,
+                {law},
+                {{until.trusted_strain, "trusted up to here"}, {greatest, "greatest strain found"}}});
+}
+
+std::string residual_chart(const SolveReport& report)
+{
+    Curve energy{"energy stage", "#8a93a0", {}, true}, newton{"virtual work", "#1f5f8b", {}, true};
+    int step = 0;
+    for (const NewtonStep& each : report.energy)
+        energy.points.emplace_back(++step, each.residual);
+    for (const NewtonStep& each : report.newton)
+        newton.points.emplace_back(++step, each.residual);
+    return svg({"iteration", "Residual", true, false, {energy, newton}});
+}
+
+} // namespace
+
+std::string tiles(const Session& session, const Json& figures)
+{
+    const FlattenResult& flat = *session.blank;
+    const Eigen::Vector2d size = blank_size(flat);
+    std::string text = "<section class=\"tiles\">\n";
+    text += tile("Blank", fmt::format("{} \u00d7 {}", grouped(size[0]), grouped(size[1])), "mm",
+                 fmt::format("area {} mm\u00b2", grouped(figures["blank"]["area_mm2"].get<double>())));
+    text += tile("Greatest thinning", fixed(100 * flat.face.thinning.maxCoeff(), 1), "%",
+                 fmt::format("least {} %", fixed(100 * flat.face.thinning.minCoeff(), 1)));
+    text += tile(
+        "Thickness",
+        fmt::format("{} \u2013 {}", fixed(flat.face.thickness.minCoeff(), 2), fixed(flat.face.thickness.maxCoeff(), 2)),
+        "mm", fmt::format("sheet {} mm", significant(session.options.flatten.thickness)));
+    text += session.surface
+                ? tile("Largest deviation", significant(session.surface->deviation.max()), "mm",
+                       fmt::format("RMS {} mm", significant(figures["surface"]["deviation_rms_mm"].get<double>())))
+                : tile("Largest deviation", "\u2013", "", "no surface was made");
+    return text + "</section>\n";
+}
+
+std::string key_figures(const Session& session, const Json& figures)
+{
+    const FlattenResult& flat = *session.blank;
+    const Json& blank = figures["blank"];
+    const Eigen::Vector2d size = blank_size(flat);
+    const int loops = figures["part"]["boundary_loops"].get<int>();
+    std::string rows = row("Part", fmt::format("{} mm\u00b2, {}", grouped(figures["part"]["area_mm2"].get<double>()),
+                                               loops == 1   ? "no holes"
+                                               : loops == 2 ? "one hole"
+                                                            : fmt::format("{} holes", loops - 1)));
+    rows += row("Blank", fmt::format("{} \u00d7 {} mm, area {} mm\u00b2, outline {} mm long", grouped(size[0], 1),
+                                     grouped(size[1], 1), grouped(blank["area_mm2"].get<double>()),
+                                     grouped(blank["perimeter_mm"].get<double>(), 1)));
+    rows += row("Thickness",
+                fmt::format("{} to {} mm, from a sheet of {} mm", fixed(flat.face.thickness.minCoeff(), 3),
+                            fixed(flat.face.thickness.maxCoeff(), 3), significant(session.options.flatten.thickness)));
+    rows +=
+        row("Thinning", fmt::format("{} % to {} % (negative: thicker)", fixed(100 * flat.face.thinning.minCoeff(), 1),
+                                    fixed(100 * flat.face.thinning.maxCoeff(), 1)));
+    rows += row("Equivalent strain", fmt::format("up to {}", fixed(flat.face.strain_equivalent.maxCoeff(), 3)));
+    rows += row("Distortion",
+                fmt::format("area {}, angles {} (RMS)", significant(figures["distortion"]["area_rms"].get<double>()),
+                            significant(figures["distortion"]["angular_rms"].get<double>())));
+    if (session.grid) {
+        const GridResult& grid = session.grid->result;
+        rows += row("Quad grid", fmt::format("{} \u00d7 {} cells, {} folded, least scaled Jacobian {}",
+                                             grid.planar.columns, grid.planar.rows, grid.quality.folded_cells,
+                                             fixed(grid.quality.min_scaled_jacobian, 3)));
+    } else {
+        rows += row("Quad grid", "not made");
+    }
+    if (session.surface) {
+        const Json& surface = figures["surface"];
+        const Deviation& deviation = session.surface->deviation;
+        rows += row("NURBS surface", fmt::format("{} \u00d7 {} control points", surface["control_points_u"].get<int>(),
+                                                 surface["control_points_v"].get<int>()));
+        rows += row("Surface deviation",
+                    fmt::format("at most {} mm, 95 % below {} mm, RMS {} mm", significant(deviation.max()),
+                                significant(surface["deviation_p95_mm"].get<double>()),
+                                significant(surface["deviation_rms_mm"].get<double>())));
+    } else {
+        rows += row("NURBS surface", "not made");
+    }
+    return facts("Key figures", rows);
+}
+
+std::string thinnest_places(const Session& session)
+{
+    const SheetFields& face = session.blank->face;
+    std::string rows;
+    int rank = 0;
+    const TriMesh& mesh = session.part->mesh;
+    constexpr int most = 5;
+    for (const int f : worst_spots(mesh, face.thinning, most, false)) {
+        if (!(face.thinning[f] > 0)) // only thicker places are left
+            break;
+        const Eigen::Vector3d at = mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
+        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                            ++rank, fixed(100 * face.thinning[f], 1), fixed(face.thickness[f], 3),
+                            fixed(face.strain_major[f], 3), fixed(face.strain_minor[f], 3),
+                            fmt::format("{}, {}, {}", fixed(at[0], 1), fixed(at[1], 1), fixed(at[2], 1)),
+                            session.part->source_face[size_t(f)]);
+    }
+    if (rows.empty())
+        return "";
+    return fmt::format(
+        "<section class=\"whole\"><h2>Where the sheet thins most</h2>\n<table class=\"spots\"><tr><th>Spot</th><th>Thinning, %</th>"
+        "<th>Thickness, mm</th><th>Major strain</th><th>Minor strain</th><th>At x, y, z, mm</th>"
+        "<th>Face of the file</th></tr>\n{}</table></section>\n",
+        rows);
+}
+
+std::string assumptions(const Session& session)
+{
+    const FlattenOptions& options = session.options.flatten;
+    const Material& material = options.material;
+    std::string rows = row("Material", material.name);
+    rows += row("Its source", material.source.empty() ? "not given" : material.source);
+    rows += html_row("Hardening", law(material.hardening));
+    rows +=
+        row("Elasticity", fmt::format("E = {} MPa, \u03bd = {:.3g}", grouped(material.young_MPa), material.poisson));
+    rows += row("Anisotropy", fmt::format("Hill 1948, r = {:.3g} / {:.3g} / {:.3g} at 0\u00b0 / 45\u00b0 / 90\u00b0; "
+                                          "their mean {:.3g} is used",
+                                          material.r0, material.r45, material.r90, material.normal_anisotropy()));
+    rows += row("Sheet thickness", significant(options.thickness) + " mm");
+    rows += row("Stamping direction", vector(session.blank->stamping.direction) +
+                                          (options.direction ? ", as given" : ", found automatically"));
+    rows += row("Friction", options.friction.size() == 0
+                                ? "none"
+                                : fmt::format("up to {} MPa on the sheet", significant(options.friction.maxCoeff())));
+    rows += row("Trusted up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
+                                             fixed(session.blank->report.trusted_strain, 2)));
+    rows +=
+        row("Method", "one step from the part back to the flat sheet, total deformation theory: the path of forming, "
+                      "bending and springback are not in it");
+    rows += row("Equations", equations(session.blank->report));
+    rows += row("Repairs of the mesh", repairs_in_words(session.part->doctor));
+    return facts("Assumptions", rows);
+}
+
+std::string solving(const Session& session)
+{
+    const SolveReport& report = session.blank->report;
+    return fmt::format(
+        "<h2>How the solver got there</h2>\n<div class=\"pair\"><div><h3>Iterations</h3>{}</div>"
+        "<div><h3>Hardening curve</h3>{}</div></div>\n<p>{} energy and {} Newton steps in {} s; {}; residual "
+        "{} of the nodal forces at yield.</p>\n",
+        residual_chart(report), hardening_chart(session), report.energy.size(), report.newton.size(),
+        fixed(report.seconds, 1), escaped(report.reason), power_of_ten(report.residual));
+}
+
+std::string repairs(const PartFile& part)
+{
+    std::string rows;
+    for (const Finding& finding : part.doctor.findings)
+        rows += row(finding.severity == spia::Severity::repaired ? "Repaired" : "Noted", finding.text);
+    for (const std::string& note : part.notes)
+        rows += row("Noted", note);
+    return rows.empty() ? "" : facts("The part as it was read", rows);
+}
+
+} // namespace spia::viewer

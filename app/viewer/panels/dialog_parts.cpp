@@ -1,0 +1,105 @@
+#include "app/viewer/panels/dialog_parts.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cfloat>
+
+#include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+
+bool begin_dialog(const Frame& frame, const char* title, bool appears, float width)
+{
+    if (appears)
+        ImGui::OpenPopup(title);
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float wide = std::min(width * frame.ui.scale, screen.x - 40);
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({wide, 0}, {wide, screen.y - 20});
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+        return false;
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of the window
+    return true;
+}
+
+void end_dialog()
+{
+    ImGui::PopStyleVar();
+    ImGui::EndPopup();
+}
+
+bool pressed(const Frame& frame, int key)
+{
+    return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
+                       [&](const KeyPress& press) { return press.key == key; });
+}
+
+bool enter_pressed(const Frame& frame) { return pressed(frame, GLFW_KEY_ENTER) || pressed(frame, GLFW_KEY_KP_ENTER); }
+
+bool path_input(const Frame& frame, const char* id, std::string& path, const char* hint)
+{
+    const float button = ImGui::CalcTextSize("Choose...").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushID(id);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - 6 * frame.ui.scale);
+    text_input("##path", path, false, hint);
+    ImGui::SameLine(0, 6 * frame.ui.scale);
+    const bool chosen = ImGui::Button("Choose...");
+    ImGui::PopID();
+    return chosen;
+}
+
+void replaced_note(const Frame& frame, const std::filesystem::path& file)
+{
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored))
+        coloured(palette_of(frame.state.view.dark).warning, "This file exists already and will be replaced.");
+    else
+        muted(frame, "A new file.");
+}
+
+Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const ImVec4& colour)
+{
+    const auto shade = [&](float f) { return ImVec4(colour.x * f, colour.y * f, colour.z * f, 1); };
+    const float gap = 8 * frame.ui.scale, height = ImGui::GetFrameHeight() * 1.15f;
+    const ImFont* bold = frame.ui.fonts.bold;
+    const auto width = [&](const char* label) {
+        const float text = bold->CalcTextSizeA(bold->FontSize, FLT_MAX, 0, label).x;
+        return std::max(110 * frame.ui.scale, text + 28 * frame.ui.scale);
+    };
+    ImGui::Dummy({0, 2 * frame.ui.scale});
+    const float whole = width(yes) + gap + width("Cancel");
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, ImGui::GetContentRegionAvail().x - whole));
+    Answer answer = Answer::none;
+    if (ImGui::Button("Cancel", {width("Cancel"), height}) || pressed(frame, GLFW_KEY_ESCAPE))
+        answer = Answer::cancel;
+    ImGui::SameLine(0, gap);
+    ImGui::BeginDisabled(!enabled);
+    ImGui::PushStyleColor(ImGuiCol_Button, shade(0.9f));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(1));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(0.8f));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 1, 1, 1));
+    ImGui::PushFont(frame.ui.fonts.bold);
+    if (ImGui::Button(yes, {width(yes), height}))
+        answer = Answer::yes;
+    ImGui::PopFont();
+    ImGui::PopStyleColor(4);
+    ImGui::EndDisabled();
+    return answer;
+}
+
+std::string beside_part(const Frame& frame, const std::string& ending)
+{
+    std::filesystem::path file = std::filesystem::absolute(frame.state.document.session.file);
+    file.replace_filename(file.stem().string() + ending);
+    return file.string();
+}
+
+void follow(std::string& path, std::string& suggested, const std::string& suggestion)
+{
+    if (path.empty() || path == suggested)
+        path = suggestion;
+    suggested = suggestion;
+}
+
+} // namespace spia::viewer

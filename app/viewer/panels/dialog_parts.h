@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "app/viewer/panels/ui.h"
+
+/// What the dialogs have in common.
+namespace spia::viewer {
+
+/// A modal window in the middle of the screen, as high as its content; if it is open, call end_dialog().
+/// @param appears opens it now
+/// @param width at content scale 1
+bool begin_dialog(const Frame& frame, const char* title, bool appears, float width);
+
+void end_dialog();
+
+/// Whether the key was pressed since the last frame.
+bool pressed(const Frame& frame, int key);
+/// Return on either side of the keyboard.
+bool enter_pressed(const Frame& frame);
+
+/// A line to type a file or folder into, and a button that lets choose it. @returns whether the button was pressed
+bool path_input(const Frame& frame, const char* id, std::string& path, const char* hint);
+
+/// Says that a file is there already and will be replaced.
+void replaced_note(const Frame& frame, const std::filesystem::path& file);
+
+/// Two buttons at the lower right: the one that does it, in a colour, and Cancel.
+enum class Answer { none, yes, cancel };
+Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const ImVec4& colour);
+
+/// A file beside the part: its name with this instead of its ending.
+std::string beside_part(const Frame& frame, const std::string& ending);
+
+/// @param suggested what the path was set to last; as long as the user has typed no other, it follows the part
+void follow(std::string& path, std::string& suggested, const std::string& suggestion);
+
+} // namespace spia::viewer

@@ -1,0 +1,256 @@
+#include "app/viewer/panels/export_dialog.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/core.h>
+
+#include "app/viewer/model/names.h"
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
+#include "engine/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace spia::viewer {
+namespace {
+
+ExportChoices::Planned planned_files(const Session& session, const ExportChoices& choices)
+{
+    ExportChoices::Planned planned;
+    try {
+        planned.files = output_files(session, choices.folder, choices.formats, choices.options);
+        for (const fs::path& file : planned.files) {
+            std::error_code ignored;
+            planned.exists.push_back(fs::exists(file, ignored));
+        }
+    } catch (const InputError& error) {
+        planned.problem = error.what();
+    }
+    return planned;
+}
+
+/// How well the surface fits, the louder the worse.
+void deviation_banner(const Frame& frame, const FitVerdict& verdict, double tolerance)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    const bool loud = verdict.fit == Fit::far_off;
+    const ImVec4 colour = verdict.fit == Fit::within ? p.good : loud ? p.error : p.warning;
+    const char* headline = verdict.fit == Fit::none     ? "No surface"
+                           : verdict.fit == Fit::within ? "The surface fits"
+                           : loud                       ? "The surface is far from the part"
+                                                        : "The surface leaves the tolerance";
+    const std::string words = text(verdict, tolerance);
+    const float s = frame.ui.scale, pad = (loud ? 14 : verdict.fit == Fit::beyond ? 11 : 8) * s, bar = 5 * s;
+    const float large = loud ? 1.35f : verdict.fit == Fit::beyond ? 1.15f : 1.f;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, wrap = width - 2 * pad - bar;
+    ImFont* bold = frame.ui.fonts.bold;
+    const float head = bold->FontSize * large, gap = 3 * s;
+    const float height = 2 * pad + head + gap + ImGui::CalcTextSize(words.c_str(), nullptr, false, wrap).y;
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const ImVec4 ground(colour.x, colour.y, colour.z, loud ? 0.92f : verdict.fit == Fit::beyond ? 0.2f : 0.12f);
+    draw->AddRectFilled(at, {at.x + width, at.y + height}, ink(ground), 4 * s);
+    draw->AddRectFilled(at, {at.x + bar, at.y + height}, ink(colour), 4 * s, ImDrawFlags_RoundCornersLeft);
+    const ImU32 text_ink = loud ? IM_COL32(255, 255, 255, 255) : ImGui::GetColorU32(ImGuiCol_Text);
+    draw->AddText(bold, head, {at.x + bar + pad, at.y + pad}, loud ? text_ink : ink(colour), headline);
+    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + bar + pad, at.y + pad + head + gap}, text_ink,
+                  words.c_str(), nullptr, wrap);
+    ImGui::Dummy({width, height});
+}
+
+bool format_box(std::vector<std::string>& formats, const char* format, const char* text)
+{
+    bool on = std::find(formats.begin(), formats.end(), format) != formats.end();
+    if (ImGui::Checkbox(text, &on)) {
+        std::erase(formats, format);
+        if (on)
+            formats.push_back(format);
+    }
+    return on;
+}
+
+/// Boxes in a row, a new row where the next one would not fit.
+template <size_t n> void boxes(const Frame& frame, const std::array<std::pair<const char*, bool*>, n>& each)
+{
+    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x, gap = 12 * frame.ui.scale;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3 * frame.ui.scale, 2 * frame.ui.scale});
+    bool first = true;
+    for (const auto& [label, on] : each) {
+        const float width = ImGui::CalcTextSize(label).x + ImGui::GetFrameHeight() + 6 * frame.ui.scale;
+        if (!std::exchange(first, false) && ImGui::GetItemRectMax().x + gap + width < right)
+            ImGui::SameLine(0, gap);
+        ImGui::Checkbox(label, on);
+    }
+    ImGui::PopStyleVar();
+}
+
+void formats_column(Frame& frame, ExportChoices& choices)
+{
+    auto& formats = choices.formats;
+    GltfNodes& glb = choices.options.glb;
+    CsvTables& csv = choices.options.csv;
+    const float indent = ImGui::GetFrameHeight() + 6 * frame.ui.scale;
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted("Formats");
+    ImGui::PopFont();
+    const bool surface = frame.state.document.session.surface != nullptr;
+    ImGui::BeginDisabled(!surface);
+    format_box(formats, "iges", "IGES  the NURBS surface for CAD");
+    format_box(formats, "step", "STEP AP242  the NURBS surface for CAD");
+    ImGui::EndDisabled();
+    if (format_box(formats, "glb", "GLB  scene with the fields as colours")) {
+        ImGui::Indent(indent);
+        boxes(frame, std::array{std::pair{"Part", &glb.part}, std::pair{"Blank", &glb.blank},
+                                std::pair{"Quads", &glb.quad_mesh}, std::pair{"Surface", &glb.surface},
+                                std::pair{"Control net", &glb.control_net}});
+        ImGui::Unindent(indent);
+    }
+    format_box(formats, "vtu", "VTU  all fields, for ParaView");
+    format_box(formats, "dxf", "DXF  outline of the blank");
+    if (format_box(formats, "csv", "CSV  tables")) {
+        ImGui::Indent(indent);
+        boxes(frame, std::array{std::pair{"Fields per vertex", &csv.fields}, std::pair{"Outline", &csv.outline}});
+        ImGui::Unindent(indent);
+    }
+    format_box(formats, "png", "PNG  one picture of the whole chain");
+}
+
+void unit_input(const Frame& frame, LengthUnit& unit)
+{
+    ImGui::TextUnformatted("Lengths in");
+    ImGui::SameLine(110 * frame.ui.scale);
+    ImGui::SetNextItemWidth(-1);
+    const std::string now(name_in_table(unit));
+    if (ImGui::BeginCombo("##unit", now.c_str())) {
+        for (const auto& [each, label] : names_of<LengthUnit>)
+            if (ImGui::Selectable(std::string(label).c_str(), each == unit))
+                unit = each;
+        ImGui::EndCombo();
+    }
+    tooltip(
+        "Of IGES, STEP, DXF, CSV and VTU; the file names the unit. A GLB file has metres, as its specification wants.");
+}
+
+void files_list(const Frame& frame, const ExportChoices::Planned& planned)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    if (!planned.problem.empty()) {
+        coloured(p.error, planned.problem);
+        return;
+    }
+    const auto replaced = std::count(planned.exists.begin(), planned.exists.end(), true);
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::Text("%d %s", int(planned.files.size()), planned.files.size() == 1 ? "file" : "files");
+    ImGui::PopFont();
+    if (replaced > 0) {
+        ImGui::SameLine();
+        ImGui::TextColored(p.warning, "%d of them there already, to be replaced", int(replaced));
+    }
+    ImGui::PushFont(frame.ui.fonts.small);
+    for (size_t k = 0; k < planned.files.size(); ++k) {
+        ImGui::TextColored(planned.exists[k] ? p.warning : p.muted, "%s%s", planned.files[k].filename().c_str(),
+                           planned.exists[k] ? "   replaced" : "");
+        tooltip(planned.files[k].string());
+    }
+    ImGui::PopFont();
+}
+
+} // namespace
+
+void export_dialog(Frame& frame)
+{
+    ExportChoices& choices = frame.ui.exporting;
+    const Session& session = frame.state.document.session;
+    const bool appears = std::exchange(frame.ui.show_export, false);
+    if (appears) {
+        const fs::path beside = fs::absolute(session.file).parent_path();
+        follow(choices.folder, choices.suggested, (beside / "spia-out").string());
+        choices.planned = {}; // files may have come and gone
+        choices.asked = false;
+    }
+    if (!begin_dialog(frame, "Export", appears, 720))
+        return;
+    const float s = frame.ui.scale;
+    const FitVerdict verdict = choices.verdict.of({session.surface, choices.tolerance},
+                                                  [&] { return fit_verdict(session, choices.tolerance); });
+    deviation_banner(frame, verdict, choices.tolerance);
+    if (verdict.fit != Fit::none) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted("Tolerance");
+        ImGui::SameLine(110 * s);
+        ImGui::SetNextItemWidth(110 * s);
+        if (ImGui::InputDouble("mm##tolerance", &choices.tolerance, 0, 0, "%.4g"))
+            choices.tolerance = std::clamp(choices.tolerance, 1e-6, 1e6);
+        tooltip("How far the surface may be from the part. What you set here only changes this warning.");
+    }
+    ImGui::Separator();
+
+    const OutputOptions before = choices.options;
+    const std::vector<std::string> formats_before = choices.formats;
+    if (ImGui::BeginTable("columns", 2)) {
+        ImGui::TableSetupColumn("formats", ImGuiTableColumnFlags_WidthStretch, 1);
+        ImGui::TableSetupColumn("where", ImGuiTableColumnFlags_WidthStretch, 1);
+        ImGui::TableNextColumn();
+        formats_column(frame, choices);
+        ImGui::TableNextColumn();
+        ImGui::AlignTextToFramePadding();
+        ImGui::PushFont(frame.ui.fonts.bold);
+        ImGui::TextUnformatted("Files");
+        ImGui::PopFont();
+        ImGui::AlignTextToFramePadding();
+        unit_input(frame, choices.options.unit);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted("Name");
+        ImGui::SameLine(110 * s);
+        ImGui::SetNextItemWidth(-1);
+        text_input("##name", choices.options.name, false, session.file.stem().c_str());
+        if (path_input(frame, "folder", choices.folder, "folder")) {
+            ImGui::CloseCurrentPopup();
+            frame.ui.files.open(FileDialog::Purpose::export_folder, choices.folder);
+        }
+        const auto& planned = choices.planned.of(
+            {choices.folder, choices.formats, choices.options, session.blank, session.lifted, session.surface},
+            [&] { return planned_files(session, choices); });
+        files_list(frame, planned);
+        ImGui::EndTable();
+    }
+    if (choices.options != before || choices.formats != formats_before)
+        choices.asked = false;
+
+    const auto& planned = choices.planned.of(
+        {choices.folder, choices.formats, choices.options, session.blank, session.lifted, session.surface},
+        [&] { return planned_files(session, choices); });
+    const auto wants = [&](const char* format) {
+        return std::find(choices.formats.begin(), choices.formats.end(), format) != choices.formats.end();
+    };
+    const bool doubtful = verdict.fit == Fit::far_off && (wants("iges") || wants("step"));
+    choices.asked &= doubtful;
+    const bool busy = frame.model.busy();
+    if (busy)
+        muted(frame, "A job is running; export when it has ended.");
+    if (choices.asked)
+        coloured(palette_of(frame.state.view.dark).error,
+                 "IGES and STEP will hold a surface that is not the part. Click once more if you want that.");
+    const bool ready = planned.problem.empty() && !planned.files.empty() && !choices.folder.empty() && !busy;
+    const Palette p = palette_of(frame.state.view.dark);
+    const Answer answer =
+        answer_buttons(frame, choices.asked ? "Export anyway" : "Export", ready, choices.asked ? p.error : p.accent);
+    const bool clicked = answer == Answer::yes;
+    if (ready &&
+        (clicked || (enter_pressed(frame) && !choices.asked))) { // the second time Return is not deliberate enough
+        if (doubtful && !choices.asked)
+            choices.asked = true;
+        else {
+            frame.actions.push(ExportFiles{choices.folder, choices.formats, choices.options});
+            choices.asked = false;
+            ImGui::CloseCurrentPopup();
+        }
+    }
+    if (answer == Answer::cancel)
+        ImGui::CloseCurrentPopup();
+    end_dialog();
+}
+
+} // namespace spia::viewer

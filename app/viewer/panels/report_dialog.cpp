@@ -1,0 +1,110 @@
+#include "app/viewer/panels/report_dialog.h"
+
+#include <algorithm>
+
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+namespace {
+
+void heading(const Frame& frame, const char* text)
+{
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted(text);
+    ImGui::PopFont();
+}
+
+void pictures_column(const Frame& frame, ReportOptions& options)
+{
+    const Session& session = frame.state.document.session;
+    const std::pair<View, const char*> views[] = {
+        {View::part, "Part"}, {View::blank, "Blank"}, {View::quads, "Quad mesh"}, {View::surface, "NURBS surface"}};
+    heading(frame, "Pictures");
+    auto& chosen = options.pictures;
+    for (const auto& [view, label] : views) {
+        const bool there = (view != View::quads || session.lifted) && (view != View::surface || session.surface);
+        bool on = std::find(chosen.begin(), chosen.end(), view) != chosen.end();
+        ImGui::BeginDisabled(!there);
+        if (ImGui::Checkbox(label, &on)) {
+            std::erase(chosen, view);
+            if (on)
+                chosen.push_back(view);
+        }
+        ImGui::EndDisabled();
+    }
+    heading(frame, "How they look");
+    if (ImGui::RadioButton("Standard: light, whole, thinning", options.standard_look))
+        options.standard_look = true;
+    if (ImGui::RadioButton("The views as they are now", !options.standard_look))
+        options.standard_look = false;
+}
+
+void tables_column(const Frame& frame, ReportTables& tables)
+{
+    heading(frame, "Tables");
+    ImGui::Checkbox("Key figures", &tables.key_figures);
+    ImGui::Checkbox("Where the sheet thins most", &tables.worst_spots);
+    ImGui::Checkbox("Assumptions", &tables.assumptions);
+    ImGui::Checkbox("How the solver got there", &tables.solver);
+    ImGui::Checkbox("The part as it was read", &tables.repairs);
+    muted(frame, "What makes the result poorer is always said.");
+}
+
+} // namespace
+
+void report_dialog(Frame& frame)
+{
+    ReportChoices& choices = frame.ui.reporting;
+    ReportOptions& options = choices.options;
+    const Session& session = frame.state.document.session;
+    const bool appears = std::exchange(frame.ui.show_report, false);
+    if (appears) {
+        follow(choices.file, choices.suggested, beside_part(frame, ".html"));
+        if (choices.about != session.file.string())
+            options.title = options.remarks = "";
+        choices.about = session.file.string();
+    }
+    if (!begin_dialog(frame, "Report", appears, 600))
+        return;
+    const float s = frame.ui.scale;
+    ImGui::SetNextItemWidth(-1);
+    text_input("##title", options.title, false, ("Title: " + session.file.filename().string()).c_str());
+    const bool typing = text_area("##remarks", options.remarks, {-1, 5 * ImGui::GetTextLineHeight() + 10 * s});
+    if (options.remarks.empty() && !typing) {
+        const ImVec2 at = ImGui::GetItemRectMin(), pad = ImGui::GetStyle().FramePadding;
+        ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                                            "Remarks");
+    }
+    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchSame)) {
+        ImGui::TableNextColumn();
+        pictures_column(frame, options);
+        ImGui::TableNextColumn();
+        tables_column(frame, options.tables);
+        ImGui::EndTable();
+    }
+    ImGui::Separator();
+    const bool choose = path_input(frame, "file", choices.file, "a file for the report");
+    std::filesystem::path file = choices.file;
+    if (file.extension() != ".html")
+        file += ".html";
+    if (!choices.file.empty())
+        replaced_note(frame, file);
+    if (choose) {
+        ImGui::CloseCurrentPopup();
+        frame.ui.files.open(FileDialog::Purpose::save_report, choices.file);
+    }
+    const bool ready = !choices.file.empty();
+    const Answer answer = answer_buttons(frame, "Write the report", ready, palette_of(frame.state.view.dark).accent);
+    if (ready && (answer == Answer::yes || (enter_pressed(frame) && !typing))) {
+        frame.actions.push(WriteReport{file, options});
+        ImGui::CloseCurrentPopup();
+    }
+    if (answer == Answer::cancel)
+        ImGui::CloseCurrentPopup();
+    end_dialog();
+}
+
+} // namespace spia::viewer
