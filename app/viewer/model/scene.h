@@ -70,6 +70,12 @@ struct SceneLabel {
     Eigen::Vector3d place; ///< mm
     std::string text;
     Colour colour{0, 0, 0, 1};
+    bool below = false; ///< the place, else above it
+};
+
+/// A circle of some pixels around a place in space; the panels draw it, not the renderer.
+struct SceneRing {
+    Eigen::Vector3d place; ///< mm
 };
 
 /// What the colours of a scene mean; the panels draw it.
@@ -99,6 +105,7 @@ struct Scene {
     std::vector<std::shared_ptr<const SceneLines>> lines;
     std::vector<std::shared_ptr<const ScenePoints>> points;
     std::vector<SceneLabel> labels;
+    std::vector<SceneRing> rings;
     std::optional<SceneLegend> legend;  ///< of the field that is shown
     std::vector<Colour> region_colours; ///< by number of region
     Eigen::AlignedBox3d box;            ///< mm, around everything worth seeing: what "fit" shows

@@ -21,6 +21,11 @@ constexpr ToolButton tools[] = {
     {Tool::brush, "Brush", "Paint faces  (U)", GLFW_KEY_U},
     {Tool::flood, "Flood", "Pick all around a face up to an angle between neighbours  (R)", GLFW_KEY_R},
     {Tool::smooth_region, "Smooth", "Pick the smooth piece of sheet around a face  (N)", GLFW_KEY_N},
+    {Tool::vertex, "Vertex", "Pick vertices; two show their distance. Shift adds, Ctrl takes away  (D)", GLFW_KEY_D},
+    {Tool::outline, "Outline",
+     "Pick vertices of the outline and the holes; sharp turns attract the mouse. Four of the outline can become the corners "
+     "of the grid  (G)",
+     GLFW_KEY_G},
     {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
     {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
     {Tool::corners, "Corners", "Drag the four corners along the outline of the blank  (C)", GLFW_KEY_C},
@@ -41,7 +46,7 @@ void tool_bar(Frame& frame)
     for (const ToolButton& button : tools) {
         if (button.tool != Tool::look)
             ImGui::SameLine(0, 3 * frame.ui.scale);
-        if (button.tool == Tool::pick || button.tool == Tool::probe) {
+        if (button.tool == Tool::pick || button.tool == Tool::vertex || button.tool == Tool::probe) {
             ImGui::SameLine(0, 14 * frame.ui.scale);
         }
         const bool active = frame.state.view.tool == button.tool;

@@ -3,6 +3,7 @@
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/strain_glyphs.h"
@@ -156,6 +157,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache)
     if (live)
         return result;
     add_watched_places(result, state, values, flat.position);
+    add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);
     if (const auto corner = corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
     return result;

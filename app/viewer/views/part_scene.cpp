@@ -1,4 +1,5 @@
 #include "app/viewer/views/marking.h"
+#include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/strain_glyphs.h"
@@ -47,6 +48,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache)
         return state.hovered ? outline_of_faces(*part.mesh, {*state.hovered}, 2, false) : LineList{};
     }));
     add_watched_places(result, state, values, session.part->mesh.position);
+    add_picked_vertices(result, state, cache.vertices_on_part, part.mesh, session.part->mesh.position);
     return result;
 }
 
