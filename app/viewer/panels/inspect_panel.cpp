@@ -518,9 +518,9 @@ void inspect_panel(Frame& frame)
         muted(frame, "Open a part to inspect it: thinning, strains, stresses, deviation.");
     } else {
         field_section(frame);
+        vertices_section(frame);
         histogram_section(frame);
         worst_section(frame);
-        vertices_section(frame);
         probes_section(frame);
         section_plot(frame);
         strain_diagram(frame);

@@ -73,6 +73,7 @@ void steps_panel(Frame& frame);
 void inspect_panel(Frame& frame);
 void view_area(Frame& frame);
 void tool_bar(Frame& frame);
+float tool_bar_height(const Frame& frame, float width); ///< pixels; narrow windows need two rows
 void dialogs(Frame& frame);
 /// Keyboard shortcuts, unless a text is being typed.
 void shortcuts(Frame& frame);

@@ -177,7 +177,7 @@ void workbench(Frame& frame)
         steps_panel(frame);
         ImGui::EndChild();
     }
-    const float middle = io.DisplaySize.x - left - right, bar = ImGui::GetFrameHeight() + 10 * s;
+    const float middle = io.DisplaySize.x - left - right, bar = tool_bar_height(frame, middle - 12 * s) + 4 * s;
     ImGui::SetCursorScreenPos({at.x + left + 6 * s, at.y + 4 * s});
     ImGui::BeginChild("tools", {middle - 12 * s, bar - 4 * s}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);

@@ -157,9 +157,9 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache)
     if (live)
         return result;
     add_watched_places(result, state, values, flat.position);
-    add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);
     if (const auto corner = corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
+    add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);
     return result;
 }
 

@@ -18,7 +18,7 @@ VertexShape vertex_shape(const std::vector<int>& vertices, const Eigen::Matrix3X
         return shape;
     shape.dots = scene_points(position(Eigen::all, vertices));
     shape.dots->colour = palette::selected;
-    shape.dots->size = 10;
+    shape.dots->size = 8; // a corner that is there, too, shows around it
     if (vertices.size() == 2)
         for (const auto& [colour, width] : {std::pair(palette::casing, 3.5f), std::pair(palette::measure, 1.5f)}) {
             const auto line = scene_lines(position, Eigen::Matrix<int, 2, 1>(vertices[0], vertices[1]));
