@@ -278,7 +278,7 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     before.regions.push_back({"right", RegionKind::fixed, {}, faces_between(mesh, 80, 100)});
     before.probes.push_back({faces_between(mesh, 95, 100)[0], {1. / 3, 1. / 3, 1. / 3}});
     before.session.options.corners = {0, 50, 50 + 30 * 51, 30 * 51};
-    before.vertices = {0, 25 + 15 * 51, 49 + 15 * 51, 50}; // two corners, the middle, beside the right edge
+    before.vertices = {0, 25 + 15 * 51, 49 + 15 * 51, 50 + 15 * 51}; // a corner, the middle, two at the right edge
     std::sort(before.vertices.begin(), before.vertices.end());
     save_project(folder / "a.spia", before, {});
     std::vector<std::string> lost;
@@ -310,6 +310,12 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     const Document away = reopened(folder / "a.spia", lost);
     EXPECT_EQ(lost.size(), 5u);
     EXPECT_TRUE(away.regions[0].faces.empty());
+
+    // A trim further out by less than the reach: what was at the edge is again, though another vertex is nearer.
+    shapes::write_mesh(folder / "part.obj", shapes::rectangle(100.8, 60, 504, 30));
+    const Document wider = reopened(folder / "a.spia", lost);
+    ASSERT_EQ(wider.vertices.size(), 4u);
+    EXPECT_EQ(wider.vertices[3], 504 + 15 * 505);
 
     // Turned over in place: the same places, but the other side.
     TriMesh turned = mesh;
