@@ -208,12 +208,12 @@ void vertex_distance(Frame& frame)
     const auto distance = distance_of_picked(frame.state.document);
     if (!distance)
         return;
-    figure(frame, "Distance on the part", value_text(distance->on_part, "mm"));
+    figure(frame, "Distance on the part", fmt::format("{:.2f} mm", distance->on_part));
     if (!distance->on_blank)
         return;
-    figure(frame, "Distance on the blank", value_text(*distance->on_blank, "mm"));
+    figure(frame, "Distance on the blank", fmt::format("{:.2f} mm", *distance->on_blank));
     figure(frame, "Part less blank",
-           fmt::format("{:+.4g} mm  ({:+.2f} %)", distance->on_part - *distance->on_blank,
+           fmt::format("{:+.2f} mm  ({:+.2f} %)", distance->on_part - *distance->on_blank,
                        100 * (distance->on_part / *distance->on_blank - 1)));
 }
 
