@@ -87,10 +87,25 @@ struct PickBrush {
     PickMode mode = PickMode::add;
     bool through = false;
 };
-struct GrowSelection {};   ///< "grow_selection": by one ring of faces
-struct ShrinkSelection {}; ///< "shrink_selection"
-struct InvertSelection {}; ///< "invert_selection"
-struct ClearSelection {};  ///< "clear_selection"
+struct SelectVertices {
+    std::vector<int> vertices;
+    PickMode mode = PickMode::replace;
+}; ///< "select_vertices"
+/// "pick_vertex": the vertex in sight that is nearest to a pixel; with `boundary` of the outline and the holes only, where
+/// sharp turns go before the others.
+struct PickVertex {
+    View view = View::part;
+    glm::dvec2 pixel{0};
+    glm::dvec2 size{0};
+    PickMode mode = PickMode::replace;
+    bool boundary = false;
+    double reach = 12; ///< pixels
+};
+struct UseVerticesAsCorners {}; ///< "use_vertices_as_corners": four picked ones of the outline become those of the grid
+struct GrowSelection {};        ///< "grow_selection": by one ring of faces
+struct ShrinkSelection {};      ///< "shrink_selection"
+struct InvertSelection {};      ///< "invert_selection"
+struct ClearSelection {};       ///< "clear_selection": faces and vertices
 struct MakeRegion {
     std::string name;
     RegionKind kind = RegionKind::fixed;
@@ -139,6 +154,9 @@ struct LookFrom {
 struct FlyTo {
     int face = 0;
 }; ///< "fly_to": every view shows this face in its middle
+struct FlyToVertex {
+    int vertex = 0;
+}; ///< "fly_to_vertex": likewise; what is picked stays
 
 /// "show_fault": the views go to a place that the mesh doctor found; numbers as in DoctorReport.
 struct ShowFault {
@@ -174,12 +192,13 @@ struct Screenshot {
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
-using Action = std::variant<OpenPart, SetUnit, SetReading, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection,
-                            SetCorner, ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush,
-                            GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion,
-                            RemoveRegion, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
-                            SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, ShowFault, Undo, Redo, OpenProject,
-                            SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+using Action =
+    std::variant<OpenPart, SetUnit, SetReading, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
+                 ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
+                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
+                 ChangeRegion, RemoveRegion, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection,
+                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, Undo,
+                 Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -110,6 +110,7 @@ struct ViewerModel::Apply {
     void forget_picks()
     {
         document.selected.clear();
+        document.vertices.clear();
         document.probes.clear();
         document.section.reset();
     }
@@ -260,7 +261,59 @@ struct ViewerModel::Apply {
     {
         select(inverted(document.selected, part().mesh.triangles()), PickMode::replace, "Invert selection");
     }
-    void operator()(const ClearSelection&) { select({}, PickMode::replace, "Clear selection"); }
+    void operator()(const ClearSelection&)
+    {
+        if (document.selected.empty() && document.vertices.empty())
+            return;
+        change("Clear selection");
+        document.selected.clear();
+        document.vertices.clear();
+    }
+    void select_vertices(std::vector<int> vertices, PickMode mode, const char* name)
+    {
+        std::sort(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        require_vertices(vertices);
+        std::vector<int> result = picked(document.vertices, vertices, mode);
+        if (result == document.vertices)
+            return;
+        change(name);
+        document.vertices = std::move(result);
+    }
+    /// @param vertices ascending
+    void require_vertices(const std::vector<int>& vertices) const
+    {
+        if (!vertices.empty() && (vertices.front() < 0 || vertices.back() >= part().mesh.vertices()))
+            throw InputError(
+                fmt::format("The part has no vertex {}.", vertices.front() < 0 ? vertices.front() : vertices.back()));
+    }
+    void operator()(const SelectVertices& action) { select_vertices(action.vertices, action.mode, "Select vertices"); }
+    void operator()(const PickVertex& action)
+    {
+        picker(action.view); // says what is missing
+        const std::optional<int> vertex = model.pickers_.vertex_at(session, action, camera(action.view));
+        select_vertices(vertex ? std::vector{*vertex} : std::vector<int>{}, action.mode,
+                        action.boundary ? "Pick boundary vertex" : "Pick vertex");
+    }
+    void operator()(const UseVerticesAsCorners&)
+    {
+        const PartFile& file = part();
+        std::array<int, 4> corners = corners_of(document.vertices, model.pickers_.outline(session), file.source_vertex);
+        if (session.blank) { // begin where the automatic ones would: lowest to the left
+            const Eigen::Matrix2Xd& plane = session.blank->blank.position;
+            const auto height = [&](int v) { return plane.col(v).sum(); };
+            std::rotate(
+                corners.begin(),
+                std::min_element(corners.begin(), corners.end(), [&](int a, int b) { return height(a) < height(b); }),
+                corners.end());
+        }
+        change("Use vertices as corners");
+        for (int& corner : corners)
+            corner = file.source_vertex[size_t(corner)];
+        session.options.corners = corners;
+        if (session.blank)
+            model.run_to(Stage::fit, "Making the grid");
+    }
 
     size_t region(int number) const
     {
@@ -375,10 +428,23 @@ struct ViewerModel::Apply {
         const TriMesh& mesh = part().mesh;
         if (action.face < 0 || action.face >= mesh.triangles())
             throw InputError(fmt::format("The part has no face {}.", action.face));
+        const auto t = mesh.triangle.col(action.face);
+        look_at({t[0], t[1], t[2]});
+        select({action.face}, PickMode::replace, "Go to face");
+    }
+    void operator()(const FlyToVertex& action)
+    {
+        require_vertices({action.vertex});
+        look_at({action.vertex});
+    }
+    /// Every view shows the middle of some vertices of the part.
+    void look_at(const std::vector<int>& vertices)
+    {
+        const TriMesh& mesh = part().mesh;
         const auto middle = [&](const auto& position) {
             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            for (int a = 0; a < 3; ++a)
-                sum.head(position.rows()) += position.col(mesh.triangle(a, action.face)) / 3;
+            for (const int v : vertices)
+                sum.head(position.rows()) += position.col(v) / double(vertices.size());
             return glm::dvec3(sum[0], sum[1], sum[2]);
         };
         const double size = 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
@@ -389,7 +455,6 @@ struct ViewerModel::Apply {
             camera.target = view == View::blank ? middle(session.blank->blank.position) : middle(mesh.position);
             camera.height = std::min(camera.height, size);
         }
-        select({action.face}, PickMode::replace, "Go to face");
     }
     void operator()(const ShowFault& action)
     {

@@ -56,6 +56,7 @@ struct Document {
     SessionOptions made_with;            ///< the options that the results of the session were made with
     std::string material = "mild_steel"; ///< a built-in grade, or the path of a material file
     std::vector<int> selected;           ///< faces of the part, ascending
+    std::vector<int> vertices;           ///< picked ones of the part, ascending
     std::vector<FaceRegion> regions;
     std::vector<Probe> probes;
     std::optional<SectionLine> section; ///< not kept in projects

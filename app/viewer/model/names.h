@@ -33,6 +33,8 @@ inline constexpr std::array names_of<Tool>{Names<Tool>{Tool::look, "look"},
                                            Names<Tool>{Tool::smooth_region, "smooth_region"},
                                            Names<Tool>{Tool::probe, "probe"},
                                            Names<Tool>{Tool::section, "section"},
+                                           Names<Tool>{Tool::vertex, "vertex"},
+                                           Names<Tool>{Tool::outline, "outline"},
                                            Names<Tool>{Tool::corners, "corners"}};
 template <>
 inline constexpr std::array names_of<Stage>{Names<Stage>{Stage::read, "read"}, Names<Stage>{Stage::solve, "solve"},

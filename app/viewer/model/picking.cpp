@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "app/viewer/model/sight.h"
 #include "engine/core/parallel.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -15,76 +16,8 @@ namespace {
 
 constexpr double edge_on = 1e-4; ///< radians between a face and the line of sight: no pixel shows it
 constexpr double sharp_turn = 20 * std::numbers::pi / 180;
-constexpr double turn_reaches[] = {0.01, 0.03}; ///< of the outline's length, to each side of a turn
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Eigen::Vector3d to_eigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-/// A rectangle of pixels.
-struct PixelBox {
-    glm::dvec2 least{infinity}, greatest{-infinity};
-
-    bool holds(glm::dvec2 p) const
-    {
-        return p.x >= least.x && p.y >= least.y && p.x <= greatest.x && p.y <= greatest.y;
-    }
-};
-
-/// A view prepared for many places.
-class Sight {
-public:
-    Sight(const Camera& camera, const Eigen::AlignedBox3d& box, glm::dvec2 size)
-        : size_(size), perspective_(camera.perspective)
-    {
-        const glm::dmat4 view = view_matrix(camera, Eigen::Vector3d::Zero());
-        const glm::dmat4 to_clip = projection_matrix(camera, size.x / size.y, box) * view;
-        for (int i = 0; i < 4; ++i)
-            for (int k = 0; k < 4; ++k)
-                to_clip_(i, k) = to_clip[k][i];
-        eye_ = to_eigen(glm::dvec3(glm::inverse(view)[3]));
-        const Ray middle = ray_through(camera, box, size / 2., size);
-        direction_ = middle.direction;
-        near_ = (middle.origin - eye_).dot(direction_);
-    }
-
-    /// NaN before the near plane
-    glm::dvec2 pixel(const Eigen::Vector3d& place) const
-    {
-        const Eigen::Vector4d clip = to_clip_ * place.homogeneous();
-        if (!(clip[2] >= -clip[3]))
-            return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
-        return {(clip[0] / clip[3] + 1) / 2 * size_.x, (1 - clip[1] / clip[3]) / 2 * size_.y};
-    }
-
-    /// Where the line of sight to a place comes through the near plane.
-    Eigen::Vector3d viewer_of(const Eigen::Vector3d& place) const
-    {
-        const double depth = (place - eye_).dot(direction_);
-        if (!perspective_)
-            return place - (depth - near_) * direction_;
-        return eye_ + near_ / depth * (place - eye_);
-    }
-
-    /// The planes around what the view shows in a rectangle, for RayPicker::near().
-    Eigen::Matrix<double, 4, 5> half_spaces(const PixelBox& box) const
-    {
-        const Eigen::RowVector4d x = to_clip_.row(0), y = to_clip_.row(1), z = to_clip_.row(2), w = to_clip_.row(3);
-        const auto across = [&](double pixel) { return 2 * pixel / size_.x - 1; };
-        const auto up = [&](double pixel) { return 1 - 2 * pixel / size_.y; };
-        Eigen::Matrix<double, 5, 4> result;
-        result << x - across(box.least.x) * w, across(box.greatest.x) * w - x, y - up(box.greatest.y) * w,
-            up(box.least.y) * w - y, z + w;
-        return result.transpose();
-    }
-
-private:
-    Eigen::Matrix4d to_clip_;
-    Eigen::Vector3d eye_, direction_;
-    double near_;
-    glm::dvec2 size_;
-    bool perspective_;
-};
 
 /// A closed polygon of pixels, with its edges sorted into horizontal bands: a lasso has hundreds of them.
 class PixelPolygon {
@@ -231,6 +164,29 @@ std::optional<Probe> probe_at(const Camera& camera, const TriMesh& mesh, const R
     return probe;
 }
 
+std::vector<int> sharp_turns(const std::vector<double>& turn, const Eigen::MatrixXd& place, double perimeter)
+{
+    const int n = int(turn.size());
+    const double apart = turn_reaches[0] * perimeter;
+    std::vector<int> sharp;
+    for (int i = 0; i < n; ++i) {
+        bool greatest = turn[size_t(i)] >= sharp_turn;
+        for (const int step : {1, n - 1}) {
+            double way = 0;
+            for (int k = (i + step) % n, last = i; greatest && k != i; last = k, k = (k + step) % n) {
+                way += (place.col(k) - place.col(last)).norm();
+                if (way > apart)
+                    break;
+                const double other = turn[size_t(k)];
+                greatest = turn[size_t(i)] > other || (turn[size_t(i)] == other && i < k); // of equal ones the first
+            }
+        }
+        if (greatest)
+            sharp.push_back(i);
+    }
+    return sharp;
+}
+
 CornerTrack corner_track(const TriMesh& part, const Blank& blank)
 {
     const auto loops = boundary_loops(part);
@@ -244,23 +200,8 @@ CornerTrack corner_track(const TriMesh& part, const Blank& blank)
         for (const double reach : turn_reaches)
             turn[size_t(i)] +=
                 outline.turning(i, reach * outline.perimeter(), reach * outline.perimeter()) / std::size(turn_reaches);
-    // A corner turns more than all around it; of equal ones the first counts.
-    const double apart = turn_reaches[0] * outline.perimeter();
-    for (int i = 0; i < n; ++i) {
-        bool greatest = turn[size_t(i)] >= sharp_turn;
-        for (const int step : {1, n - 1}) {
-            double way = 0;
-            for (int k = (i + step) % n, last = i; greatest && k != i; last = k, k = (k + step) % n) {
-                way += (track.place.col(k) - track.place.col(last)).norm();
-                if (way > apart)
-                    break;
-                const double other = turn[size_t(k)];
-                greatest = turn[size_t(i)] > other || (turn[size_t(i)] == other && i < k);
-            }
-        }
-        if (greatest)
-            track.sharp.push_back(track.vertex[size_t(i)]);
-    }
+    for (const int i : sharp_turns(turn, track.place, outline.perimeter()))
+        track.sharp.push_back(track.vertex[size_t(i)]);
     return track;
 }
 

@@ -34,6 +34,12 @@ FaceSet picked(const FaceSet& selected, const FaceSet& faces, PickMode mode);
 std::optional<Probe> probe_at(const Camera& camera, const TriMesh& mesh, const RayPicker& picker, glm::dvec2 pixel,
                               glm::dvec2 size, double snap = 8);
 
+inline constexpr double turn_reaches[] = {0.01, 0.03}; ///< of a boundary's length, to each side of a turn
+
+/// The places of a closed boundary where it turns sharply and more than all around. A rounded corner has one, in its middle.
+/// @param turn radians per place, the mean over turn_reaches; @param place 2 or 3 by n, mm; @param perimeter mm
+std::vector<int> sharp_turns(const std::vector<double>& turn, const Eigen::MatrixXd& place, double perimeter);
+
 /// The outer boundary of a blank, prepared for dragging a corner along it.
 struct CornerTrack {
     std::vector<int> vertex; ///< of the part, counter-clockwise

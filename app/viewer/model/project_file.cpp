@@ -68,10 +68,14 @@ template <>
 inline constexpr auto members_of<StoredCorner> = std::tuple{required("vertex", &StoredCorner::vertex, any_index),
                                                             required("at", &StoredCorner::at, anywhere_in_space)};
 template <>
+inline constexpr auto members_of<StoredVertex> =
+    std::tuple{required("vertex", &StoredVertex::vertex, any_index), member("boundary", &StoredVertex::boundary),
+               required("at", &StoredVertex::at, anywhere_in_space), required("normal", &StoredVertex::normal)};
+template <>
 inline constexpr auto members_of<StoredPicks> =
     std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),
-               member("regions", &StoredPicks::regions), member("probes", &StoredPicks::probes),
-               member("corners", &StoredPicks::corners)};
+               member("vertices", &StoredPicks::vertices),       member("regions", &StoredPicks::regions),
+               member("probes", &StoredPicks::probes),           member("corners", &StoredPicks::corners)};
 template <>
 inline constexpr auto members_of<StoredPath> =
     std::tuple{required("file", &StoredPath::file), member("was_at", &StoredPath::was_at)};

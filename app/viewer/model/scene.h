@@ -84,6 +84,11 @@ struct Isoline {
     Eigen::Matrix3Xd point; ///< 3 by #points, mm; of a closed line the last one is the first
 };
 
+/// A circle of some pixels around a place in space; the panels draw it, not the renderer.
+struct SceneRing {
+    Eigen::Vector3d place; ///< mm
+};
+
 /// What the colours of a scene mean; the panels draw it.
 struct SceneLegend {
     std::string title; ///< e.g. "Thinning"
@@ -112,6 +117,7 @@ struct Scene {
     std::vector<std::shared_ptr<const SceneLines>> lines;
     std::vector<std::shared_ptr<const ScenePoints>> points;
     std::vector<SceneLabel> labels;
+    std::vector<SceneRing> rings;
     std::shared_ptr<const std::vector<Isoline>> isolines; ///< null: none are shown
     std::optional<SceneLegend> legend;                    ///< of the field that is shown
     std::vector<Colour> region_colours;                   ///< by number of region

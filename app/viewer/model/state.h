@@ -16,7 +16,7 @@ inline constexpr View all_views[] = {View::part, View::blank, View::quads, View:
 std::string_view name(View view);         ///< "part", ...
 View view_by_name(std::string_view name); ///< @throws InputError
 
-enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, section, corners };
+enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, section, vertex, outline, corners };
 std::string_view name(Tool tool);
 Tool tool_by_name(std::string_view name); ///< @throws InputError
 
@@ -77,6 +77,7 @@ struct ViewerState {
     std::optional<int> hovered;              ///< face under the mouse
     std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
     std::optional<ShownFault> fault;         ///< the one that is looked at
+    std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
 };
 
 } // namespace spia::viewer

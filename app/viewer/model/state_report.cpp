@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/viewer/model/members.h"
+#include "app/viewer/model/vertex_picking.h"
 #include "engine/pipeline/report.h"
 
 namespace spia::viewer {
@@ -69,13 +70,22 @@ Json regions_json(const std::vector<FaceRegion>& regions)
     return list;
 }
 
+bool shows_field(const Document& document)
+{
+    return document.display.field != Field::none && available(document.session, document.display.field);
+}
+
 /// The field shown, one value per face or vertex; empty if none is.
 Eigen::VectorXd shown_field(const Document& document)
 {
     const FieldDisplay& display = document.display;
-    if (display.field == Field::none || !available(document.session, display.field))
-        return {};
-    return values(document.session, display.field, display.per_face);
+    return shows_field(document) ? values(document.session, display.field, display.per_face) : Eigen::VectorXd();
+}
+
+/// The same, smooth in any case.
+Eigen::VectorXd shown_at_vertices(const Document& document)
+{
+    return shows_field(document) ? values(document.session, document.display.field, false) : Eigen::VectorXd();
 }
 
 Json field_json(const Document& document, const Eigen::VectorXd& field)
@@ -101,6 +111,30 @@ Json probes_json(const Document& document, const Eigen::VectorXd& field)
         list.push_back(std::move(json));
     }
     return list;
+}
+
+Json vertices_json(const Document& document)
+{
+    Json list = Json::array();
+    const Session& session = document.session;
+    if (document.vertices.empty() || !session.part)
+        return list;
+    const std::vector<int> boundary = boundary_vertices(session.part->mesh).vertex;
+    const Eigen::VectorXd field = shown_at_vertices(document);
+    for (const int v : document.vertices)
+        list.push_back({{"vertex", v},
+                        {"in_file", session.part->source_vertex[size_t(v)]},
+                        {"boundary", std::binary_search(boundary.begin(), boundary.end(), v)},
+                        {"at", vector_json(session.part->mesh.position.col(v))},
+                        {"blank", session.blank ? vector_json(session.blank->blank.position.col(v)) : Json(nullptr)},
+                        {"value", field.size() == 0 ? Json(nullptr) : Json(field[v])}});
+    return list;
+}
+
+Json distance_json(const Document& document)
+{
+    const auto distance = distance_of_picked(document);
+    return distance ? Json{{"part", distance->on_part}, {"blank", written(distance->on_blank)}} : Json(nullptr);
 }
 
 Json corners_json(const Session& session)
@@ -150,6 +184,8 @@ Json state_report(const ViewerState& state)
             {"stages", stages_json(document.session)},
             {"figures", figures_json(document.session)},
             {"selection", faces_json(document.selected)},
+            {"vertices", vertices_json(document)},
+            {"distance", distance_json(document)},
             {"regions", regions_json(document.regions)},
             {"probes", probes_json(document, field)},
             {"display", written(document.display)},
@@ -167,7 +203,8 @@ Json state_report(const ViewerState& state)
               {"fraction", state.job.fraction},
               {"steps", state.job.residual.size()}}},
             {"project", {{"file", state.project.string()}, {"unsaved", state.unsaved}}},
-            {"hovered", state.hovered ? Json(*state.hovered) : Json(nullptr)}};
+            {"hovered", state.hovered ? Json(*state.hovered) : Json(nullptr)},
+            {"hovered_vertex", written(state.hovered_vertex)}};
 }
 
 } // namespace spia::viewer

@@ -13,6 +13,8 @@ namespace spia::viewer {
 /// | `stages.{read,solve,grid,lift,fit}` | whether the result of the stage is there |
 /// | `figures` | what the chain found: the JSON of `spia run --json` without `files`, see engine/pipeline/README.md |
 /// | `selection` | `faces`: how many; `first`: the first ten of them |
+/// | `vertices[]` | picked: `vertex` (of the part), `in_file`, `boundary`, `at` and `blank` (mm; null: none yet), `value` of the field shown, smooth (null: none) |
+/// | `distance` | of two picked vertices: null, or straight `part`, `blank` (mm; null: none yet) |
 /// | `regions[]` | `name`, `kind`, `colour`, `faces`, `first` |
 /// | `probes[]` | `face`, `barycentric`, `at` (mm), `value` of the field shown, in its unit (null: none) |
 /// | `display` | as in the script action set_display |
@@ -24,6 +26,7 @@ namespace spia::viewer {
 /// | `job` | `running`, `cancelling`, `title`, `step`, `fraction`, `steps` (residuals so far) |
 /// | `project` | `file` ("" if none), `unsaved` |
 /// | `hovered` | face under the mouse, or null |
+/// | `hovered_vertex` | which a click would pick, or null |
 ///
 /// Faces and vertices are numbers of the part in the program, from 0. Members are only added within a version.
 Json state_report(const ViewerState& state);

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "app/viewer/model/vertex_picking.h"
 #include "engine/core/error.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
@@ -83,6 +84,24 @@ StoredPatch store_patch(const PartFile& part, const std::vector<int>& triangles)
     return patch;
 }
 
+std::vector<StoredVertex> store_vertices(const PartFile& part, const std::vector<int>& vertices)
+{
+    if (vertices.empty())
+        return {};
+    const TriMesh& mesh = part.mesh;
+    const std::vector<int> boundary = boundary_vertices(mesh).vertex;
+    const Eigen::Matrix3Xd normal = vertex_normals(mesh);
+    std::vector<StoredVertex> stored;
+    for (const int v : vertices) {
+        if (v < 0 || v >= mesh.vertices())
+            throw InputError(fmt::format("vertex {} was picked, but the part has vertices 0 to {}; pick again", v,
+                                         mesh.vertices() - 1));
+        stored.push_back({part.source_vertex[size_t(v)], std::binary_search(boundary.begin(), boundary.end(), v),
+                          mesh.position.col(v), normal.col(v)});
+    }
+    return stored;
+}
+
 void require_sound(const StoredPatch& patch, const std::string& what)
 {
     const auto fail = [&](const char* why) {
@@ -154,18 +173,45 @@ public:
     }
 
     /// The vertex of the outer boundary that an old corner has become; -1 if there is none.
-    int find_corner(const Eigen::Vector3d& at) const
+    int find_corner(const Eigen::Vector3d& at) const { return find_on(boundary_loops(mesh_)[0], at); }
+
+    /// The vertex that an old one has become; -1 if there is none.
+    int find_vertex(const StoredVertex& old) const
     {
-        const std::vector<int> outline = boundary_loops(mesh_)[0];
+        int found = -1;
+        const auto take = [&](int v) {
+            if (v >= 0 &&
+                (found < 0 || (mesh_.position.col(v) - old.at).norm() < (mesh_.position.col(found) - old.at).norm()))
+                found = v;
+        };
+        if (old.boundary)
+            for (const std::vector<int>& loop : loops())
+                take(find_on(loop, old.at));
+        else if (const int face = find(old.at, old.normal).face; face >= 0)
+            for (const int v : mesh_.triangle.col(face))
+                take(v);
+        return found;
+    }
+
+private:
+    const std::vector<std::vector<int>>& loops() const
+    {
+        if (!loops_)
+            loops_ = boundary_loops(mesh_);
+        return *loops_;
+    }
+
+    /// The vertex of a boundary that is nearest to an old one; -1 if it is too far.
+    int find_on(const std::vector<int>& loop, const Eigen::Vector3d& at) const
+    {
         const auto distance = [&](int v) { return (mesh_.position.col(v) - at).norm(); };
         const auto nearest =
-            std::min_element(outline.begin(), outline.end(), [&](int a, int b) { return distance(a) < distance(b); });
-        const int next = nearest + 1 == outline.end() ? outline.front() : *(nearest + 1);
+            std::min_element(loop.begin(), loop.end(), [&](int a, int b) { return distance(a) < distance(b); });
+        const int next = nearest + 1 == loop.end() ? loop.front() : *(nearest + 1);
         const double edge = (mesh_.position.col(next) - mesh_.position.col(*nearest)).norm();
         return distance(*nearest) <= std::max(reach_, edge) ? *nearest : -1;
     }
 
-private:
     /// Whether the middle of a face lies over an old patch, not beside it.
     bool lies_on(const TriMesh& old, const ClosestPointSearch& search, const Eigen::Matrix3d& corners) const
     {
@@ -187,6 +233,7 @@ private:
     const TriMesh& mesh_;
     ClosestPointSearch search_;
     double reach_; ///< mm
+    mutable std::optional<std::vector<std::vector<int>>> loops_;
 };
 
 std::string near(const Eigen::Vector3d& at) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", at[0], at[1], at[2]); }
@@ -230,6 +277,29 @@ public:
         return {};
     }
 
+    std::vector<int> vertices(const std::vector<StoredVertex>& stored)
+    {
+        std::set<int> found;
+        std::vector<Eigen::Vector3d> lost;
+        for (const StoredVertex& each : stored) {
+            const int vertex = changed_ ? -1 : numbered(each.vertex);
+            if (const int now = vertex >= 0 ? vertex : changed().find_vertex(each); now >= 0)
+                found.insert(now);
+            else
+                lost.push_back(each.at);
+        }
+        if (!lost.empty())
+            missing.push_back(
+                fmt::format("{} of the {} picked vertices are not on the changed part any more, the first "
+                            "one near {}; they were removed",
+                            lost.size(), stored.size(), near(lost.front())));
+        if (const size_t merged = stored.size() - lost.size() - found.size(); merged > 0)
+            missing.push_back(
+                fmt::format("{} of the {} picked vertices have become one with another on the changed part", merged,
+                            stored.size()));
+        return {found.begin(), found.end()};
+    }
+
     std::optional<std::array<int, 4>> corners(const std::array<StoredCorner, 4>& stored)
     {
         std::array<int, 4> result;
@@ -261,6 +331,14 @@ public:
     std::vector<std::string> missing;
 
 private:
+    /// The vertex with this number in the file; -1 if there is none.
+    int numbered(int in_file) const
+    {
+        const std::vector<int>& numbers = part_.source_vertex;
+        const auto found = std::lower_bound(numbers.begin(), numbers.end(), in_file);
+        return found != numbers.end() && *found == in_file ? int(found - numbers.begin()) : -1;
+    }
+
     const ChangedPart& changed()
     {
         if (!changed_)
@@ -295,6 +373,7 @@ StoredPicks store_picks(const Document& document)
     StoredPicks picks;
     picks.fingerprint = fingerprint(part);
     picks.selected = store_patch(part, document.selected);
+    picks.vertices = store_vertices(part, document.vertices);
     for (const FaceRegion& region : document.regions)
         picks.regions.push_back({region.name, region.kind, region.colour, store_patch(part, region.faces)});
     for (const Probe& probe : document.probes) {
@@ -323,6 +402,7 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
     Restorer restorer(part, picks.fingerprint == fingerprint(part));
     Document restored = document; // all or nothing
     restored.selected = restorer.faces(picks.selected, "the selection");
+    restored.vertices = restorer.vertices(picks.vertices);
     restored.regions.clear();
     for (const StoredRegion& region : picks.regions)
         restored.regions.push_back({region.name, region.kind, region.colour,

@@ -37,9 +37,17 @@ struct StoredCorner {
     Eigen::Vector3d at{0, 0, 0}; ///< mm
 };
 
+struct StoredVertex {
+    int vertex = 0;                  ///< number in the file
+    bool boundary = false;           ///< of the outline or a hole
+    Eigen::Vector3d at{0, 0, 0};     ///< mm
+    Eigen::Vector3d normal{0, 0, 1}; ///< unit, the mean of its faces'; 0 where they cancel
+};
+
 struct StoredPicks {
     std::string fingerprint; ///< of the part they were made on, see fingerprint()
     StoredPatch selected;
+    std::vector<StoredVertex> vertices;
     std::vector<StoredRegion> regions;
     std::vector<StoredProbe> probes;
     std::optional<std::array<StoredCorner, 4>> corners; ///< of the grid, where the user chose them
@@ -48,13 +56,14 @@ struct StoredPicks {
 /// The same for two meshes with the same coordinates, triangles and numbers in the file, and practically only for these.
 std::string fingerprint(const PartFile& part);
 
-/// @throws InputError if the document has no part, or a pick names a face or corner that the part does not have
+/// @throws InputError if the document has no part, or a pick names a face, vertex or corner that the part does not have
 StoredPicks store_picks(const Document& document);
 
-/// Puts the picks into a document whose part has been read: selection, regions, probes, and the corners of the session's
-/// options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
+/// Puts the picks into a document whose part has been read: selection, vertices, regions, probes, and the corners of the
+/// session's options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
 /// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
-/// the outer boundary.
+/// the outer boundary. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
+/// to its place.
 /// @returns in words what was not found (again); empty if the part is the same, or all was found
 /// @throws InputError if the document has no part, or the picks make no sense
 std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks);

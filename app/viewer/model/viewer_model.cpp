@@ -239,13 +239,18 @@ void ViewerModel::project_opened()
         next_ = project.ran;
 }
 
-void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size)
+void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach)
 {
     hover_nothing();
     const RayPicker* picker = pickers_.picker(state_.document.session, view);
     if (!picker)
         return;
-    const RayHit hit = hit_at(state_.view.camera[size_t(view)], *picker, pixel, size);
+    const Camera& camera = state_.view.camera[size_t(view)];
+    if (const Tool tool = state_.view.tool; tool == Tool::vertex || tool == Tool::outline)
+        state_.hovered_vertex = pickers_.vertex_at(
+            state_.document.session,
+            {.view = view, .pixel = pixel, .size = size, .boundary = tool == Tool::outline, .reach = reach}, camera);
+    const RayHit hit = hit_at(camera, *picker, pixel, size);
     if (hit.face < 0)
         return;
     state_.hovered = hit.face;
@@ -255,6 +260,7 @@ void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size)
 void ViewerModel::hover_nothing()
 {
     state_.hovered.reset();
+    state_.hovered_vertex.reset();
     under_mouse_.reset();
 }
 

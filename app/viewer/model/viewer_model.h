@@ -39,8 +39,10 @@ public:
     /// The mouse is free again and no text is being typed: the next change is one of its own for undo, whatever its name.
     void gesture_ended() { state_.history.close(); }
 
-    /// What a view shows at a pixel: the face there becomes the hovered one.
-    void hover(View view, glm::dvec2 pixel, glm::dvec2 size);
+    /// What a view shows at a pixel: the face there becomes the hovered one, and with a tool for vertices the vertex that a
+    /// click would pick.
+    /// @param reach pixels
+    void hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach = PickVertex{}.reach);
     void hover_nothing();
     /// The place of the part under the mouse.
     const std::optional<Probe>& under_mouse() const { return under_mouse_; }

@@ -22,22 +22,22 @@ void shortcuts_window(Frame& frame)
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
     if (ImGui::Begin("Keyboard and mouse", &frame.ui.show_shortcuts,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
-        constexpr const char* rows[][2] = {
-            {"Left button", "what the tool does; with Look: turn"},
-            {"Right button", "turn, with every tool"},
-            {"Middle button, Shift + right", "pan"},
-            {"Wheel", "zoom to the place under the mouse"},
-            {"Shift, Ctrl", "picking adds, takes away"},
-            {"Double click on a title", "one view, four views"},
-            {"V P B L U R N O X C", "tools: look, face, box, lasso, brush, flood, smooth, probe, section, corners"},
-            {"F5, F6", "run all, unfold"},
-            {"F", "fit all"},
-            {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
-            {"E, T", "triangle edges; dark or light"},
-            {"F2, F3", "show or hide the panels"},
-            {"Ctrl + Z, Y", "undo, redo"},
-            {"Ctrl + O, S, E, Q", "open, save, export, quit"},
-            {"Esc", "clear the selection; cancel the job"}};
+        constexpr const char* rows[][2] = {{"Left button", "what the tool does; with Look: turn"},
+                                           {"Right button", "turn, with every tool"},
+                                           {"Middle button, Shift + right", "pan"},
+                                           {"Wheel", "zoom to the place under the mouse"},
+                                           {"Shift, Ctrl", "picking adds, takes away"},
+                                           {"Double click on a title", "one view, four views"},
+                                           {"V P B L U R N", "tools: look, face, box, lasso, brush, flood, smooth"},
+                                           {"D G O X C", "tools: vertex, outline, probe, section, corners"},
+                                           {"F5, F6", "run all, unfold"},
+                                           {"F", "fit all"},
+                                           {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
+                                           {"E, T", "triangle edges; dark or light"},
+                                           {"F2, F3", "show or hide the panels"},
+                                           {"Ctrl + Z, Y", "undo, redo"},
+                                           {"Ctrl + O, S, E, Q", "open, save, export, quit"},
+                                           {"Esc", "clear the selection; cancel the job"}};
         if (ImGui::BeginTable("keys", 2)) {
             for (const auto& row : rows) {
                 ImGui::TableNextRow();

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/statistics.h"
+#include "app/viewer/model/vertex_picking.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/colours.h"
+#include "engine/core/error.h"
 
 namespace spia::viewer {
 namespace {
@@ -18,6 +20,7 @@ struct Figures {
     bool per_face = false;
     Eigen::VectorXd value;       ///< per face; of a smooth field the mean of its corners
     Eigen::VectorXd worst_value; ///< per face the worst of its corners
+    Eigen::VectorXd at_vertex;   ///< the smooth field
     Histogram histogram;
     std::vector<int> worst;
 };
@@ -30,15 +33,16 @@ const Figures& figures(const Frame& frame)
     if (made.blank == session.blank && made.surface == session.surface && made.field == document.display.field &&
         made.per_face == document.display.per_face)
         return made;
-    made = {session.blank, session.surface, document.display.field, document.display.per_face, {}, {}, {}, {}};
+    made = {session.blank, session.surface, document.display.field, document.display.per_face, {}, {}, {}, {}, {}};
     if (!available(session, made.field) || made.field == Field::none)
         return made;
     const TriMesh& part = session.part->mesh;
     const bool small = made.field == Field::thickness;
     made.value = values(session, made.field, true);
     made.worst_value = made.value;
+    made.at_vertex = values(session, made.field, false);
     if (!made.per_face) { // the same numbers as in the views
-        const Eigen::VectorXd smooth = values(session, made.field, false);
+        const Eigen::VectorXd& smooth = made.at_vertex;
         for (int f = 0; f < part.triangles(); ++f) {
             const Eigen::Vector3d corner(smooth[part.triangle(0, f)], smooth[part.triangle(1, f)],
                                          smooth[part.triangle(2, f)]);
@@ -196,6 +200,96 @@ void probes_section(Frame& frame)
     }
     if (ImGui::SmallButton("Remove all"))
         frame.actions.push(ClearProbes{});
+}
+
+/// Straight, on the part and on the blank: what forming has made of it.
+void vertex_distance(Frame& frame)
+{
+    const auto distance = distance_of_picked(frame.state.document);
+    if (!distance)
+        return;
+    figure(frame, "Distance on the part", fmt::format("{:.2f} mm", distance->on_part));
+    if (!distance->on_blank)
+        return;
+    figure(frame, "Distance on the blank", fmt::format("{:.2f} mm", *distance->on_blank));
+    figure(frame, "Part less blank",
+           fmt::format("{:+.2f} mm  ({:+.2f} %)", distance->on_part - *distance->on_blank,
+                       100 * (distance->on_part / *distance->on_blank - 1)));
+}
+
+/// Offered for four picked vertices; where they are no corners it says why.
+void vertices_as_corners(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    const std::vector<int>& vertices = frame.state.document.vertices;
+    if (vertices.size() != 4)
+        return;
+    std::string why;
+    try {
+        corners_of(vertices, frame.model.pickers().outline(session), session.part->source_vertex);
+    } catch (const Error& error) {
+        why = error.what();
+    }
+    ImGui::BeginDisabled(!why.empty());
+    if (ImGui::Button("Use as corners", {-1, 0}))
+        frame.actions.push(UseVerticesAsCorners{});
+    ImGui::EndDisabled();
+    if (why.empty())
+        tooltip("They become the corners of the quad grid, in their order around the outline");
+    else
+        muted(frame, why);
+}
+
+void vertices_section(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    const std::vector<int>& vertices = document.vertices;
+    if (vertices.empty() || !ImGui::CollapsingHeader("Vertices", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    const PartFile& part = *document.session.part;
+    const Figures& now = figures(frame);
+    constexpr size_t most_rows = 8;
+    const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    ImGui::PushFont(frame.ui.fonts.small);
+    const ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY;
+    if (ImGui::BeginTable("vertices", 4, flags, {0, row * float(std::min(vertices.size(), most_rows) + 1)})) {
+        ImGui::TableSetupScrollFreeze(0, 1);
+        ImGui::TableSetupColumn("Vertex");
+        ImGui::TableSetupColumn("x, y, z, mm", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn(now.at_vertex.size() ? std::string(info(now.field).label).c_str() : "");
+        ImGui::TableSetupColumn("");
+        ImGui::TableHeadersRow();
+        ImGuiListClipper rows;
+        rows.Begin(int(vertices.size()));
+        while (rows.Step())
+            for (int k = rows.DisplayStart; k < rows.DisplayEnd; ++k) {
+                const int v = vertices[size_t(k)];
+                const Eigen::Vector3d at = part.mesh.position.col(v);
+                ImGui::PushID(v);
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                if (ImGui::Selectable(fmt::format("{}", part.source_vertex[size_t(v)]).c_str(), false,
+                                      ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap))
+                    frame.actions.push(FlyToVertex{v});
+                tooltip("Click to look at it in every view");
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(
+                    fmt::format("{:.1f}, {:.1f}, {:.1f}", at[0] + 0., at[1] + 0., at[2] + 0.).c_str());
+                ImGui::TableNextColumn();
+                if (now.at_vertex.size())
+                    ImGui::TextUnformatted(value_text(now.at_vertex[v], info(now.field).unit).c_str());
+                ImGui::TableNextColumn();
+                if (ImGui::SmallButton("x"))
+                    frame.actions.push(SelectVertices{{v}, PickMode::remove});
+                ImGui::PopID();
+            }
+        ImGui::EndTable();
+    }
+    ImGui::PopFont();
+    vertex_distance(frame);
+    vertices_as_corners(frame);
+    if (vertices.size() > 1 && ImGui::SmallButton("Remove all"))
+        frame.actions.push(SelectVertices{});
 }
 
 /// The field along the section line.
@@ -424,6 +518,7 @@ void inspect_panel(Frame& frame)
         muted(frame, "Open a part to inspect it: thinning, strains, stresses, deviation.");
     } else {
         field_section(frame);
+        vertices_section(frame);
         histogram_section(frame);
         worst_section(frame);
         probes_section(frame);

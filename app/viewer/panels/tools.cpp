@@ -21,6 +21,11 @@ constexpr ToolButton tools[] = {
     {Tool::brush, "Brush", "Paint faces  (U)", GLFW_KEY_U},
     {Tool::flood, "Flood", "Pick all around a face up to an angle between neighbours  (R)", GLFW_KEY_R},
     {Tool::smooth_region, "Smooth", "Pick the smooth piece of sheet around a face  (N)", GLFW_KEY_N},
+    {Tool::vertex, "Vertex", "Pick vertices; two show their distance. Shift adds, Ctrl takes away  (D)", GLFW_KEY_D},
+    {Tool::outline, "Outline",
+     "Pick vertices of the outline and the holes; sharp turns attract the mouse. Four of the outline can become the corners "
+     "of the grid  (G)",
+     GLFW_KEY_G},
     {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
     {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
     {Tool::corners, "Corners", "Drag the four corners along the outline of the blank  (C)", GLFW_KEY_C},
@@ -33,17 +38,97 @@ void set_tool(Frame& frame, Tool tool)
     frame.actions.push(SetViewSettings{settings});
 }
 
+bool begins_group(Tool tool) { return tool == Tool::pick || tool == Tool::vertex || tool == Tool::probe; }
+
+bool has_options(Tool tool)
+{
+    return tool == Tool::flood || tool == Tool::brush || tool == Tool::box || tool == Tool::lasso;
+}
+
+/// How the tools and their options fit into the bar.
+struct BarStyle {
+    bool compact = false, two_rows = false; ///< the second row is for the options of a tool
+    float gap, group, slider;               ///< pixels
+};
+
+void push(const Frame& frame, const BarStyle& style)
+{
+    if (!style.compact)
+        return;
+    ImGui::PushFont(frame.ui.fonts.small);
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5 * frame.ui.scale, padding.y + 1 * frame.ui.scale});
+}
+
+void pop(const BarStyle& style)
+{
+    if (!style.compact)
+        return;
+    ImGui::PopStyleVar();
+    ImGui::PopFont();
+}
+
+constexpr const char* hidden_too = "Hidden too";
+
+BarStyle bar_style(const Frame& frame, float width)
+{
+    const float s = frame.ui.scale;
+    BarStyle style{false, false, 3 * s, 11 * s, 120 * s};
+    const auto text = [](const char* label) {
+        return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    };
+    const auto buttons = [&] {
+        float sum = -style.gap;
+        for (const ToolButton& button : tools)
+            sum += text(button.label) + style.gap + (begins_group(button.tool) ? style.group : 0);
+        return sum;
+    };
+    const auto most = [&] { // the brush has most options
+        return buttons() + style.gap + style.group + style.slider + 2 * ImGui::GetStyle().ItemInnerSpacing.x +
+               ImGui::GetFrameHeight() + ImGui::CalcTextSize(hidden_too).x;
+    };
+    if (most() <= width)
+        return style;
+    style = {true, false, 2 * s, 6 * s, 76 * s};
+    push(frame, style);
+    style.two_rows = has_options(frame.state.view.tool) && most() > width;
+    pop(style);
+    return style;
+}
+
+void tool_options(Frame& frame, const BarStyle& style)
+{
+    ViewSettings settings = frame.state.view;
+    bool changed = false;
+    ImGui::SetNextItemWidth(style.slider);
+    if (settings.tool == Tool::flood) {
+        float angle = float(settings.flood_angle);
+        changed = ImGui::SliderFloat("##angle", &angle, 1, 90, "up to %.0f deg");
+        settings.flood_angle = angle;
+    } else if (settings.tool == Tool::brush) {
+        float radius = float(settings.brush_radius);
+        changed = ImGui::SliderFloat("##radius", &radius, 4, 100, "radius %.0f px");
+        settings.brush_radius = radius;
+        ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    }
+    if (settings.tool != Tool::flood) {
+        changed |= ImGui::Checkbox(hidden_too, &settings.through);
+        tooltip("Take the faces behind others, too");
+    }
+    if (changed)
+        frame.actions.push(SetViewSettings{settings});
+}
+
 } // namespace
 
 void tool_bar(Frame& frame)
 {
     const Palette p = palette_of(frame.state.view.dark);
+    const BarStyle style = bar_style(frame, ImGui::GetContentRegionAvail().x);
+    push(frame, style);
     for (const ToolButton& button : tools) {
         if (button.tool != Tool::look)
-            ImGui::SameLine(0, 3 * frame.ui.scale);
-        if (button.tool == Tool::pick || button.tool == Tool::probe) {
-            ImGui::SameLine(0, 14 * frame.ui.scale);
-        }
+            ImGui::SameLine(0, style.gap + (begins_group(button.tool) ? style.group : 0));
         const bool active = frame.state.view.tool == button.tool;
         if (active) {
             ImGui::PushStyleColor(ImGuiCol_Button, p.accent);
@@ -56,26 +141,18 @@ void tool_bar(Frame& frame)
             ImGui::PopStyleColor(3);
         tooltip(button.help);
     }
-    ViewSettings settings = frame.state.view;
-    bool changed = false;
-    ImGui::SameLine(0, 14 * frame.ui.scale);
-    ImGui::SetNextItemWidth(120 * frame.ui.scale);
-    if (settings.tool == Tool::flood) {
-        float angle = float(settings.flood_angle);
-        changed = ImGui::SliderFloat("##angle", &angle, 1, 90, "up to %.0f deg");
-        settings.flood_angle = angle;
-    } else if (settings.tool == Tool::brush) {
-        float radius = float(settings.brush_radius);
-        changed = ImGui::SliderFloat("##radius", &radius, 4, 100, "radius %.0f px");
-        settings.brush_radius = radius;
-    } else
-        ImGui::Dummy({0, 0});
-    if (settings.tool == Tool::box || settings.tool == Tool::lasso || settings.tool == Tool::brush) {
-        ImGui::SameLine();
-        changed |= ImGui::Checkbox("Hidden faces too", &settings.through);
+    if (has_options(frame.state.view.tool)) {
+        if (!style.two_rows)
+            ImGui::SameLine(0, style.gap + style.group);
+        tool_options(frame, style);
     }
-    if (changed)
-        frame.actions.push(SetViewSettings{settings});
+    pop(style);
+}
+
+float tool_bar_height(const Frame& frame, float width)
+{
+    const BarStyle style = bar_style(frame, width);
+    return (style.two_rows ? 2 : 1) * (ImGui::GetFrameHeight() + 6 * frame.ui.scale);
 }
 
 void shortcuts(Frame& frame)

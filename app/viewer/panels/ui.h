@@ -33,8 +33,8 @@ struct Ui {
     float left_width = 300, right_width = 320;
     bool show_left = true, show_right = true, show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false; ///< dialogs that open in the next frame
-    std::map<int, double> message_since; ///< seconds; by number
-    double wake_at = 0;                  ///< seconds of ImGui's clock: the window changes then without an event; 0: no
+    std::map<int, double> message_since;                                 ///< seconds; by number
+    double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     std::vector<KeyPress> keys;      ///< pressed since the last frame
     std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
@@ -84,6 +84,7 @@ void doctor_panel(Frame& frame);
 void inspect_panel(Frame& frame);
 void view_area(Frame& frame);
 void tool_bar(Frame& frame);
+float tool_bar_height(const Frame& frame, float width); ///< pixels; narrow windows need two rows
 void dialogs(Frame& frame);
 /// The newest messages, with their lower right corner at a place of the window; what only confirms goes by itself.
 void messages_overlay(Frame& frame, ImVec2 low_right, float width);

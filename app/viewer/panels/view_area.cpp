@@ -135,11 +135,17 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                 frame.actions.push(AddProbe{*probe});
         }
         return;
+    case Tool::vertex:
+    case Tool::outline:
+        if (clicked)
+            frame.actions.push(PickVertex{view, mouse.pixel, mouse.size, mode(), settings.tool == Tool::outline,
+                                          PickVertex{}.reach * ui.scale});
+        return;
     case Tool::brush:
         if (clicked) {
             ui.busy = view;
             if (mode() == PickMode::replace)
-                frame.actions.push(ClearSelection{});
+                frame.actions.push(SelectFaces{});
         }
         if (mouse.inside)
             draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
@@ -246,7 +252,8 @@ void view_buttons(Frame& frame, View view)
     tooltip("Or double-click the title");
 }
 
-void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
+/// @returns whether the mouse points into it and drags nothing
+bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
 {
     const Palette p = palette_of(frame.state.view.dark);
     const float bar = ImGui::GetTextLineHeight() + 10 * frame.ui.scale;
@@ -287,6 +294,13 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const Mouse mouse{vec(ImGui::GetMousePos()) - vec(from), vec(size), ImGui::IsItemHovered()};
 
     draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
+    const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
+    for (const SceneRing& ring : shown.rings) {
+        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], ring.place, mouse.size);
+        const ImVec2 middle{from.x + float(pixel.x), from.y + float(pixel.y)};
+        draw->AddCircle(middle, 8 * frame.ui.scale, halo, 24, 5 * frame.ui.scale);
+        draw->AddCircle(middle, 8 * frame.ui.scale, ink(p.accent), 24, 2.5f * frame.ui.scale);
+    }
     if (!shown.empty.empty()) {
         const float wrap = std::min(size.x - 40, 320 * frame.ui.scale);
         const ImVec2 text = ImGui::CalcTextSize(shown.empty.c_str(), nullptr, false, wrap);
@@ -306,10 +320,12 @@ void one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     use_tool(frame, view, mouse, from, draw);
     draw->PopClipRect();
     navigate(frame, view, mouse);
-    if (mouse.inside && !ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
-        frame.model.hover(view, mouse.pixel, mouse.size);
+    const bool points = mouse.inside && !ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2);
+    if (points)
+        frame.model.hover(view, mouse.pixel, mouse.size, PickVertex{}.reach * frame.ui.scale);
     ImGui::EndChild();
     draw->AddRect(at, {at.x + whole.x, at.y + whole.y}, ink(p.line));
+    return points;
 }
 
 /// A line between views that can be dragged. @returns the new share
@@ -349,9 +365,10 @@ void end_drags(Frame& frame)
 void view_area(Frame& frame)
 {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
-    frame.model.hover_nothing();
+    bool points = false; // what is under the mouse shows in all views, also those before the mouse's
     if (const auto only = frame.state.view.maximised) {
-        one_view(frame, *only, at, size);
+        if (!one_view(frame, *only, at, size))
+            frame.model.hover_nothing();
         end_drags(frame);
         return;
     }
@@ -370,12 +387,14 @@ void view_area(Frame& frame)
     const float left = x - gap / 2, right = size.x - x - gap / 2, upper = y - gap / 2, lower = size.y - y - gap / 2;
     const auto place = [&](View view, float dx, float dy, float w, float h) {
         ImGui::SetCursorScreenPos({at.x + dx, at.y + dy});
-        one_view(frame, view, {at.x + dx, at.y + dy}, {w, h});
+        points |= one_view(frame, view, {at.x + dx, at.y + dy}, {w, h});
     };
     place(View::part, 0, 0, left, upper);
     place(View::blank, x + gap / 2, 0, right, upper);
     place(View::quads, 0, y + gap / 2, left, lower);
     place(View::surface, x + gap / 2, y + gap / 2, right, lower);
+    if (!points)
+        frame.model.hover_nothing();
     end_drags(frame);
 }
 

@@ -10,25 +10,48 @@ namespace {
 /// At the right end of the status bar.
 void selection_actions(Frame& frame)
 {
-    if (frame.state.document.selected.empty())
+    const size_t faces = frame.state.document.selected.size(), vertices = frame.state.document.vertices.size();
+    if (faces == 0 && vertices == 0)
         return;
-    const std::string text = fmt::format("{} faces selected", frame.state.document.selected.size());
+    const auto count = [](size_t n, const char* one, const char* many) {
+        return n == 0 ? "" : fmt::format("{} {}", n, n == 1 ? one : many);
+    };
+    const std::string text = count(faces, "face", "faces") + (faces && vertices ? ", " : "") +
+                             count(vertices, "vertex", "vertices") + " selected";
+    std::vector<std::pair<const char*, Action>> acts = {{"Clear", ClearSelection{}}};
+    if (faces > 0)
+        acts.insert(acts.begin(),
+                    {{"Grow", GrowSelection{}}, {"Shrink", ShrinkSelection{}}, {"Invert", InvertSelection{}}});
     const ImGuiStyle& style = ImGui::GetStyle();
     const float gap = 6 * frame.ui.scale;
     float width = ImGui::CalcTextSize(text.c_str()).x;
-    for (const char* label : {"Grow", "Shrink", "Invert", "Clear"})
+    for (const auto& [label, action] : acts)
         width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap;
     ImGui::SameLine(ImGui::GetWindowWidth() - width - 14 * frame.ui.scale);
     ImGui::TextColored(palette_of(frame.state.view.dark).accent, "%s", text.c_str());
-    const auto act = [&](const char* label, Action action) {
+    for (const auto& [label, action] : acts) {
         ImGui::SameLine(0, gap);
         if (ImGui::SmallButton(label))
-            frame.actions.push(std::move(action));
-    };
-    act("Grow", GrowSelection{});
-    act("Shrink", ShrinkSelection{});
-    act("Invert", InvertSelection{});
-    act("Clear", ClearSelection{});
+            frame.actions.push(action);
+    }
+}
+
+/// The values of a field are not made anew for every mouse move.
+const Eigen::VectorXd& shown_values(const Session& session, Field field, bool per_face)
+{
+    static std::shared_ptr<const FlattenResult> blank;
+    static std::shared_ptr<const SurfaceStage> surface;
+    static Field of = Field::none;
+    static bool faces = false;
+    static Eigen::VectorXd value;
+    if (blank != session.blank || surface != session.surface || of != field || faces != per_face) {
+        blank = session.blank;
+        surface = session.surface;
+        of = field;
+        faces = per_face;
+        value = values(session, field, per_face);
+    }
+    return value;
 }
 
 void status_bar(Frame& frame)
@@ -45,35 +68,32 @@ void status_bar(Frame& frame)
         return;
     }
     ImGui::AlignTextToFramePadding();
+    const Session& session = state.document.session;
     const auto& probe = frame.model.under_mouse();
-    if (!probe || !state.document.session.part) {
-        ImGui::TextColored(p.muted, "%s",
-                           state.document.session.part ? "Ready" : "Open a part, or drop one on the window");
+    const auto& vertex = state.hovered_vertex;
+    if (!session.part || (!probe && !vertex)) {
+        ImGui::TextColored(p.muted, "%s", session.part ? "Ready" : "Open a part, or drop one on the window");
         return;
     }
-    const TriMesh& part = state.document.session.part->mesh;
+    const TriMesh& part = session.part->mesh;
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (int a = 0; a < 3; ++a)
-        at += probe->barycentric[a] * part.position.col(part.triangle(a, probe->face));
-    std::string text = fmt::format("Face {}    {:.2f}, {:.2f}, {:.2f} mm", probe->face, at[0], at[1], at[2]);
+    if (vertex)
+        at = part.position.col(*vertex);
+    else
+        for (int a = 0; a < 3; ++a)
+            at += probe->barycentric[a] * part.position.col(part.triangle(a, probe->face));
+    std::string text = fmt::format("{}    {:.2f}, {:.2f}, {:.2f} mm",
+                                   vertex ? fmt::format("Vertex {}", session.part->source_vertex[size_t(*vertex)])
+                                          : fmt::format("Face {}", probe->face),
+                                   at[0], at[1], at[2]);
     const Field field = state.document.display.field;
-    if (field != Field::none && available(state.document.session, field)) {
-        static std::shared_ptr<const FlattenResult>
-            blank; // the values of a field are not made anew for every mouse move
-        static std::shared_ptr<const SurfaceStage> surface;
-        static Field of = Field::none;
-        static bool per_face = false;
-        static Eigen::VectorXd value;
-        if (blank != state.document.session.blank || surface != state.document.session.surface || of != field ||
-            per_face != state.document.display.per_face) {
-            blank = state.document.session.blank;
-            surface = state.document.session.surface;
-            of = field;
-            per_face = state.document.display.per_face;
-            value = values(state.document.session, field, per_face);
-        }
+    if (field != Field::none && available(session, field)) {
+        const bool per_face = state.document.display.per_face && !vertex;
+        const Eigen::VectorXd& value = shown_values(session, field, per_face);
         double here = 0;
-        if (per_face)
+        if (vertex)
+            here = value[*vertex];
+        else if (per_face)
             here = value[probe->face];
         else
             for (int a = 0; a < 3; ++a)
@@ -114,7 +134,7 @@ void workbench(Frame& frame)
         steps_panel(frame);
         ImGui::EndChild();
     }
-    const float middle = io.DisplaySize.x - left - right, bar = ImGui::GetFrameHeight() + 10 * s;
+    const float middle = io.DisplaySize.x - left - right, bar = tool_bar_height(frame, middle - 12 * s) + 4 * s;
     ImGui::SetCursorScreenPos({at.x + left + 6 * s, at.y + 4 * s});
     ImGui::BeginChild("tools", {middle - 12 * s, bar - 4 * s}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);

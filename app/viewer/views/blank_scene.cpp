@@ -2,6 +2,7 @@
 
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/views.h"
@@ -134,6 +135,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
         return result;
     if (const auto corner = corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
+    add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);
     return result;
 }
 

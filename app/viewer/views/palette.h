@@ -10,6 +10,7 @@ inline constexpr Colour casing{0.04f, 0.05f, 0.07f, 0.85f}; ///< around light li
 inline constexpr Colour selected{0.93f, 0.10f, 0.62f, 1};   ///< magenta: in none of the colour maps
 inline constexpr Colour extreme{0.98f, 0.98f, 0.98f, 1};
 inline constexpr Colour probe{0.93f, 0.75f, 0.16f, 1};
+inline constexpr Colour measure{0.98f, 0.98f, 0.98f, 1};   ///< the line between two vertices
 inline constexpr Colour stretched{0.80f, 0.16f, 0.10f, 1}; ///< principal strains, positive
 inline constexpr Colour squeezed{0.07f, 0.27f, 0.72f, 1};  ///< negative
 inline constexpr Colour corner{0.98f, 0.98f, 0.98f, 1};

@@ -1,4 +1,5 @@
 #include "app/viewer/views/fault_scene.h"
+#include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/views.h"
 
@@ -24,6 +25,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
                .position = session.part->mesh.position,
                .mm_per_pixel = state.view.camera[size_t(View::part)].height / pixels},
               cache.on_part, cache);
+    add_picked_vertices(result, state, cache.vertices_on_part, part.mesh, session.part->mesh.position);
     add_shown_fault(result, state);
     return result;
 }

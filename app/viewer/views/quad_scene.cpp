@@ -61,11 +61,11 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
         result.lines.insert(result.lines.begin(), boundary.begin(), boundary.end()); // under the sides
         result.box.extend(part.box);
     }
-    add_part_outlines(result, state, cache);
     Eigen::Matrix3Xd corner(3, 4);
     corner << lifted.position.col(lifted.node(0, 0)), lifted.position.col(lifted.node(lifted.columns, 0)),
         lifted.position.col(lifted.node(lifted.columns, lifted.rows)), lifted.position.col(lifted.node(0, lifted.rows));
     add_corners(result, corner, state.view.dark);
+    add_part_outlines(result, state, cache);
     return result;
 }
 

@@ -54,6 +54,12 @@ struct FieldValues {
     }
 };
 
+/// Picked vertices.
+struct VertexShape {
+    std::shared_ptr<ScenePoints> dots;                   ///< null: none
+    std::vector<std::shared_ptr<const SceneLines>> line; ///< between two
+};
+
 using LineList = std::vector<std::shared_ptr<const SceneLines>>;
 
 /// What a later stage of the chain looks like.
@@ -90,6 +96,8 @@ struct SceneCache {
     using Surface = std::shared_ptr<const SurfaceStage>;
     using LiveBlank = std::shared_ptr<const Eigen::Matrix2Xd>;
 
+    using Vertices = Memo<VertexShape, std::shared_ptr<const SceneMesh>, std::vector<int>>;
+
     Memo<PartShape, Part> part;
     Memo<FlatShape, Part, Blank, LiveBlank> flat;
     Memo<FieldValues, Part, Blank, Surface, Field, bool> values;
@@ -97,6 +105,7 @@ struct SceneCache {
     Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>, std::optional<int>> marks;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_elsewhere;
+    Vertices vertices_on_part, vertices_on_blank;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;

@@ -6,6 +6,7 @@
 #include "app/viewer/views/isolines.h"
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/strain_glyphs.h"
 
@@ -129,6 +130,7 @@ void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache
     });
     for (const LineList* lines : {&selection, &hover})
         scene.lines.insert(scene.lines.end(), lines->begin(), lines->end());
+    add_picked_vertices(scene, state, cache.vertices_on_part, mesh, state.document.session.part->mesh.position);
 }
 
 } // namespace spia::viewer

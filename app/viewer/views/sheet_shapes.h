@@ -30,7 +30,7 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
 
 std::shared_ptr<const FaceMarks> marks_of(const ViewerState& state, SceneCache& cache);
 
-/// The selection and the face under the mouse as outlines on the part, in front of everything: for views whose faces
+/// The selection and the face under the mouse as outlines on the part and the picked vertices, in front of everything: for views whose faces
 /// are not those of the part.
 void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache);
 

@@ -5,6 +5,7 @@
 
 #include "app/viewer/model/json_file.h"
 #include "app/viewer/model/script.h"
+#include "app/viewer/model/vertex_picking.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/mesh_file.h"
@@ -61,6 +62,8 @@ Document picked(const fs::path& part, Stage last)
     document.regions.push_back({"empty", RegionKind::pad, {0, 0, 1, 0.5f}, {}});
     document.probes.push_back({7, {0.5, 0.25, 0.25}});
     document.probes.push_back({mesh.triangles() - 1, {0, 0, 1}});
+    document.vertices = {2, 30, boundary_loops(mesh)[0][5]};
+    std::sort(document.vertices.begin(), document.vertices.end());
     const auto outline = boundary_loops(mesh)[0];
     auto& corners = document.session.options.corners.emplace();
     for (size_t k = 0; k < 4; ++k)
@@ -86,6 +89,7 @@ Document reopened(const fs::path& file, std::vector<std::string>& lost)
 void expect_same_picks(const Document& a, const Document& b)
 {
     EXPECT_EQ(a.selected, b.selected);
+    EXPECT_EQ(a.vertices, b.vertices);
     EXPECT_EQ(a.regions, b.regions);
     ASSERT_EQ(a.probes.size(), b.probes.size());
     for (size_t i = 0; i < a.probes.size(); ++i) {
@@ -197,6 +201,11 @@ TEST(ProjectFile, PicksFollowTheFacesOfARenumberedPart)
     EXPECT_NE(after.selected, before.selected); // the test would be worth nothing
     EXPECT_EQ(after.selected, renumbered(before.selected));
     EXPECT_EQ(after.regions[0].faces, renumbered(before.regions[0].faces));
+    std::vector<int> vertices = before.vertices;
+    for (int& v : vertices)
+        v = permuted.vertex[size_t(v)];
+    std::sort(vertices.begin(), vertices.end());
+    EXPECT_EQ(after.vertices, vertices);
     EXPECT_EQ(after.regions[0].name, before.regions[0].name);
     EXPECT_TRUE(after.regions[1].faces.empty());
     const auto place = [](const Document& document, const Probe& probe) {
@@ -220,6 +229,9 @@ TEST(ProjectFile, PicksFindTheirPlaceOnAPartThatWasMeshedAnew)
         const double from = low + 0.2 * (high - low), to = low + 0.6 * (high - low);
         before.selected = faces_between(coarse, from, to);
         before.probes.push_back({1234, {0.2, 0.3, 0.5}});
+        const auto loops = boundary_loops(coarse);
+        before.vertices = {1500, loops[0][10], loops[1][3]};
+        std::sort(before.vertices.begin(), before.vertices.end());
         const Eigen::Vector3d probed =
             coarse.position(Eigen::all, coarse.triangle.col(1234)) * before.probes[0].barycentric;
         save_project(folder / "a.spia", before, {});
@@ -238,6 +250,19 @@ TEST(ProjectFile, PicksFindTheirPlaceOnAPartThatWasMeshedAnew)
             EXPECT_LT(middle(fine, f)[0], to + 1.5 * edge);
         }
         ASSERT_EQ(after.probes.size(), 1u);
+        // Each one has become one near it, those of the outline and of the hole again of a boundary.
+        ASSERT_EQ(after.vertices.size(), 3u);
+        const auto on_boundary = [](const TriMesh& mesh, int v) {
+            const auto all = boundary_vertices(mesh).vertex;
+            return std::binary_search(all.begin(), all.end(), v);
+        };
+        for (const int old : before.vertices) {
+            const auto away = [&](int v) { return (fine.position.col(v) - coarse.position.col(old)).norm(); };
+            const int now = *std::min_element(after.vertices.begin(), after.vertices.end(),
+                                              [&](int a, int b) { return away(a) < away(b); });
+            EXPECT_LT(away(now), 1.5 * edge);
+            EXPECT_TRUE(old == 1500 || on_boundary(fine, now));
+        }
         const Probe& probe = after.probes[0];
         const Eigen::Vector3d at = fine.position(Eigen::all, fine.triangle.col(probe.face)) * probe.barycentric;
         EXPECT_LT((at - probed).norm(), 0.1 * edge);
@@ -253,6 +278,8 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     before.regions.push_back({"right", RegionKind::fixed, {}, faces_between(mesh, 80, 100)});
     before.probes.push_back({faces_between(mesh, 95, 100)[0], {1. / 3, 1. / 3, 1. / 3}});
     before.session.options.corners = {0, 50, 50 + 30 * 51, 30 * 51};
+    before.vertices = {0, 25 + 15 * 51, 49 + 15 * 51, 50 + 15 * 51}; // a corner, the middle, two at the right edge
+    std::sort(before.vertices.begin(), before.vertices.end());
     save_project(folder / "a.spia", before, {});
     std::vector<std::string> lost;
 
@@ -263,10 +290,12 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     EXPECT_EQ(cut.regions[1].faces.size(), before.regions[1].faces.size() / 2);
     EXPECT_TRUE(cut.probes.empty());
     EXPECT_FALSE(cut.session.options.corners);
-    ASSERT_EQ(lost.size(), 3u);
-    EXPECT_NE(lost[0].find("of the 600 faces of the region \"right\""), std::string::npos) << lost[0];
-    EXPECT_NE(lost[1].find("probe 1"), std::string::npos);
-    EXPECT_NE(lost[2].find("corner 2"), std::string::npos);
+    ASSERT_EQ(lost.size(), 4u);
+    EXPECT_EQ(cut.vertices, (std::vector<int>{0, 25 + 15 * 46}));
+    EXPECT_NE(lost[0].find("2 of the 4 picked vertices"), std::string::npos) << lost[0];
+    EXPECT_NE(lost[1].find("of the 600 faces of the region \"right\""), std::string::npos) << lost[1];
+    EXPECT_NE(lost[2].find("probe 1"), std::string::npos);
+    EXPECT_NE(lost[3].find("corner 2"), std::string::npos);
 
     // Raised by half the reach: all is found. By three times the reach: nothing is.
     const double reach = 0.01 * bounding_diagonal(mesh);
@@ -275,11 +304,18 @@ TEST(ProjectFile, WhatIsGoneFromAChangedPartIsReported)
     const Document raised = reopened(folder / "a.spia", lost);
     EXPECT_TRUE(lost.empty()) << lost.front();
     EXPECT_EQ(raised.regions, before.regions);
+    EXPECT_EQ(raised.vertices, before.vertices);
     EXPECT_EQ(raised.session.options.corners, before.session.options.corners);
     shapes::write_mesh(folder / "part.obj", shapes::transformed(mesh, Eigen::Matrix3d::Identity(), {0, 0, 3 * reach}));
     const Document away = reopened(folder / "a.spia", lost);
-    EXPECT_EQ(lost.size(), 4u);
+    EXPECT_EQ(lost.size(), 5u);
     EXPECT_TRUE(away.regions[0].faces.empty());
+
+    // A trim further out by less than the reach: what was at the edge is again, though another vertex is nearer.
+    shapes::write_mesh(folder / "part.obj", shapes::rectangle(100.8, 60, 504, 30));
+    const Document wider = reopened(folder / "a.spia", lost);
+    ASSERT_EQ(wider.vertices.size(), 4u);
+    EXPECT_EQ(wider.vertices[3], 504 + 15 * 505);
 
     // Turned over in place: the same places, but the other side.
     TriMesh turned = mesh;
@@ -381,6 +417,9 @@ TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
             ++opened;
             for (const int f : restored.selected)
                 ASSERT_TRUE(f >= 0 && f < document.session.part->mesh.triangles());
+            ASSERT_TRUE(std::is_sorted(restored.vertices.begin(), restored.vertices.end()));
+            for (const int v : restored.vertices)
+                ASSERT_TRUE(v >= 0 && v < document.session.part->mesh.vertices());
         } catch (const InputError& error) {
             ++refused;
             damaged_faces += std::string(error.what()).find("damaged") != std::string::npos;
@@ -388,7 +427,7 @@ TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
     }
     EXPECT_GT(refused, 500);
     EXPECT_GT(damaged_faces, 0); // the checks of the faces were reached
-    EXPECT_GT(opened, 25); // so the picks of damaged files were looked at, too
+    EXPECT_GT(opened, 25);       // so the picks of damaged files were looked at, too
 }
 
 } // namespace spia::viewer

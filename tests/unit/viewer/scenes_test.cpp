@@ -292,6 +292,40 @@ TEST_F(Scenes, TheFaceUnderTheMouseIsOutlinedInEveryView)
     }
 }
 
+TEST_F(Scenes, PickedVerticesAreDotsInEveryViewAndTwoShowTheirDistance)
+{
+    state.document.display.extremes = false;
+    const Eigen::Matrix2Xd& plane = session->blank->blank.position;
+    for (const View view : all_views) {
+        const auto place = [&](int v) {
+            return view == View::blank ? Eigen::Vector3d(plane(0, v), plane(1, v), 0)
+                                       : Eigen::Vector3d(part().position.col(v));
+        };
+        state.document.vertices.clear();
+        state.hovered_vertex.reset();
+        const Scene without = scene(view, state, cache);
+        EXPECT_TRUE(without.rings.empty());
+        state.document.vertices = {4, 17};
+        state.hovered_vertex = 9;
+        const Scene shown = scene(view, state, cache);
+        ASSERT_EQ(shown.points.size(), without.points.size() + 1);
+        const ScenePoints& dots = *shown.points.back(); // over the corners
+        EXPECT_LT((dots.point.col(1).cast<double>() + dots.origin - place(17)).norm(), 1e-4);
+        EXPECT_EQ(shown.lines.size(), without.lines.size() + 2);
+        ASSERT_EQ(shown.labels.size(), without.labels.size() + 3);
+        const SceneLabel* label = &shown.labels.back() - 2;
+        EXPECT_EQ(label[0].text, "8"); // as in the file
+        EXPECT_EQ(label[1].text, "34");
+        EXPECT_NEAR(std::stod(label[2].text), (place(4) - place(17)).norm(), 0.006) << int(view);
+        ASSERT_EQ(shown.rings.size(), 1u);
+        EXPECT_LT((shown.rings[0].place - place(9)).norm(), 1e-9);
+        EXPECT_EQ(scene(view, state, cache).points.back(), shown.points.back()); // not made again
+        state.document.vertices = {1000000};
+        state.hovered_vertex = 1000000; // both of another part
+        EXPECT_EQ(scene(view, state, cache).points.size(), without.points.size());
+    }
+}
+
 TEST_F(Scenes, ThePictureOfTheSurfaceHasItsControlNetInTheBox)
 {
     const Scene shown = surface_scene(state, cache);

@@ -53,6 +53,8 @@ std::vector<Action> every_action()
         set(PickAt{View::blank, pixel, size, PickMode::add, 12.0, true});
         set(PickArea{View::quads, {{0, 0}, {10, 0}, {10, 10.25}}, size, PickMode::add, true});
         set(PickBrush{View::surface, pixel, 33, size, PickMode::remove, true});
+        set(SelectVertices{{2, 5}, PickMode::add});
+        set(PickVertex{View::blank, pixel, size, PickMode::remove, true, 20});
         set(MakeRegion{"clamp \"A\" äöü", RegionKind::binder});
         set(ChangeRegion{2, "pad", RegionKind::pad, {0.25f, 0.5f, 0.75f, 1}});
         set(AddProbe{{7, {0.5, 0.25, 0.25}}});

@@ -45,6 +45,23 @@ TEST(StateReport, TellsWhatTheStateHolds)
     EXPECT_EQ(report["view"]["camera"]["quads"]["height"], 321);
     EXPECT_EQ(report["figures"]["result"]["thinning_max"], document.session.blank->face.thinning.maxCoeff());
 
+    EXPECT_TRUE(report["vertices"].empty());
+    EXPECT_TRUE(report["distance"].is_null());
+    // Two vertices by hand, one of the outline.
+    const int edge = document.session.grid->boundary.corner[1];
+    document.vertices = {std::min(3, edge), std::max(3, edge)};
+    const Json measured = state_report(state);
+    for (size_t k = 0; k < 2; ++k) {
+        const int v = document.vertices[k];
+        EXPECT_EQ(measured["vertices"][k]["in_file"], document.session.part->source_vertex[size_t(v)]);
+        EXPECT_EQ(measured["vertices"][k]["at"][2], part.position(2, v));
+        EXPECT_EQ(measured["vertices"][k]["value"], document.session.blank->node.thickness[v]);
+        EXPECT_TRUE(v != edge || measured["vertices"][k]["boundary"] == true);
+    }
+    const auto apart = [&](const auto& position) { return (position.col(3) - position.col(edge)).norm(); };
+    EXPECT_NEAR(measured["distance"]["part"].get<double>(), apart(part.position), 1e-9);
+    EXPECT_NEAR(measured["distance"]["blank"].get<double>(), apart(document.session.blank->blank.position), 1e-9);
+
     // The probe by hand: half of the first corner, a quarter of the others.
     const Eigen::Vector3i corner = part.triangle.col(7);
     const Eigen::VectorXd& thickness = document.session.blank->node.thickness;

@@ -1,6 +1,7 @@
 #include "app/viewer/model/viewer_model.h"
 
 #include <chrono>
+#include <fmt/core.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <thread>
@@ -88,10 +89,15 @@ TEST_F(ViewerModelTest, UndoBringsBackEveryKindOfChangeByItsName)
 {
     open();
     const std::pair<Action, std::string> changes[] = {
-        {SelectFaces{{5, 3, 3}}, "Select faces"}, {MakeRegion{"", RegionKind::binder}, "Make region"},
-        {SetThickness{0.7}, "Change thickness"},  {SetMaterial{"dp600"}, "Change material"},
-        {AddProbe{{7, {1, 0, 0}}}, "Pin probe"},  {InvertSelection{}, "Invert selection"},
-        {ClearSelection{}, "Clear selection"},    {SetDirection{Eigen::Vector3d(0, 0, 2)}, "Change stamping direction"},
+        {SelectFaces{{5, 3, 3}}, "Select faces"},
+        {MakeRegion{"", RegionKind::binder}, "Make region"},
+        {SetThickness{0.7}, "Change thickness"},
+        {SetMaterial{"dp600"}, "Change material"},
+        {AddProbe{{7, {1, 0, 0}}}, "Pin probe"},
+        {InvertSelection{}, "Invert selection"},
+        {SelectVertices{{9, 4}}, "Select vertices"},
+        {ClearSelection{}, "Clear selection"},
+        {SetDirection{Eigen::Vector3d(0, 0, 2)}, "Change stamping direction"},
     };
     for (const auto& [action, name] : changes) {
         model.apply(action);
@@ -193,6 +199,94 @@ TEST_F(ViewerModelTest, EveryPickingToolTakesFacesAndSaysNothing)
     model.apply(PickAt{View::part, {1, 1}, size, PickMode::replace, {}, false}); // nothing there
     EXPECT_TRUE(document.selected.empty());
     EXPECT_TRUE(state.messages.empty());
+}
+
+TEST_F(ViewerModelTest, VerticesArePickedInEveryViewAndUndoneByName)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const glm::dvec2 size(800, 600);
+    const Eigen::Matrix3Xd& on_part = document.session.part->mesh.position;
+    const int top = document.session.grid->boundary.corner[2];
+    for (const View view : all_views) {
+        const Eigen::Matrix2Xd& flat = document.session.blank->blank.position;
+        const Eigen::Vector3d at =
+            view == View::blank ? Eigen::Vector3d(flat(0, top), flat(1, top), 0) : Eigen::Vector3d(on_part.col(top));
+        const glm::dvec2 pixel(pixel_of(state.view.camera[size_t(view)], at, size));
+        for (const bool boundary : {false, true}) {
+            model.apply(ClearSelection{});
+            model.apply(PickVertex{view, pixel, size, PickMode::replace, boundary, 3});
+            EXPECT_EQ(document.vertices, std::vector<int>{top});
+            EXPECT_EQ(state.history.undo_name(), boundary ? "Pick boundary vertex" : "Pick vertex");
+        }
+        ViewSettings settings = state.view;
+        settings.tool = Tool::vertex;
+        model.apply(SetViewSettings{settings});
+        model.hover(view, pixel, size);
+        EXPECT_EQ(state.hovered_vertex, top);
+        settings.tool = Tool::pick;
+        model.apply(SetViewSettings{settings});
+        model.hover(view, pixel, size);
+        EXPECT_FALSE(state.hovered_vertex);
+    }
+    model.apply(SelectVertices{{3, 1}, PickMode::add});
+    model.apply(SelectVertices{{top}, PickMode::remove});
+    EXPECT_EQ(document.vertices, (std::vector<int>{1, 3}));
+    model.apply(Undo{});
+    model.apply(Undo{});
+    EXPECT_EQ(document.vertices, std::vector<int>{top});
+    model.apply(PickVertex{View::part, {1, 1}, size, PickMode::add, false, 2}); // nothing there
+    EXPECT_EQ(document.vertices, std::vector<int>{top});
+    const auto selected = document.selected;
+    model.apply(FlyToVertex{top});
+    const glm::dvec2 middle(pixel_of(state.view.camera[0], on_part.col(top), size));
+    EXPECT_NEAR(glm::length(middle - size / 2.), 0, 1e-6);
+    EXPECT_EQ(document.selected, selected);
+    EXPECT_TRUE(std::none_of(state.messages.begin(), state.messages.end(),
+                             [](const Message& m) { return m.severity == Severity::error; }));
+    model.apply(SelectVertices{{1, int(on_part.cols())}});
+    EXPECT_TRUE(says(Severity::error, fmt::format("no vertex {}", on_part.cols())));
+    EXPECT_EQ(document.vertices, std::vector<int>{top});
+}
+
+TEST_F(ViewerModelTest, FourVerticesOfTheOutlineBecomeTheCornersInTheirOrder)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto& sides = document.session.grid->boundary.side;
+    const Eigen::Matrix2Xd plane = document.session.blank->blank.position;
+    std::vector<int> chosen;
+    for (const auto& side : sides)
+        chosen.push_back(side[side.size() / 3]);
+    model.apply(SelectVertices{{chosen[0], chosen[1], chosen[2]}});
+    model.apply(UseVerticesAsCorners{});
+    EXPECT_TRUE(says(Severity::error, "3 vertices are picked"));
+    EXPECT_FALSE(document.session.options.corners);
+
+    model.apply(SelectVertices{{chosen[2], chosen[0], chosen[3], chosen[1]}});
+    model.apply(UseVerticesAsCorners{});
+    EXPECT_EQ(state.history.undo_name(), "Use vertices as corners");
+    wait();
+    // The same row of corners, from the lowest to the left on.
+    const auto height = [&](int v) { return plane.col(v).sum(); };
+    std::rotate(chosen.begin(),
+                std::min_element(chosen.begin(), chosen.end(), [&](int a, int b) { return height(a) < height(b); }),
+                chosen.end());
+    const auto& corner = document.session.grid->boundary.corner;
+    EXPECT_EQ(std::vector<int>(corner.begin(), corner.end()), chosen);
+    EXPECT_FALSE(first_stale(document));
+
+    int inside = 0;
+    while (std::abs(plane.col(inside).norm()) > 0.5 * plane.col(chosen[0]).norm())
+        ++inside;
+    const auto before = document.session.options.corners;
+    model.apply(SelectVertices{{chosen[0], chosen[1], chosen[2], inside}});
+    model.apply(UseVerticesAsCorners{});
+    EXPECT_TRUE(says(Severity::error, fmt::format("Vertex {} is not on the outer outline",
+                                                  document.session.part->source_vertex[size_t(inside)])));
+    EXPECT_EQ(document.session.options.corners, before);
 }
 
 TEST_F(ViewerModelTest, WhatGoesWrongIsSaidAndChangesNothing)
