@@ -255,6 +255,8 @@ private:
                                                  model_.state().view.camera[size_t(view)], w, h, look())));
                   }};
         ui_.keys = std::exchange(GlWindow::keys(), {});
+        if (!pictures_.empty()) // a picture shows what hides its labels, however busy the machine is
+            model_.pickers().picker(model_.state().document.session, View::part);
         const ViewSettings seen = model_.state().view;
         workbench(now);
         ImGui::Render();

@@ -33,7 +33,10 @@ struct ViewerModel::Apply {
     /// Ends what runs, whatever it is about, and begins with another document.
     void begin_with(Document fresh)
     {
-        model.chain_job_.reset(); // cancels and waits for the next checkpoint
+        if (model.chain_job_) {
+            model.chain_job_->cancel();
+            model.ending_.push_back(std::move(model.chain_job_));
+        }
         model.next_.reset();
         model.project_.reset();
         model.picks_.reset();

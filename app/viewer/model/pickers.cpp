@@ -10,80 +10,76 @@ void Pickers::follow(const Session& session)
 {
     if (part_ != session.part) {
         part_ = session.part;
-        on_part_.reset();
-        regions_.reset();
-        boundary_on_part_.reset();
-        longest_.reset();
+        on_part_ = {};
+        regions_ = {};
+        longest_ = {};
+        if (part_) {
+            // In the order of the first use; once the picker is ready, the boundary is.
+            on_part_.boundary = worker_.later([part = part_] { return boundary_vertices(part->mesh); });
+            on_part_.picker = worker_.later([part = part_] { return RayPicker(part->mesh); });
+            longest_ = worker_.later([part = part_] {
+                const auto loops = boundary_loops(part->mesh);
+                if (loops.empty())
+                    throw InputError("The part is closed all around and has no outline.");
+                return loops.front();
+            });
+            regions_ = worker_.later([part = part_] { return RegionSearch(part->mesh); });
+        }
     }
     if (blank_ != session.blank || !part_) {
-        blank_ = session.blank;
+        blank_ = part_ ? session.blank : nullptr;
         flat_.reset();
-        on_blank_.reset();
-        track_.reset();
-        boundary_on_blank_.reset();
+        on_blank_ = {};
+        track_ = {};
+        if (blank_) {
+            flat_ = std::make_shared<TriMesh>(flat_mesh(part_->mesh, blank_->blank));
+            track_ = worker_.later([part = part_, blank = blank_] { return corner_track(part->mesh, blank->blank); });
+            on_blank_.boundary = worker_.later([flat = flat_] { return boundary_vertices(*flat); });
+            on_blank_.picker = worker_.later([flat = flat_] { return RayPicker(*flat); });
+        }
     }
 }
 
 const TriMesh* Pickers::mesh(const Session& session, View view)
 {
     follow(session);
-    if (!part_ || (view == View::blank && !blank_))
-        return nullptr;
-    if (view != View::blank)
-        return &part_->mesh;
-    if (!flat_)
-        flat_ = flat_mesh(part_->mesh, blank_->blank);
-    return &*flat_;
+    if (view == View::blank)
+        return flat_.get();
+    return part_ ? &part_->mesh : nullptr;
 }
 
 const RayPicker* Pickers::picker(const Session& session, View view)
 {
-    const TriMesh* shown = mesh(session, view);
-    if (!shown)
-        return nullptr;
-    std::optional<RayPicker>& picker = view == View::blank ? on_blank_ : on_part_;
-    if (!picker)
-        picker.emplace(*shown);
-    return &*picker;
+    return mesh(session, view) ? &search(view).picker.get() : nullptr;
+}
+
+const RayPicker* Pickers::ready_picker(const Session& session, View view)
+{
+    return mesh(session, view) ? search(view).picker.peek() : nullptr;
 }
 
 const RegionSearch& Pickers::regions(const Session& session)
 {
     follow(session);
-    if (!regions_)
-        regions_.emplace(part_->mesh);
-    return *regions_;
+    return regions_.get();
 }
 
 const CornerTrack& Pickers::track(const Session& session)
 {
     follow(session);
-    if (!track_)
-        track_ = corner_track(part_->mesh, blank_->blank);
-    return *track_;
+    return track_.get();
 }
 
 const BoundaryVertices& Pickers::boundary(const Session& session, View view)
 {
-    const TriMesh& shown = *mesh(session, view);
-    std::optional<BoundaryVertices>& boundary = view == View::blank ? boundary_on_blank_ : boundary_on_part_;
-    if (!boundary)
-        boundary = boundary_vertices(shown);
-    return *boundary;
+    follow(session);
+    return search(view).boundary.get();
 }
 
 const std::vector<int>& Pickers::outline(const Session& session)
 {
     follow(session);
-    if (blank_)
-        return track(session).vertex;
-    if (!longest_) {
-        const auto loops = boundary_loops(part_->mesh);
-        if (loops.empty())
-            throw InputError("The part is closed all around and has no outline.");
-        longest_ = loops.front();
-    }
-    return *longest_;
+    return blank_ ? track_.get().vertex : longest_.get();
 }
 
 std::optional<int> Pickers::vertex_at(const Session& session, const PickVertex& pick, const Camera& camera)

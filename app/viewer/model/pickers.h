@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -6,14 +7,24 @@
 #include "app/viewer/model/picking.h"
 #include "app/viewer/model/state.h"
 #include "app/viewer/model/vertex_picking.h"
+#include "engine/core/worker.h"
 
 namespace spia::viewer {
 
-/// Search structures of the part and its blank, made when first needed and kept as long as these are the same.
+/// Search structures of the part and its blank, made in the background as soon as these are there and kept as long as they
+/// are the same. A million triangles take seconds; what asks for one before waits, but the `ready_` ones never do.
 class Pickers {
 public:
+    /// @param wake  called on another thread when one is ready
+    explicit Pickers(std::function<void()> wake = [] {}) : worker_(std::move(wake)) {}
+
+    /// Begins to make those of this session.
+    void follow(const Session& session);
+
     /// That of a view: the blank's, or the part's for the others. Null if there is nothing to pick yet.
     const RayPicker* picker(const Session& session, View view);
+    /// Null also while it is being made.
+    const RayPicker* ready_picker(const Session& session, View view);
     /// The faces as the view shows them. Null likewise.
     const TriMesh* mesh(const Session& session, View view);
     const RegionSearch& regions(const Session& session); ///< the part must be there
@@ -27,16 +38,21 @@ public:
     std::optional<int> vertex_at(const Session& session, const PickVertex& pick, const Camera& camera);
 
 private:
-    void follow(const Session& session);
+    /// What is searched on the part, or on its blank.
+    struct Search {
+        Eventually<RayPicker> picker;
+        Eventually<BoundaryVertices> boundary;
+    };
+    Search& search(View view) { return view == View::blank ? on_blank_ : on_part_; }
 
     std::shared_ptr<const PartFile> part_;
     std::shared_ptr<const FlattenResult> blank_;
-    std::optional<TriMesh> flat_;
-    std::optional<RayPicker> on_part_, on_blank_;
-    std::optional<RegionSearch> regions_;
-    std::optional<CornerTrack> track_;
-    std::optional<BoundaryVertices> boundary_on_part_, boundary_on_blank_;
-    std::optional<std::vector<int>> longest_;
+    std::shared_ptr<const TriMesh> flat_; ///< the blank as a mesh in space
+    Search on_part_, on_blank_;
+    Eventually<RegionSearch> regions_;
+    Eventually<std::vector<int>> longest_;
+    Eventually<CornerTrack> track_;
+    Worker worker_;
 };
 
 } // namespace spia::viewer

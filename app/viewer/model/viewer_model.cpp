@@ -35,7 +35,7 @@ struct ViewerModel::Live {
 };
 
 ViewerModel::ViewerModel(std::filesystem::path assets, std::function<void()> wake)
-    : assets_(std::move(assets)), wake_(std::move(wake))
+    : assets_(std::move(assets)), wake_(std::move(wake)), pickers_(wake_)
 {
     size_.fill({800, 600});
     Document& document = state_.document;
@@ -101,6 +101,8 @@ bool ViewerModel::poll()
 {
     bool news = false;
     JobView& view = state_.job;
+    std::erase_if(ending_, [](const auto& job) { return job->finished(); });
+    pickers_.follow(state_.document.session);
     if (chain_job_) {
         view.fraction = chain_job_->fraction();
         view.step = chain_job_->step();
@@ -242,7 +244,7 @@ void ViewerModel::project_opened()
 void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach)
 {
     hover_nothing();
-    const RayPicker* picker = pickers_.picker(state_.document.session, view);
+    const RayPicker* picker = pickers_.ready_picker(state_.document.session, view);
     if (!picker)
         return;
     const Camera& camera = state_.view.camera[size_t(view)];

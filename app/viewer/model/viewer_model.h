@@ -76,6 +76,8 @@ private:
     std::array<std::optional<Camera>, 4> fitted_; ///< by View, what "fit" has made of it
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
+    std::vector<std::unique_ptr<Job<ChainResult>>>
+        ending_; ///< cancelled, nobody waits for them; they end by themselves
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
     bool keep_cameras_ = false;        ///< those of a project
     size_t depth_at_start_ = 0;        ///< of the history, when the running job began

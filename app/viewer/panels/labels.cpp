@@ -25,7 +25,7 @@ glm::dvec2 extent(ImFont* font, const std::string& text)
 Hidden hidden_in(Frame& frame, View view, glm::dvec2 size)
 {
     const RayPicker* picker =
-        view == View::blank ? nullptr : frame.model.pickers().picker(frame.state.document.session, view);
+        view == View::blank ? nullptr : frame.model.pickers().ready_picker(frame.state.document.session, view);
     if (!picker) // a flat sheet hides nothing
         return [](const glm::dvec3&) { return false; };
     const Camera& camera = frame.state.view.camera[size_t(view)];
@@ -80,10 +80,12 @@ const LabelPlaces& places_of(Frame& frame, View view, const Scene& scene, glm::d
     const bool with_values = scene.isolines && scene.legend &&
                              !(moves && frame.state.document.session.part->mesh.triangles() > many_triangles);
     const auto isolines = with_values ? scene.isolines : nullptr;
-    if (places.camera == camera && places.size == size && places.isolines == isolines &&
+    const RayPicker* const picker = frame.model.pickers().ready_picker(frame.state.document.session, view);
+    if (places.picker == picker && places.camera == camera && places.size == size && places.isolines == isolines &&
         places.legend == legend.has_value() && places.labels == scene.labels)
         return places;
     find_places(frame, view, scene, size, with_values, legend, places);
+    places.picker = picker;
     places.camera = camera;
     places.size = size;
     places.isolines = isolines;

@@ -9,6 +9,7 @@
 #include "app/viewer/model/state.h"
 #include "app/viewer/views/isolines.h"
 #include "app/viewer/views/label_layout.h"
+#include "engine/mesh/pick.h"
 
 namespace spia::viewer {
 
@@ -22,6 +23,7 @@ struct LabelPlaces {
     std::vector<SceneLabel> labels;
     std::shared_ptr<const std::vector<Isoline>> isolines;
     bool legend = false;
+    const RayPicker* picker = nullptr; ///< null: what hides a place was not known yet
 
     std::vector<PlacedLabel> placed;
     std::vector<char> hidden; ///< per label placed: its place lies behind the sheet
