@@ -1,12 +1,16 @@
 #include "app/viewer/render/view_images.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace spia::viewer {
 
 void DrawTurns::begin_frame()
 {
     spent_ = 0;
+    for (size_t i = 0; i < views_; ++i)
+        if (!std::exchange(asked_[i], false))
+            waited_[i] = 0;
     const auto longest = std::max_element(waited_.begin(), waited_.end());
     turn_ = *longest > 0 ? size_t(longest - waited_.begin()) : views_;
 }
@@ -14,13 +18,17 @@ void DrawTurns::begin_frame()
 bool DrawTurns::may_draw(size_t index, bool urgent)
 {
     const bool now = urgent || index == turn_ || spent_ < budget_;
+    asked_[index] = true;
     waited_[index] = now ? 0 : waited_[index] + 1;
     return now;
 }
 
 bool DrawTurns::any_waits() const
 {
-    return std::any_of(waited_.begin(), waited_.end(), [](int frames) { return frames > 0; });
+    for (size_t i = 0; i < views_; ++i)
+        if (asked_[i] && waited_[i] > 0)
+            return true;
+    return false;
 }
 
 unsigned ViewImages::draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,

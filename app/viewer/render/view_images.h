@@ -18,12 +18,13 @@ public:
     /// @param urgent  the user is busy in it
     bool may_draw(size_t index, bool urgent);
     void spent(double ms) { spent_ += ms; }
-    bool any_waits() const;
+    bool any_waits() const; ///< of those that asked in this frame
 
 private:
     static constexpr size_t views_ = 4;
     double budget_, spent_ = 0;
     std::array<int, views_> waited_{}; ///< frames
+    std::array<bool, views_> asked_{}; ///< in this frame: a view that is not shown waits for nothing
     size_t turn_ = views_;             ///< none
 };
 
