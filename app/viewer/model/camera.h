@@ -48,6 +48,8 @@ Camera fit(Camera camera, const Eigen::AlignedBox3d& box, double aspect);
 /// What stays free on each side of a view, pixels; less in a view that has no room for it.
 struct Margins {
     double left = 0, right = 0, top = 0, bottom = 0;
+
+    friend bool operator==(const Margins&, const Margins&) = default;
 };
 /// Shows all points, as large as the margins allow, without turning. @param point 3 by #points, mm
 Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margins margins);

@@ -293,10 +293,12 @@ void ViewerModel::fit(std::optional<View> only)
 
 void ViewerModel::resized(View view, glm::dvec2 size, double scale)
 {
-    if (size_[size_t(view)] == size && scale_ == scale)
+    scale_ = scale;
+    const Margins now = margins(view); // the legend may have come or gone
+    if (size_[size_t(view)] == size && margins_[size_t(view)] == now)
         return;
     size_[size_t(view)] = size;
-    scale_ = scale;
+    margins_[size_t(view)] = now;
     if (fitted_[size_t(view)] == state_.view.camera[size_t(view)])
         fit(view);
 }

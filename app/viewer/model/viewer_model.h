@@ -73,6 +73,7 @@ private:
     ViewerState state_;
     std::array<glm::dvec2, 4> size_;
     double scale_ = 1;                            ///< of the screen
+    std::array<Margins, 4> margins_{};            ///< by View
     std::array<std::optional<Camera>, 4> fitted_; ///< by View, what "fit" has made of it
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/panels/widgets.h"
+#include "engine/mesh/topology.h"
 
 namespace spia::viewer {
 namespace {
@@ -51,6 +52,34 @@ void fix_button(Frame& frame, const Finding& finding)
                 : "Reads the part again and joins vertices at one place. Undo brings it back.");
 }
 
+/// The unit that would make a sheet part of it; nothing if its size is a likely one already.
+std::optional<LengthUnit> likelier_unit(const PartFile& part)
+{
+    constexpr double small = 5, large = 20'000; // mm, as read_part() says
+    const double diagonal = bounding_diagonal(part.mesh);
+    if (!(diagonal > 0) || (diagonal >= small && diagonal <= large))
+        return std::nullopt;
+    for (const LengthUnit unit : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::inch}) {
+        const double other = diagonal / millimetres(part.unit) * millimetres(unit);
+        if (other >= 4 * small && other <= large)
+            return unit;
+    }
+    return std::nullopt;
+}
+
+/// What reading the file left to say, and the unit if it looks wrong.
+void file_notes(Frame& frame, const PartFile& part)
+{
+    for (const std::string& note : part.notes)
+        muted(frame, note);
+    const auto unit = likelier_unit(part);
+    if (!unit || frame.model.busy())
+        return;
+    if (ImGui::SmallButton(fmt::format("Read it in {}", name(*unit)).c_str()))
+        frame.actions.push(SetUnit{std::string(name(*unit))});
+    tooltip("Reads the part again in this unit. Undo brings the other one back.");
+}
+
 } // namespace
 
 void doctor_panel(Frame& frame)
@@ -58,7 +87,10 @@ void doctor_panel(Frame& frame)
     const ViewerState& state = frame.state;
     const bool refused = !state.document.session.part && state.refused;
     const PartFile* part = refused ? state.refused.get() : state.document.session.part.get();
-    if (!part || part->doctor.findings.empty())
+    if (!part)
+        return;
+    file_notes(frame, *part);
+    if (part->doctor.findings.empty())
         return;
     const Palette p = palette_of(state.view.dark);
     const auto& findings = part->doctor.findings;

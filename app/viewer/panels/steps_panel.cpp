@@ -139,7 +139,7 @@ void unfold_step(Frame& frame)
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
     figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
     figure(
-        frame, "Thinning",
+        frame, "Thinning per face",
         fmt::format("{:+.1f} to {:+.1f} %", 100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff()));
     figure(frame, "Equivalent strain", fmt::format("up to {:.3f}", flat.face.strain_equivalent.maxCoeff()));
     if (flat.necking_triangles > 0) {
