@@ -19,8 +19,9 @@
 
 /// Compares a picture of the window with a reference of half its size:
 ///
-///     compare_pictures PICTURE REFERENCE DIFFERENCE LIMIT    exit code 1 if more than LIMIT (a share) of the pixels differ
-///     compare_pictures PICTURE REFERENCE                     makes the reference
+///     compare_pictures PICTURE REFERENCE DIFFERENCE LIMIT [X Y WIDTH HEIGHT]    exit code 1 if more than LIMIT (a share) of the
+///                                                                               pixels differ, but for those of a rectangle
+///     compare_pictures PICTURE REFERENCE                                        makes the reference
 ///
 /// Each pixel of a reference is the mean of 2 x 2: smooth edges that fall a little otherwise are no difference, and the file is
 /// small. A pixel differs if one of its channels is off by more than 24 of 255.
@@ -54,6 +55,12 @@ bool write(const char* file, const Rgb& picture)
     return false;
 }
 
+/// Of the picture; its pixels are not looked at.
+struct Rectangle {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool holds(int px, int py) const { return px >= x && px < x + width && py >= y && py < y + height; }
+};
+
 /// The mean of 2 x 2 pixels each; an odd last row or column is left out.
 Rgb halved(const Rgb& picture)
 {
@@ -70,7 +77,7 @@ Rgb halved(const Rgb& picture)
 }
 
 /// Where they differ is red over a pale copy of the reference; says how much and where most.
-double share_of_difference(const Rgb& is, const Rgb& reference, Rgb& shown, std::string& where)
+double share_of_difference(const Rgb& is, const Rgb& reference, const Rectangle& except, Rgb& shown, std::string& where)
 {
     constexpr int tolerance = 24, tiles = 6;
     std::array<int, tiles * tiles> in_tile{};
@@ -84,7 +91,7 @@ double share_of_difference(const Rgb& is, const Rgb& reference, Rgb& shown, std:
                 most = std::max(most, std::abs(is.value[c] - reference.value[c]));
                 shown.value[c] = uint8_t(170 + reference.value[c] / 3);
             }
-            if (most <= tolerance)
+            if (most <= tolerance || except.holds(2 * x, 2 * y))
                 continue;
             shown.value[at] = 220;
             shown.value[at + 1] = shown.value[at + 2] = 0;
@@ -101,8 +108,8 @@ double share_of_difference(const Rgb& is, const Rgb& reference, Rgb& shown, std:
 
 int main(int count, char** values)
 {
-    if (count != 3 && count != 5) {
-        fmt::print(stderr, "compare_pictures PICTURE REFERENCE [DIFFERENCE LIMIT]\n");
+    if (count != 3 && count != 5 && count != 9) {
+        fmt::print(stderr, "compare_pictures PICTURE REFERENCE [DIFFERENCE LIMIT [X Y WIDTH HEIGHT]]\n");
         return 2;
     }
     const auto picture = read(values[1]);
@@ -118,9 +125,12 @@ int main(int count, char** values)
         fmt::print(stderr, "{} has another size than {}\n", values[1], values[2]);
         return 1;
     }
+    Rectangle except;
+    if (count == 9)
+        except = {std::atoi(values[5]), std::atoi(values[6]), std::atoi(values[7]), std::atoi(values[8])};
     Rgb shown;
     std::string where;
-    const double limit = std::atof(values[4]), share = share_of_difference(is, *reference, shown, where);
+    const double limit = std::atof(values[4]), share = share_of_difference(is, *reference, except, shown, where);
     fmt::print("{}: {:.3f} % of the pixels differ, {:.3f} % may\n", values[1], 100 * share, 100 * limit);
     if (share <= limit)
         return 0;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 #include <fmt/core.h>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -172,6 +173,37 @@ TEST_F(Scripts, AReopenedProjectIsWhatWasSaved)
     for (const auto& [name, value] : before.items())
         EXPECT_TRUE(after.contains(name) && after[name] == value)
             << name << ": " << (after.contains(name) ? Json::diff(value, after[name]).dump(1) : "missing");
+}
+
+/// Of this process and those it starts; as it was at the end.
+struct Environment {
+    std::string name;
+    std::optional<std::string> before;
+    Environment(const char* variable, const char* value) : name(variable)
+    {
+        if (const char* is = getenv(variable))
+            before = is;
+        setenv(variable, value, 1);
+    }
+    ~Environment() { before ? setenv(name.c_str(), before->c_str(), 1) : unsetenv(name.c_str()); }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+};
+
+TEST_F(Scripts, WithoutOpenGlOrDisplayThereIsAWayOut)
+{
+    {
+        const Environment old("MESA_GL_VERSION_OVERRIDE", "2.1");
+        const Ended ended = run_viewer(folder, {"assets/parts/dome.obj"});
+        EXPECT_EQ(ended.exit_code, 5);
+        EXPECT_NE(ended.errors.find("no OpenGL 3.3"), std::string::npos) << ended.errors;
+        EXPECT_NE(ended.errors.find("spia run PART"), std::string::npos) << ended.errors;
+    }
+    const Environment none("DISPLAY", ":9999");
+    const Ended ended = run_viewer(folder, {"assets/parts/dome.obj"});
+    EXPECT_EQ(ended.exit_code, 5);
+    EXPECT_NE(ended.errors.find("no window can be opened"), std::string::npos) << ended.errors;
+    EXPECT_NE(ended.errors.find("spia run PART"), std::string::npos) << ended.errors;
 }
 
 TEST_F(Scripts, EveryBadFileIsAMessageAndNoEnd)
