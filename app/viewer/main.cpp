@@ -26,6 +26,8 @@ int main(int count, char** values)
     app.add_option("--script", options.script, "replay the actions of a file (see app/viewer/README.md)")
         ->type_name("FILE");
     app.add_option("--report", options.report, "write the state at the end as JSON")->type_name("FILE");
+    app.add_flag("--follow", options.follow, "write the report also whenever the window has come to rest")
+        ->needs("--report");
     app.add_option("--screenshot", options.screenshot, "write a picture of the window at the end (PNG)")
         ->type_name("FILE");
     app.add_flag("--exit", options.exit, "quit when all this is done");

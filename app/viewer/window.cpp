@@ -167,7 +167,10 @@ public:
     {
         int settle = 3;
         while (!quit_) {
-            if (!steps_.empty() || settle > 0 || finishing())
+            const bool moves = !steps_.empty() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
+            if (options_.follow && !moves)
+                write_atomically(options_.report, report().dump(2) + "\n");
+            if (moves)
                 glfwPollEvents();
             else if (model_.busy())
                 glfwWaitEventsTimeout(0.1);
@@ -477,7 +480,25 @@ private:
         Json json = state_report(model_.state());
         json["frames"] = FrameTimes::figures(times_.all);
         json["frames_while_solving"] = FrameTimes::figures(times_.solving);
+        json["window"] = window_json();
         return json;
+    }
+
+    /// What only the window knows: its size, where the pictures of the views lie, the mouse as the last frame saw it. Pixels.
+    Json window_json() const
+    {
+        const auto pair = [](ImVec2 v) { return Json{v.x, v.y}; };
+        const ImGuiIO& io = ImGui::GetIO();
+        const std::optional<View> only = model_.state().view.maximised;
+        Json views = Json::object();
+        for (const View view : all_views)
+            if (!only || *only == view)
+                views[std::string(name(view))] = {{"at", pair(ui_.view_from[size_t(view)])},
+                                                  {"size", pair(ui_.view_size[size_t(view)])}};
+        return {{"size", pair(io.DisplaySize)},
+                {"views", views},
+                {"mouse", ImGui::IsMousePosValid() ? pair(io.MousePos) : Json(nullptr)},
+                {"buttons", {io.MouseDown[0], io.MouseDown[1], io.MouseDown[2]}}};
     }
 
     WindowOptions options_;

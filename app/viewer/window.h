@@ -11,6 +11,7 @@ struct WindowOptions {
     bool run_all = false;             ///< run the chain at once
     std::filesystem::path script;     ///< replay these steps
     std::filesystem::path report;     ///< write the state here at the end
+    bool follow = false;              ///< and whenever the window has come to rest
     std::filesystem::path screenshot; ///< picture of the window at the end
     bool exit = false;                ///< quit when the chain or the script has ended
     int width = 1440, height = 900;

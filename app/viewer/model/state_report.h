@@ -27,6 +27,8 @@ namespace spia::viewer {
 /// | `project` | `file` ("" if none), `unsaved` |
 /// | `hovered` | face under the mouse, or null |
 /// | `hovered_vertex` | which a click would pick, or null |
+/// | `frames`, `frames_while_solving` | of the window only: how many, and `p50_ms`, `p99_ms`, `max_ms` it was busy with one |
+/// | `window` | of the window only, pixels: `size`, `views.{part,...}.{at,size}` of the pictures shown, `mouse` (null: outside), `buttons` held |
 ///
 /// Faces and vertices are numbers of the part in the program, from 0. Members are only added within a version.
 Json state_report(const ViewerState& state);

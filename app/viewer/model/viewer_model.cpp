@@ -236,8 +236,8 @@ void ViewerModel::project_opened()
     for (const std::string& lost : restore_picks(document, project.picks))
         say(Severity::warning, lost);
     state_.view = project.view;
-    keep_cameras_ = true;
-    if (project.ran && *project.ran > Stage::read)
+    keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
+    if (keep_cameras_)
         next_ = project.ran;
 }
 

@@ -164,12 +164,14 @@ void shortcuts(Frame& frame)
         return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
                            [&](const KeyPress& press) { return press.key == key; });
     };
-    const bool control = std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
-                                     [](const KeyPress& press) { return (press.modifiers & GLFW_MOD_CONTROL) != 0; });
+    const auto with = [&](int modifier) { // as it was when the key went down, which may be up again
+        return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
+                           [&](const KeyPress& press) { return (press.modifiers & modifier) != 0; });
+    };
     const Session& session = frame.state.document.session;
-    if (control) {
+    if (with(GLFW_MOD_CONTROL)) {
         if (pressed(GLFW_KEY_Z))
-            frame.actions.push(io.KeyShift ? Action{Redo{}} : Action{Undo{}});
+            frame.actions.push(with(GLFW_MOD_SHIFT) ? Action{Redo{}} : Action{Undo{}});
         if (pressed(GLFW_KEY_Y))
             frame.actions.push(Redo{});
         if (pressed(GLFW_KEY_O))
