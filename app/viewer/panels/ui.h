@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/viewer/model/actions.h"
-#include "app/viewer/model/section.h"
 #include "app/viewer/model/viewer_model.h"
+#include "app/viewer/panels/charts.h"
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/labels.h"
@@ -51,10 +51,11 @@ struct Ui {
     PictureChoices picturing;
     ReportChoices reporting;
 
+    Charts charts;
+
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
-    bool brushing_diagram = false;
-    ImVec2 brush_from{};
+    std::optional<ImVec2> diagram_from; ///< where a click or drag in the strain diagram began
 
     // what would lose unsaved work: asked about, and the answer "go on" for the next action
     std::optional<Action> held;
@@ -73,9 +74,6 @@ struct Frame {
     /// Draws a view of this size (pixels) and gives its texture for ImGui.
     std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
 };
-
-/// The cut along the section line that was drawn, with the field shown; empty: there is none.
-const std::vector<SectionPiece>& section_of(Frame& frame);
 
 void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);

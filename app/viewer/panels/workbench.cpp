@@ -36,24 +36,6 @@ void selection_actions(Frame& frame)
     }
 }
 
-/// The values of a field are not made anew for every mouse move.
-const Eigen::VectorXd& shown_values(const Session& session, Field field, bool per_face)
-{
-    static std::shared_ptr<const FlattenResult> blank;
-    static std::shared_ptr<const SurfaceStage> surface;
-    static Field of = Field::none;
-    static bool faces = false;
-    static Eigen::VectorXd value;
-    if (blank != session.blank || surface != session.surface || of != field || faces != per_face) {
-        blank = session.blank;
-        surface = session.surface;
-        of = field;
-        faces = per_face;
-        value = values(session, field, per_face);
-    }
-    return value;
-}
-
 void status_bar(Frame& frame)
 {
     const ViewerState& state = frame.state;
@@ -89,7 +71,8 @@ void status_bar(Frame& frame)
     const Field field = state.document.display.field;
     if (field != Field::none && available(session, field)) {
         const bool per_face = state.document.display.per_face && !vertex;
-        const Eigen::VectorXd& value = shown_values(session, field, per_face);
+        const Eigen::VectorXd& value = frame.ui.charts.values.of({session.blank, session.surface, field, per_face},
+                                                                 [&] { return values(session, field, per_face); });
         double here = 0;
         if (vertex)
             here = value[*vertex];
