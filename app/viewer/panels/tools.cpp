@@ -164,6 +164,9 @@ void shortcuts(Frame& frame)
         return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
                            [&](const KeyPress& press) { return press.key == key; });
     };
+    if (std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
+                    [](const KeyPress& press) { return (press.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0; }))
+        return; // those of the desktop
     const bool control = std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
                                      [](const KeyPress& press) { return (press.modifiers & GLFW_MOD_CONTROL) != 0; });
     const Session& session = frame.state.document.session;
@@ -222,17 +225,20 @@ void shortcuts(Frame& frame)
     if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))
         frame.actions.push(ShrinkSelection{});
     if (pressed(GLFW_KEY_ESCAPE)) {
-        if (frame.state.job.running)
+        if (frame.ui.show_shortcuts || frame.ui.show_messages)
+            frame.ui.show_shortcuts = frame.ui.show_messages = false;
+        else if (frame.state.job.running)
             frame.actions.push(CancelJob{});
         else
             frame.actions.push(ClearSelection{});
     }
     if (pressed(GLFW_KEY_F1))
         frame.ui.show_shortcuts = !frame.ui.show_shortcuts;
+    const bool narrow = is_narrow(io.DisplaySize.x, frame.ui.scale);
     if (pressed(GLFW_KEY_F2))
-        frame.ui.show_left = !frame.ui.show_left;
+        frame.ui.panels.toggle(SidePanels::steps, narrow);
     if (pressed(GLFW_KEY_F3))
-        frame.ui.show_right = !frame.ui.show_right;
+        frame.ui.panels.toggle(SidePanels::inspect, narrow);
     if (pressed(GLFW_KEY_F5))
         frame.actions.push(RunTo{Stage::fit});
     if (pressed(GLFW_KEY_F6))
