@@ -190,6 +190,13 @@ std::string UnfinishedSession::name() const
 
 void UnfinishedSession::discard() noexcept { remove_both(file_, lock_); }
 
+bool is_autosave(const fs::path& file)
+{
+    std::error_code ignored;
+    return file.filename().string().starts_with(autosave_start) &&
+           fs::equivalent(fs::absolute(file, ignored).parent_path(), state_folder(), ignored);
+}
+
 std::string ago(std::chrono::seconds time)
 {
     constexpr std::pair<long, const char*> units[] = {{86400, "day"}, {3600, "hour"}, {60, "minute"}};

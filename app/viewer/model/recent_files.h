@@ -63,6 +63,9 @@ private:
     int lock_;
 };
 
+/// Whether a file is such work: not a project of the user's, so it is not to be saved to.
+bool is_autosave(const std::filesystem::path& file);
+
 /// "just now", "12 minutes ago", "3 days ago".
 std::string ago(std::chrono::seconds time);
 

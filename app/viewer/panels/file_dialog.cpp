@@ -93,6 +93,10 @@ void FileDialog::open(Purpose purpose, const fs::path& suggestion)
     if (folder.empty() || !fs::is_directory(folder, ignored))
         folder = fs::current_path(ignored);
     go_to(fs::absolute(folder, ignored));
+    const auto chosen = std::find_if(entries_.begin(), entries_.end(),
+                                     [&](const Entry& e) { return !e.folder && e.path.filename() == name_; });
+    cursor_ = chosen == entries_.end() ? -1 : int(chosen - entries_.begin());
+    moved_ = cursor_ >= 0;
 }
 
 void FileDialog::go_to(const fs::path& folder)

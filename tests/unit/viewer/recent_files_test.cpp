@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "app/viewer/model/project_file.h"
+#include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/viewer/viewer_samples.h"
@@ -166,6 +167,24 @@ TEST_F(UnfinishedWork, IsCalledByItsProjectOrElseByItsPart)
     EXPECT_EQ(left->name(), "");
     left.reset(); // no answer: it is kept, as damaged as it is
     EXPECT_TRUE(unfinished_session());
+}
+
+TEST_F(UnfinishedWork, OfAPartWithoutAProjectIsUnsavedAndHasNoProjectWhenItIsOpened)
+{
+    const Document document = viewer::document_of(dome, Stage::read);
+    for (const char* project : {"", "mine.spia"}) {
+        const fs::path own = *project ? folder / project : fs::path();
+        ASSERT_EQ(in_a_program_that_crashes([&] { (new Autosave)->save(document, {}, own); }), 0);
+        auto left = unfinished_session();
+        ASSERT_TRUE(left);
+        EXPECT_TRUE(is_autosave(left->file()));
+        ViewerModel model(materials_folder.parent_path());
+        model.apply(OpenProject{left->file()});
+        EXPECT_EQ(model.state().project, own);
+        EXPECT_TRUE(model.state().unsaved);
+        left->discard();
+    }
+    EXPECT_FALSE(is_autosave(folder / "autosave-of-mine.spia"));
 }
 
 TEST(Ago, CountsTheLargestUnit)
