@@ -176,8 +176,11 @@ void workbench(Frame& frame)
     selection_actions(frame);
     ImGui::End();
     messages_overlay(frame, {at.x + left + middle - 12 * s, at.y + height - 12 * s}, middle - 24 * s);
+    // The key that answers a dialog means nothing else.
+    const bool answers = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
     dialogs(frame);
-    shortcuts(frame);
+    if (!answers)
+        shortcuts(frame);
 }
 
 } // namespace spia::viewer
