@@ -295,18 +295,16 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
     const ImGuiStyle& style = ImGui::GetStyle();
     const float buttons =
         ImGui::CalcTextSize("edit").x + ImGui::CalcTextSize("x").x + 4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
-    const ImVec2 row{std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons),
-                     ImGui::GetFrameHeight()};
+    const float row = std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons);
+    const std::string label =
+        fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)], region.faces.size());
     bool edit = false;
-    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
-    if (ImGui::Selectable(
-            fmt::format("{}  ({} {})##row", region.name, kinds[int(region.kind)], region.faces.size()).c_str(), false,
-            ImGuiSelectableFlags_AllowDoubleClick, row)) {
+    ImGui::AlignTextToFramePadding();
+    if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {row, 0})) {
         edit = ImGui::IsMouseDoubleClicked(0);
         if (!edit)
             frame.actions.push(SelectRegion{number, ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
     }
-    ImGui::PopStyleVar();
     tooltip(fmt::format("{}: {} region of {} faces. A click selects them, a double click changes name and kind.",
                         region.name, name(region.kind), region.faces.size()));
     ImGui::SameLine();
