@@ -143,6 +143,8 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.labels = {};
     aside.files = {};
     aside.held.reset();
+    aside.left_work.reset();
+    aside.sample = false;
     aside.show_export = aside.show_picture = aside.show_report = aside.show_shortcuts = false;
     std::array<Renderer::Image, 4> images;
     ActionQueue nobody;

@@ -7,6 +7,7 @@
 #include <cfloat>
 #include <chrono>
 #include <deque>
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
@@ -17,6 +18,7 @@
 #include "app/viewer/model/recent_files.h"
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/state_report.h"
+#include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/pictures.h"
 #include "app/viewer/render/picture_file.h"
@@ -62,10 +64,10 @@ public:
         glfwSetCursorPosCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
         glfwSetMouseButtonCallback(window_, [](GLFWwindow*, int, int, int) { news() = true; });
         glfwSetScrollCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
-        glfwSetKeyCallback(window_, [](GLFWwindow*, int key, int, int action, int modifiers) {
+        glfwSetKeyCallback(window_, [](GLFWwindow*, int key, int scan_code, int action, int modifiers) {
             news() = true;
             if (action == GLFW_PRESS) // a tap may be shorter than a frame
-                keys().push_back({key, modifiers});
+                keys().push_back({in_layout(key, scan_code), modifiers});
         });
         glfwSetCharCallback(window_, [](GLFWwindow*, unsigned) { news() = true; });
         glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int) { news() = true; });
@@ -94,6 +96,18 @@ public:
     }
 
 private:
+    /// GLFW calls keys by their places on an American keyboard; people go by what is printed on them.
+    static int in_layout(int key, int scan_code)
+    {
+        if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL)
+            return key;
+        const char* name = glfwGetKeyName(key, scan_code);
+        if (!name || name[0] == 0 || name[1] != 0)
+            return key;
+        if (name[0] >= 'a' && name[0] <= 'z')
+            return GLFW_KEY_A + (name[0] - 'a');
+        return name[0] == '+' ? GLFW_KEY_EQUAL : name[0] == '-' ? GLFW_KEY_MINUS : key;
+    }
     static std::string& last_error()
     {
         static std::string text;
@@ -185,10 +199,11 @@ public:
             const size_t actions = actions_done_;
             try {
                 frame();
-            } catch (...) { // a picture that cannot be drawn: the work is kept for the next start
-                if (model_.state().document.session.part)
-                    autosave_.save(model_.state().document, model_.state().view, model_.state().project);
-                throw;
+                failed_frames_ = 0;
+            } catch (const std::exception& error) {
+                frame_failed(error.what());
+                settle = frames_to_settle;
+                continue;
             }
             next_step();
             if (actions_done_ != actions)
@@ -206,6 +221,25 @@ public:
     }
 
 private:
+    /// Something that no action has caught, say a picture that cannot be drawn: the work is kept for the next start, and
+    /// the program goes on unless it happens again and again.
+    void frame_failed(std::string text)
+    {
+        end_broken_frame();
+        if (model_.state().document.session.part)
+            try {
+                autosave_.save(model_.state().document, model_.state().view, model_.state().project);
+            } catch (const std::exception& error) {
+                text += fmt::format("; and the work cannot be kept: {}", error.what());
+            }
+        constexpr int most = 3;
+        if (++failed_frames_ >= most)
+            throw Error(fmt::format("the window could not be drawn {} times in a row: {}", most, text));
+        model_.say(Severity::error, fmt::format("The window could not be drawn: {}. Save the project; if this comes "
+                                                "again, start the program anew.",
+                                                text));
+    }
+
     void open(const std::filesystem::path& file, const std::string& unit)
     {
         if (file.extension() == project_ending)
@@ -220,16 +254,51 @@ private:
             return;
         if (!options_.file.empty())
             open(options_.file, options_.unit);
-        else if (auto left = unfinished_session()) {
-            queue_.push(OpenProject{left->file()});
-            recovered_ = std::move(left);
-            model_.say(Severity::warning, "The program ended without saving last time; its work is opened again.");
-        } else {
+        else {
             queue_.push(OpenPart{options_.assets / "parts" / "inner-panel.obj", ""});
-            hint_ = true;
+            opening_sample_ = true;
         }
+        if (!options_.exit)
+            ask_about_left_work();
         if (options_.run_all)
             queue_.push(RunTo{Stage::fit});
+    }
+
+    void ask_about_left_work()
+    {
+        left_ = unfinished_session();
+        if (!left_)
+            return;
+        const auto saved = std::chrono::file_clock::to_sys(left_->time());
+        const auto age = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now() - saved);
+        const std::time_t time = std::chrono::system_clock::to_time_t(
+            std::chrono::time_point_cast<std::chrono::system_clock::duration>(saved));
+        ui_.left_work = {left_->name(), fmt::format("{:%d %b %Y, %H:%M} ({})", fmt::localtime(time), ago(age))};
+    }
+
+    void follow_answer()
+    {
+        if (!ui_.left_work || ui_.left_work->answer == LeftWork::Answer::none)
+            return;
+        const LeftWork::Answer answer = std::exchange(ui_.left_work, std::nullopt)->answer;
+        if (answer == LeftWork::Answer::recover) {
+            queue_.push(OpenProject{left_->file()});
+            recovered_ = std::move(left_);
+        } else if (answer == LeftWork::Answer::discard) {
+            left_->discard();
+            left_.reset();
+            ask_about_left_work(); // there may be older work
+            return;
+        }
+        left_.reset(); // found again at the next start
+    }
+
+    /// The work that was recovered need not be kept any more: it is saved, or its end was confirmed.
+    void forget_recovered()
+    {
+        if (recovered_)
+            recovered_->discard();
+        recovered_.reset();
     }
 
     /// Whether --exit waits for nothing any more, and the last frames are drawn.
@@ -285,6 +354,7 @@ private:
         if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown())
             model_.gesture_ended();
         follow_part();
+        follow_answer();
         save_now_and_then();
     }
 
@@ -303,18 +373,32 @@ private:
     {
         const bool leaves = std::holds_alternative<Quit>(action) || std::holds_alternative<OpenPart>(action) ||
                             std::holds_alternative<OpenProject>(action);
-        if (!leaves || !model_.state().unsaved || !model_.state().document.session.part || options_.exit)
+        if (!leaves)
             return false;
-        ui_.held = action;
-        return true;
+        const bool confirmed = std::exchange(ui_.confirmed, false);
+        const auto* opened = std::get_if<OpenProject>(&action);
+        const bool recovers = opened && recovered_ && opened->file == recovered_->file();
+        if (model_.state().unsaved && model_.state().document.session.part && !options_.exit && !confirmed) {
+            ui_.held = action;
+            return true;
+        }
+        if (confirmed && !recovers)
+            forget_recovered();
+        else if (!recovers)
+            recovered_.reset(); // it could not be opened: it stays for the next start
+        return false;
     }
 
     void carry_out(const Action& action)
     {
         ++actions_done_;
         try {
-            if (!std::exchange(ui_.confirmed, false) && ask_first(action))
+            if (ask_first(action))
                 return;
+            if (std::holds_alternative<ExportFiles>(action))
+                ui_.sample_exported = true;
+            if (std::holds_alternative<OpenPart>(action) || std::holds_alternative<OpenProject>(action))
+                ui_.sample = std::exchange(opening_sample_, false);
             if (const auto* picture = std::get_if<Screenshot>(&action))
                 pictures_.push_back(*picture);
             else if (const auto* wanted = std::get_if<WriteReport>(&action))
@@ -325,9 +409,7 @@ private:
                 model_.apply(action);
             if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved) { // nothing is left to recover
                 autosave_.clear();
-                if (recovered_)
-                    recovered_->discard();
-                recovered_.reset();
+                forget_recovered();
             }
         } catch (const std::exception& error) {
             model_.say(Severity::error, error.what());
@@ -395,12 +477,7 @@ private:
         known_part_ = state.document.session.part;
         if (!known_part_)
             return;
-        if (std::exchange(hint_, false))
-            model_.say(
-                Severity::hint,
-                "This is the sample part. 1. Press \"Unfold and fit a surface\" (F5).  2. Look at thinning on part and "
-                "blank, drag the corners.  3. Export. Or drop your own part on the window.");
-        else if (options_.script.empty())
+        if (!ui_.sample && options_.script.empty())
             try {
                 remember_recent(state.project.empty() ? state.document.session.file : state.project);
                 ui_.recent = recent_files();
@@ -419,10 +496,7 @@ private:
         last_save_ = now;
         try {
             autosave_.save(state.document, state.view, state.project);
-            if (recovered_) {
-                recovered_->discard(); // it lives on in the new one
-                recovered_.reset();
-            }
+            forget_recovered(); // it lives on in the new one
         } catch (const std::exception& error) {
             model_.say(Severity::warning, fmt::format("Autosave failed: {}", error.what()));
         }
@@ -516,12 +590,13 @@ private:
     std::optional<Clock::time_point> waiting_since_;
     Clock::time_point last_save_ = Clock::now();
     Autosave autosave_;
-    std::optional<UnfinishedSession> recovered_;
+    std::optional<UnfinishedSession> left_;      ///< asked about
+    std::optional<UnfinishedSession> recovered_; ///< open now, and not yet saved otherwise
     std::shared_ptr<const PartFile> known_part_;
     FrameTimes times_;
     size_t actions_done_ = 0;
-    int idle_frames_ = 0, exit_code_ = 0;
-    bool quit_ = false, hint_ = false;
+    int idle_frames_ = 0, failed_frames_ = 0, exit_code_ = 0;
+    bool quit_ = false, opening_sample_ = false;
 };
 
 } // namespace

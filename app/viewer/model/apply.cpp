@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/recent_files.h"
 #include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
@@ -497,8 +498,9 @@ struct ViewerModel::Apply {
     {
         require_no_export();
         Project project = open_project(action.file, model.assets() / "materials");
-        state.project = project.recovers.empty() ? action.file : project.recovers;
-        state.unsaved = !project.recovers.empty();
+        const bool left_behind = is_autosave(action.file); // of a part without a project `recovers` is empty
+        state.project = left_behind ? project.recovers : action.file;
+        state.unsaved = left_behind;
         begin_with(project.document);
         model.project_ = std::move(project);
     }

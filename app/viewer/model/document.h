@@ -36,6 +36,8 @@ struct SectionLine {
     Eigen::Vector3d from{0, 0, 0}, to{0, 0, 0}; ///< mm, at the depth of what was under the mouse
     Eigen::Vector3d depth{0, 0, -1};            ///< the direction of sight
     bool on_blank = false;                      ///< drawn on the flat blank, z = 0
+
+    friend bool operator==(const SectionLine&, const SectionLine&) = default;
 };
 
 /// How the fields of the sheet are shown on the part and the blank.

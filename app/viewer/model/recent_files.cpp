@@ -176,7 +176,35 @@ fs::file_time_type UnfinishedSession::time() const
     return error ? fs::file_time_type::min() : time;
 }
 
+std::string UnfinishedSession::name() const
+{
+    try {
+        const Json json = read_json(file_);
+        const fs::path project = json.value("recovers", ""),
+                       part = json.at("part").at("path").at("file").get<std::string>();
+        return (project.empty() ? part : project).filename().string();
+    } catch (const std::exception&) { // damaged; opening it will say how
+        return {};
+    }
+}
+
 void UnfinishedSession::discard() noexcept { remove_both(file_, lock_); }
+
+bool is_autosave(const fs::path& file)
+{
+    std::error_code ignored;
+    return file.filename().string().starts_with(autosave_start) &&
+           fs::equivalent(fs::absolute(file, ignored).parent_path(), state_folder(), ignored);
+}
+
+std::string ago(std::chrono::seconds time)
+{
+    constexpr std::pair<long, const char*> units[] = {{86400, "day"}, {3600, "hour"}, {60, "minute"}};
+    for (const auto& [seconds, unit] : units)
+        if (const long count = time.count() / seconds; count > 0)
+            return fmt::format("{} {}{} ago", count, unit, count == 1 ? "" : "s");
+    return "just now";
+}
 
 std::optional<UnfinishedSession> unfinished_session()
 {

@@ -1,6 +1,8 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/viewer/model/state.h"
@@ -52,12 +54,20 @@ public:
     /// For open_project(); its `recovers` is the user's own project.
     const std::filesystem::path& file() const { return file_; }
     std::filesystem::file_time_type time() const;
+    /// File name of the user's own project, or else of the part; empty if the work cannot be read.
+    std::string name() const;
     void discard() noexcept;
 
 private:
     std::filesystem::path file_;
     int lock_;
 };
+
+/// Whether a file is such work: not a project of the user's, so it is not to be saved to.
+bool is_autosave(const std::filesystem::path& file);
+
+/// "just now", "12 minutes ago", "3 days ago".
+std::string ago(std::chrono::seconds time);
 
 /// The newest work that no living program holds, if there is any.
 std::optional<UnfinishedSession> unfinished_session();

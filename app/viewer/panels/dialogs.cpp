@@ -2,17 +2,12 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
 namespace {
-
-bool escape(const Frame& frame)
-{
-    return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
-                       [](const KeyPress& press) { return press.key == GLFW_KEY_ESCAPE; });
-}
 
 void shortcuts_window(Frame& frame)
 {
@@ -35,9 +30,10 @@ void shortcuts_window(Frame& frame)
                                            {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
                                            {"E, T", "triangle edges; dark or light"},
                                            {"F2, F3", "show or hide the panels"},
-                                           {"Ctrl + Z, Y", "undo, redo"},
+                                           {"Ctrl + Z, Y", "undo, redo (also Ctrl + Shift + Z)"},
+                                           {"I, +, -", "invert, grow, shrink the selection"},
                                            {"Ctrl + O, S, E, Q", "open, save, export, quit"},
-                                           {"Esc", "clear the selection; cancel the job"}};
+                                           {"Esc", "close a menu or dialog; cancel the job; clear the selection"}};
         if (ImGui::BeginTable("keys", 2)) {
             for (const auto& row : rows) {
                 ImGui::TableNextRow();
@@ -75,7 +71,7 @@ void unsaved_dialog(Frame& frame)
             frame.ui.files.open(
                 FileDialog::Purpose::save_project,
                 std::filesystem::path(frame.state.document.session.file).replace_extension(project_ending));
-            frame.ui.held.reset(); // once saved, the way is free
+            frame.ui.after_save = std::exchange(frame.ui.held, std::nullopt);
             ImGui::CloseCurrentPopup();
         } else {
             frame.actions.push(SaveProject{});
@@ -85,11 +81,41 @@ void unsaved_dialog(Frame& frame)
     }
     if (ImGui::Button("Go on without saving", {-1, 0}))
         go_on();
-    if (ImGui::Button("Cancel", {-1, 0}) || escape(frame)) {
+    if (ImGui::Button("Cancel", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE)) {
         frame.ui.held.reset();
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
+}
+
+/// Work of a program that crashed: nothing happens to it without an answer.
+void recovery_dialog(Frame& frame)
+{
+    constexpr const char* title = "Unsaved work";
+    auto& left = frame.ui.left_work;
+    if (!left || left->answer != LeftWork::Answer::none || frame.ui.held)
+        return;
+    if (!begin_dialog(frame, title, !ImGui::IsPopupOpen(title), 440))
+        return;
+    ImGui::PushTextWrapPos(0);
+    ImGui::Text("The program ended without saving %s.",
+                left->name.empty() ? "your work on a part" : left->name.c_str());
+    ImGui::PopTextWrapPos();
+    figure(frame, "Last kept", left->saved);
+    ImGui::Dummy({0, 2 * frame.ui.scale});
+    const auto answer = [&](LeftWork::Answer given) {
+        left->answer = given;
+        ImGui::CloseCurrentPopup();
+    };
+    if (primary_button(frame, "Recover"))
+        answer(LeftWork::Answer::recover);
+    if (ImGui::Button("Later", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE))
+        answer(LeftWork::Answer::later);
+    tooltip("Asks again at the next start");
+    if (ImGui::Button("Discard", {-1, 0}))
+        answer(LeftWork::Answer::discard);
+    tooltip("Removes this work for good");
+    end_dialog();
 }
 
 } // namespace
@@ -97,18 +123,26 @@ void unsaved_dialog(Frame& frame)
 void dialogs(Frame& frame)
 {
     unsaved_dialog(frame);
+    recovery_dialog(frame);
     export_dialog(frame);
     picture_dialog(frame);
     report_dialog(frame);
     shortcuts_window(frame);
     messages_window(frame);
-    const auto path = frame.ui.files.show(frame.ui.scale);
-    if (!path)
+    const auto path = frame.ui.files.show(frame);
+    if (!path) {
+        if (!frame.ui.files.is_open())
+            frame.ui.after_save.reset();
         return;
+    }
     switch (frame.ui.files.purpose()) {
     case FileDialog::Purpose::open_part: frame.actions.push(OpenPart{*path, ""}); break;
     case FileDialog::Purpose::open_project: frame.actions.push(OpenProject{*path}); break;
-    case FileDialog::Purpose::save_project: frame.actions.push(SaveProject{*path}); break;
+    case FileDialog::Purpose::save_project:
+        frame.actions.push(SaveProject{*path});
+        if (frame.ui.after_save) // asks again if saving fails
+            frame.actions.push(*std::exchange(frame.ui.after_save, std::nullopt));
+        break;
     case FileDialog::Purpose::open_material: frame.actions.push(SetMaterial{path->string()}); break;
     case FileDialog::Purpose::save_report:
         frame.ui.reporting.file = path->string();

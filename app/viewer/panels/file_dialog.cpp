@@ -1,12 +1,16 @@
 #include "app/viewer/panels/file_dialog.h"
 
+#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/core.h>
 #include <imgui.h>
+#include <imgui_internal.h> // ClearActiveID
 #include <utility>
 
+#include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
 
 namespace fs = std::filesystem;
 
@@ -56,6 +60,21 @@ std::string size_text(std::uintmax_t bytes)
     return fmt::format("{:.1f} MB", double(bytes) / 1e6);
 }
 
+/// As typed, with ~ for the home folder.
+fs::path typed(const std::string& text)
+{
+    const char* home = std::getenv("HOME");
+    if (home && (text == "~" || text.starts_with("~/")))
+        return fs::path(home) / text.substr(std::min<size_t>(2, text.size()));
+    return text;
+}
+
+/// Pressed, or held so long that it counts again.
+bool repeated(const Frame& frame, int key)
+{
+    return pressed(frame, key) || (ImGui::GetIO().KeysDownDuration[key] > 0 && ImGui::IsKeyPressed(key, true));
+}
+
 } // namespace
 
 void FileDialog::open(Purpose purpose, const fs::path& suggestion)
@@ -74,6 +93,10 @@ void FileDialog::open(Purpose purpose, const fs::path& suggestion)
     if (folder.empty() || !fs::is_directory(folder, ignored))
         folder = fs::current_path(ignored);
     go_to(fs::absolute(folder, ignored));
+    const auto chosen = std::find_if(entries_.begin(), entries_.end(),
+                                     [&](const Entry& e) { return !e.folder && e.path.filename() == name_; });
+    cursor_ = chosen == entries_.end() ? -1 : int(chosen - entries_.begin());
+    moved_ = cursor_ >= 0;
 }
 
 void FileDialog::go_to(const fs::path& folder)
@@ -88,6 +111,8 @@ void FileDialog::go_to(const fs::path& folder)
     folder_ = folder.lexically_normal();
     path_text_ = folder_.string();
     entries_.clear();
+    cursor_ = -1;
+    confirm_ = false;
     const Wording& words = wording(purpose_);
     for (const auto& file : files) {
         const std::string name = file.path().filename().string();
@@ -106,23 +131,117 @@ void FileDialog::go_to(const fs::path& folder)
     });
 }
 
-std::optional<fs::path> FileDialog::show(float scale)
+void FileDialog::move_cursor(int rows)
+{
+    if (entries_.empty())
+        return;
+    cursor_ = cursor_ < 0 ? (rows > 0 ? 0 : int(entries_.size()) - 1)
+                          : std::clamp(cursor_ + rows, 0, int(entries_.size()) - 1);
+    moved_ = true;
+    confirm_ = false;
+    if (!entries_[size_t(cursor_)].folder)
+        name_ = entries_[size_t(cursor_)].path.filename().string();
+}
+
+void FileDialog::list(const Frame& frame, float below)
+{
+    const Wording& words = wording(purpose_);
+    if (!ImGui::BeginTable("files", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,
+                           {0, -below}))
+        return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, 80 * frame.ui.scale);
+    for (int k = 0; k < int(entries_.size()); ++k) {
+        const Entry& entry = entries_[size_t(k)];
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const std::string name = entry.path.filename().string();
+        const std::string shown = entry.folder ? name + "/" : name;
+        if (ImGui::Selectable(shown.c_str(), cursor_ == k,
+                              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
+            cursor_ = k;
+            confirm_ = false;
+            if (!entry.folder)
+                name_ = name;
+            taken_ |= ImGui::IsMouseDoubleClicked(0) && (entry.folder || !words.folders);
+        }
+        if (cursor_ == k && std::exchange(moved_, false))
+            ImGui::SetScrollHereY();
+        ImGui::TableNextColumn();
+        if (!entry.folder)
+            ImGui::TextDisabled("%s", size_text(entry.size).c_str());
+    }
+    ImGui::EndTable();
+}
+
+std::optional<fs::path> FileDialog::take()
+{
+    const Wording& words = wording(purpose_);
+    std::error_code ignored;
+    const bool folder_chosen = cursor_ >= 0 && entries_[size_t(cursor_)].folder;
+    if (words.folders || folder_chosen) {
+        const fs::path folder = folder_chosen ? entries_[size_t(cursor_)].path : folder_;
+        if (words.folders && !taken_)
+            return folder;
+        go_to(folder);
+        return std::nullopt;
+    }
+    fs::path path = folder_ / typed(name_);
+    if (name_.empty())
+        return std::nullopt;
+    if (fs::is_directory(path, ignored)) {
+        go_to(path);
+        if (problem_.empty())
+            name_.clear();
+        return std::nullopt;
+    }
+    if (words.saves && lower(path.extension().string()) != words.endings[0])
+        path += words.endings[0];
+    const bool there = fs::exists(path, ignored);
+    if (words.saves && there && !std::exchange(confirm_, true))
+        return std::nullopt;
+    if (!words.saves && !there) {
+        problem_ = fmt::format("There is no file {}", path.string());
+        return std::nullopt;
+    }
+    if (words.saves && !fs::is_directory(path.parent_path(), ignored)) {
+        problem_ = fmt::format("There is no folder {}", path.parent_path().string());
+        return std::nullopt;
+    }
+    return path.lexically_normal();
+}
+
+std::optional<fs::path> FileDialog::show(const Frame& frame)
 {
     if (!open_)
         return std::nullopt;
     const Wording& words = wording(purpose_);
-    const bool first = std::exchange(appearing_, false);
-    if (first)
+    const float scale = frame.ui.scale;
+    bool focus_name = std::exchange(appearing_, false);
+    if (focus_name)
         ImGui::OpenPopup(words.title);
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowSize({std::min(640 * scale, screen.x - 40), std::min(480 * scale, screen.y - 40)},
                              ImGuiCond_Always);
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     bool stay = true;
-    std::optional<fs::path> chosen;
     if (!ImGui::BeginPopupModal(words.title, &stay, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) {
         open_ = false;
         return std::nullopt;
+    }
+    taken_ = false;
+    const bool enter = enter_pressed(frame);
+    if (!path_active_) {
+        constexpr int page = 10;
+        const int rows = (repeated(frame, GLFW_KEY_DOWN) ? 1 : 0) - (repeated(frame, GLFW_KEY_UP) ? 1 : 0) +
+                         (repeated(frame, GLFW_KEY_PAGE_DOWN) ? page : 0) -
+                         (repeated(frame, GLFW_KEY_PAGE_UP) ? page : 0);
+        if (rows != 0) {
+            ImGui::ClearActiveID(); // or the line goes on showing what was typed
+            move_cursor(rows);
+            focus_name = true;
+        }
+        taken_ |= enter;
     }
     if (ImGui::ArrowButton("up", ImGuiDir_Up))
         go_to(folder_.parent_path());
@@ -130,71 +249,52 @@ std::optional<fs::path> FileDialog::show(float scale)
         ImGui::SetTooltip("To the folder above");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
-    if (text_input("##path", path_text_, true))
-        go_to(path_text_);
-
-    const float below =
-        ImGui::GetFrameHeightWithSpacing() * (words.folders ? 1 : 2) + ImGui::GetTextLineHeightWithSpacing();
-    std::optional<fs::path> enter;
-    if (ImGui::BeginTable("files", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,
-                          {0, -below})) {
-        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, 80 * scale);
-        for (const Entry& entry : entries_) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            const std::string name = entry.path.filename().string();
-            const std::string shown = entry.folder ? name + "/" : name;
-            if (ImGui::Selectable(shown.c_str(), !entry.folder && name == name_,
-                                  ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
-                if (entry.folder)
-                    enter = entry.path;
-                else {
-                    name_ = name;
-                    confirm_ = false;
-                    if (ImGui::IsMouseDoubleClicked(0) && !words.saves)
-                        chosen = entry.path;
-                }
-            }
-            ImGui::TableNextColumn();
-            if (!entry.folder)
-                ImGui::TextDisabled("%s", size_text(entry.size).c_str());
-        }
-        ImGui::EndTable();
+    text_input("##path", path_text_);
+    if (std::exchange(path_active_, ImGui::IsItemActive()) && enter) {
+        const fs::path wanted = typed(path_text_);
+        std::error_code ignored;
+        go_to(fs::is_regular_file(wanted, ignored) ? wanted.parent_path() : wanted);
+        if (problem_.empty() && !words.folders && fs::is_regular_file(wanted, ignored))
+            name_ = wanted.filename().string();
     }
-    if (entries_.empty() && problem_.empty())
+
+    list(frame, ImGui::GetFrameHeightWithSpacing() * (words.folders ? 1 : 2) + ImGui::GetTextLineHeightWithSpacing());
+    if (!problem_.empty())
+        ImGui::TextColored(palette_of(frame.state.view.dark).error, "%s", problem_.c_str());
+    else if (confirm_)
+        ImGui::TextColored(palette_of(frame.state.view.dark).warning, "This file exists already.");
+    else if (entries_.empty())
         ImGui::TextDisabled("Nothing here to choose%s", words.folders ? "; you may take this folder" : "");
-    else if (!problem_.empty())
-        ImGui::TextColored({0.95f, 0.45f, 0.4f, 1}, "%s", problem_.c_str());
-    else
-        ImGui::TextDisabled(
-            "%d files", int(std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.folder; })));
+    else {
+        const auto files = std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.folder; });
+        ImGui::TextDisabled("%d %s", int(files), files == 1 ? "file" : "files");
+    }
     if (!words.folders) {
         ImGui::SetNextItemWidth(-1);
-        if (first)
+        if (focus_name)
             ImGui::SetKeyboardFocusHere();
-        if (text_input("##name", name_, false, "File name"))
+        if (text_input("##name", name_, false, "File name")) {
             confirm_ = false;
+            cursor_ = -1;
+            problem_.clear();
+        }
     }
-    const std::string label = confirm_ ? "Replace the file" : words.button;
-    const bool ready = words.folders || !name_.empty();
-    ImGui::BeginDisabled(!ready);
-    if (ImGui::Button(label.c_str())) {
-        fs::path path = words.folders ? folder_ : folder_ / name_;
-        if (words.saves && lower(path.extension().string()) != words.endings[0])
-            path += words.endings[0];
-        std::error_code ignored;
-        if (words.saves && !confirm_ && fs::exists(path, ignored))
-            confirm_ = true;
-        else
-            chosen = path;
-    }
+    const bool folder_chosen = cursor_ >= 0 && entries_[size_t(cursor_)].folder;
+    const std::string label = confirm_                         ? "Replace the file"
+                              : words.folders && folder_chosen ? "Choose the selected folder"
+                              : folder_chosen                  ? "Open the folder"
+                                                               : words.button;
+    ImGui::BeginDisabled(!words.folders && !folder_chosen && name_.empty());
+    const bool button = ImGui::Button(label.c_str());
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+    if (ImGui::Button("Cancel") || pressed(frame, GLFW_KEY_ESCAPE))
         stay = false;
-    if (enter)
-        go_to(*enter);
+    std::optional<fs::path> chosen;
+    if (stay && (button || taken_)) {
+        taken_ &= folder_chosen; // Return and a double click enter a folder, the button takes it
+        chosen = take();
+    }
     if (chosen || !stay) {
         open_ = false;
         ImGui::CloseCurrentPopup();

@@ -6,7 +6,9 @@
 
 namespace spia::viewer {
 
-/// Chooses a file or a folder, in a window of ImGui: on a Debian desktop there is no library for the system's own dialog.
+struct Frame;
+
+/// Chooses a file or a folder by mouse or keyboard: the arrows move in the list, Return takes what is chosen, Escape leaves. In a window of ImGui: on a Debian desktop there is no library for the system's own dialog.
 class FileDialog {
 public:
     enum class Purpose {
@@ -25,7 +27,7 @@ public:
     Purpose purpose() const { return purpose_; }
 
     /// Draws it. @returns the choice, in the frame in which it was made
-    std::optional<std::filesystem::path> show(float scale);
+    std::optional<std::filesystem::path> show(const Frame& frame);
 
 private:
     struct Entry {
@@ -34,13 +36,21 @@ private:
         std::uintmax_t size;
     };
     void go_to(const std::filesystem::path& folder);
+    void move_cursor(int rows);
+    void list(const Frame& frame, float below);
+    /// What is chosen now: a folder is entered, a file returned if it can be.
+    std::optional<std::filesystem::path> take();
 
     Purpose purpose_ = Purpose::open_part;
     bool open_ = false, appearing_ = false;
     std::filesystem::path folder_;
     std::string name_, path_text_, problem_;
     std::vector<Entry> entries_;
-    bool confirm_ = false; ///< the file exists already
+    int cursor_ = -1;          ///< entry that is chosen; -1: what is typed counts
+    bool moved_ = false;       ///< the cursor, by a key: it is to be seen
+    bool taken_ = false;       ///< by Return or a double click
+    bool path_active_ = false; ///< whether the folder is being typed
+    bool confirm_ = false;     ///< the file exists already
 };
 
 } // namespace spia::viewer

@@ -1,3 +1,6 @@
+#include <optional>
+#include <tuple>
+
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -66,7 +69,7 @@ void menu_bar(Frame& frame)
             frame.actions.push(ShrinkSelection{});
         if (ImGui::MenuItem("Invert selection", "I", false, state.document.session.part != nullptr))
             frame.actions.push(InvertSelection{});
-        if (ImGui::MenuItem("Clear selection", "Esc", false, some))
+        if (ImGui::MenuItem("Clear selection", "Esc", false, some || !state.document.vertices.empty()))
             frame.actions.push(ClearSelection{});
         ImGui::EndMenu();
     }
@@ -82,14 +85,40 @@ void menu_bar(Frame& frame)
                     view.camera[size_t(v)].perspective = perspective;
             changed = true;
         }
+        if (ImGui::BeginMenu("Look from")) {
+            constexpr std::tuple<const char*, const char*, StandardView> looks[] = {
+                {"Top", "1", StandardView::top},      {"Front", "2", StandardView::front},
+                {"Right", "3", StandardView::right},  {"Isometric", "4", StandardView::isometric},
+                {"Bottom", "", StandardView::bottom}, {"Back", "", StandardView::back},
+                {"Left", "", StandardView::left}};
+            for (const auto& [label, key, from] : looks)
+                if (ImGui::MenuItem(label, key))
+                    frame.actions.push(LookFrom{View::part, from});
+            ImGui::EndMenu();
+        }
+        ImGui::Separator();
+        constexpr std::pair<const char*, std::optional<View>> shown[] = {{"Four views", std::nullopt},
+                                                                         {"Part alone", View::part},
+                                                                         {"Blank alone", View::blank},
+                                                                         {"Quad mesh alone", View::quads},
+                                                                         {"NURBS surface alone", View::surface}};
+        for (const auto& [label, which] : shown)
+            if (ImGui::MenuItem(label, nullptr, view.maximised == which)) {
+                view.maximised = which;
+                changed = true;
+            }
         ImGui::Separator();
         changed |= ImGui::MenuItem("Dark theme", "T", &view.dark);
         changed |= ImGui::MenuItem("Turn 3D views together", nullptr, &view.linked);
         changed |= ImGui::MenuItem("Triangle edges", "E", &view.edges);
         changed |= ImGui::MenuItem("Feature lines", nullptr, &view.features);
         ImGui::Separator();
-        ImGui::MenuItem("Steps panel", "F2", &frame.ui.show_left);
-        ImGui::MenuItem("Inspect panel", "F3", &frame.ui.show_right);
+        const bool narrow = is_narrow(ImGui::GetIO().DisplaySize.x, frame.ui.scale);
+        SidePanels& panels = frame.ui.panels;
+        for (const auto& [label, key, which] :
+             {std::tuple{"Steps panel", "F2", SidePanels::steps}, {"Inspect panel", "F3", SidePanels::inspect}})
+            if (ImGui::MenuItem(label, key, panels.shown(which, narrow)))
+                panels.toggle(which, narrow);
         if (changed)
             frame.actions.push(SetViewSettings{view});
         ImGui::EndMenu();

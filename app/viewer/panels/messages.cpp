@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/first_steps.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -58,11 +59,35 @@ std::vector<Message> current(Frame& frame)
     return shown;
 }
 
+/// What to do with the sample part; until the first run it stays, then it goes as other hints do.
+void add_first_steps(Frame& frame, std::vector<Message>& shown)
+{
+    Ui& ui = frame.ui;
+    if (!ui.sample)
+        return;
+    std::string text = first_steps(frame.state, ui.sample_exported);
+    if (text.empty())
+        return;
+    const double now = ImGui::GetTime();
+    if (ui.first_steps_said != text) {
+        ui.first_steps_said = text;
+        ui.first_steps_since = now;
+    }
+    if (frame.state.document.session.surface) {
+        const double end = ui.first_steps_since + lifetime(Severity::hint);
+        if (end <= now)
+            return;
+        ui.wake_at = ui.wake_at > 0 ? std::min(ui.wake_at, end) : end;
+    }
+    shown.push_back({Severity::hint, std::move(text)});
+}
+
 } // namespace
 
 void messages_overlay(Frame& frame, ImVec2 low_right, float width)
 {
     std::vector<Message> shown = current(frame);
+    add_first_steps(frame, shown);
     if (shown.empty())
         return;
     constexpr size_t most = 3;
@@ -78,8 +103,10 @@ void messages_overlay(Frame& frame, ImVec2 low_right, float width)
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     for (const Message& message : shown)
         message_row(frame, message);
-    if (ImGui::SmallButton("Dismiss"))
+    if (ImGui::SmallButton("Dismiss")) {
         frame.actions.push(DismissMessages{});
+        frame.ui.sample = false;
+    }
     if (more > 0) {
         ImGui::SameLine();
         if (ImGui::SmallButton(fmt::format("{} more...", more).c_str()))

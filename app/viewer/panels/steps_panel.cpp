@@ -1,6 +1,8 @@
+#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/mesh/topology.h"
@@ -255,28 +257,78 @@ void surface_step(Frame& frame)
                        std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
 }
 
+constexpr const char* kinds[] = {"fixed", "binder", "pad", "material", "other"};
+
+/// Name and kind of a region, to be changed in its row.
+void edit_region(Frame& frame, int number, const FaceRegion& region)
+{
+    EditedRegion& edited = *frame.ui.edited_region;
+    const float gap = 4 * frame.ui.scale, done = ImGui::CalcTextSize("ok").x + 2 * ImGui::GetStyle().FramePadding.x,
+                kind_width = 92 * frame.ui.scale;
+    ImGui::SetNextItemWidth(
+        std::max(40 * frame.ui.scale, ImGui::GetContentRegionAvail().x - done - kind_width - 2 * gap));
+    if (std::exchange(edited.appears, false))
+        ImGui::SetKeyboardFocusHere();
+    text_input("##name", edited.name, false, "name");
+    const bool leaves = pressed(frame, GLFW_KEY_ESCAPE), takes = enter_pressed(frame);
+    if (!leaves && (ImGui::IsItemDeactivatedAfterEdit() || takes) && !edited.name.empty() && edited.name != region.name)
+        frame.actions.push(ChangeRegion{number, edited.name, region.kind, region.colour});
+    ImGui::SameLine(0, gap);
+    int kind = int(region.kind);
+    ImGui::SetNextItemWidth(kind_width);
+    if (ImGui::Combo("##kind", &kind, kinds, 5))
+        frame.actions.push(
+            ChangeRegion{number, edited.name.empty() ? region.name : edited.name, RegionKind(kind), region.colour});
+    ImGui::SameLine(0, gap);
+    if (ImGui::Button("ok") || leaves || takes)
+        frame.ui.edited_region.reset();
+}
+
+void region_row(Frame& frame, int number, const FaceRegion& region)
+{
+    Colour colour = region.colour;
+    if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
+        frame.actions.push(ChangeRegion{number, region.name, region.kind, colour});
+    ImGui::SameLine();
+    if (frame.ui.edited_region && frame.ui.edited_region->region == number)
+        return edit_region(frame, number, region);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float buttons =
+        ImGui::CalcTextSize("edit").x + ImGui::CalcTextSize("x").x + 4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
+    const float row = std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons);
+    const std::string label =
+        fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)], region.faces.size());
+    bool edit = false;
+    ImGui::AlignTextToFramePadding();
+    if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {row, 0})) {
+        edit = ImGui::IsMouseDoubleClicked(0);
+        if (!edit)
+            frame.actions.push(SelectRegion{number, ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
+    }
+    tooltip(fmt::format("{}: {} region of {} faces. A click selects them, a double click changes name and kind.",
+                        region.name, name(region.kind), region.faces.size()));
+    ImGui::SameLine();
+    edit |= ImGui::Button("edit");
+    tooltip("Change name and kind");
+    ImGui::SameLine();
+    if (ImGui::Button("x")) {
+        frame.actions.push(RemoveRegion{number});
+        frame.ui.edited_region.reset(); // the numbers of those after it change
+    }
+    tooltip("Remove this region (its faces stay)");
+    if (edit)
+        frame.ui.edited_region = EditedRegion{number, region.name};
+}
+
 void regions_section(Frame& frame)
 {
     const Document& document = frame.state.document;
     if (!document.session.part || !ImGui::CollapsingHeader("Regions", ImGuiTreeNodeFlags_DefaultOpen))
         return;
-    static constexpr const char* kinds[] = {"fixed", "binder", "pad", "material", "other"};
     const Palette p = palette_of(frame.state.view.dark);
     for (size_t k = 0; k < document.regions.size(); ++k) {
-        const FaceRegion& region = document.regions[k];
         ImGui::PushID(int(k));
-        Colour colour = region.colour;
-        if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
-            frame.actions.push(ChangeRegion{int(k), region.name, region.kind, colour});
-        ImGui::SameLine();
-        if (ImGui::Selectable(fmt::format("{}  ({})", region.name, region.faces.size()).c_str(), false, 0,
-                              {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
-            frame.actions.push(SelectRegion{int(k), ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
-        tooltip(fmt::format("{} region of {} faces; click selects them", name(region.kind), region.faces.size()));
-        ImGui::SameLine();
-        if (ImGui::SmallButton("x"))
-            frame.actions.push(RemoveRegion{int(k)});
-        tooltip("Remove this region (its faces stay)");
+        region_row(frame, int(k), document.regions[k]);
         ImGui::PopID();
     }
     if (document.selected.empty()) {

@@ -168,6 +168,8 @@ void shortcuts(Frame& frame)
         return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
                            [&](const KeyPress& press) { return (press.modifiers & modifier) != 0; });
     };
+    if (with(GLFW_MOD_ALT) || with(GLFW_MOD_SUPER))
+        return; // those of the desktop
     const Session& session = frame.state.document.session;
     if (with(GLFW_MOD_CONTROL)) {
         if (pressed(GLFW_KEY_Z))
@@ -224,17 +226,20 @@ void shortcuts(Frame& frame)
     if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))
         frame.actions.push(ShrinkSelection{});
     if (pressed(GLFW_KEY_ESCAPE)) {
-        if (frame.state.job.running)
+        if (frame.ui.show_shortcuts || frame.ui.show_messages)
+            frame.ui.show_shortcuts = frame.ui.show_messages = false;
+        else if (frame.state.job.running)
             frame.actions.push(CancelJob{});
         else
             frame.actions.push(ClearSelection{});
     }
     if (pressed(GLFW_KEY_F1))
         frame.ui.show_shortcuts = !frame.ui.show_shortcuts;
+    const bool narrow = is_narrow(io.DisplaySize.x, frame.ui.scale);
     if (pressed(GLFW_KEY_F2))
-        frame.ui.show_left = !frame.ui.show_left;
+        frame.ui.panels.toggle(SidePanels::steps, narrow);
     if (pressed(GLFW_KEY_F3))
-        frame.ui.show_right = !frame.ui.show_right;
+        frame.ui.panels.toggle(SidePanels::inspect, narrow);
     if (pressed(GLFW_KEY_F5))
         frame.actions.push(RunTo{Stage::fit});
     if (pressed(GLFW_KEY_F6))

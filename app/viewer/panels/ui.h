@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "app/viewer/model/actions.h"
-#include "app/viewer/model/section.h"
 #include "app/viewer/model/viewer_model.h"
+#include "app/viewer/panels/charts.h"
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/labels.h"
 #include "app/viewer/panels/picture_dialog.h"
 #include "app/viewer/panels/report_dialog.h"
+#include "app/viewer/panels/side_panels.h"
 #include "app/viewer/panels/theme.h"
 #include "app/viewer/views/scene_cache.h"
 
@@ -26,12 +27,28 @@ struct KeyPress {
     int key, modifiers;
 };
 
+/// Work that was left behind by a crash, and the user's word on it; without one it stays.
+struct LeftWork {
+    enum class Answer { none, recover, discard, later };
+    std::string name;  ///< of the project or part
+    std::string saved; ///< when, in words
+    Answer answer = Answer::none;
+};
+
+/// The region whose name and kind are being edited.
+struct EditedRegion {
+    int region = 0;
+    std::string name;
+    bool appears = true; ///< in this frame
+};
+
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
     float scale = 1; ///< of the screen: 1 for 96 dots per inch
     float left_width = 300, right_width = 320;
-    bool show_left = true, show_right = true, show_shortcuts = false, show_messages = false;
+    SidePanels panels;
+    bool show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since;                                 ///< seconds; by number
     double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
@@ -51,14 +68,23 @@ struct Ui {
     PictureChoices picturing;
     ReportChoices reporting;
 
+    Charts charts;
+
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
-    bool brushing_diagram = false;
-    ImVec2 brush_from{};
+    std::optional<EditedRegion> edited_region;
+    std::optional<ImVec2> diagram_from; ///< where a click or drag in the strain diagram began
 
     // what would lose unsaved work: asked about, and the answer "go on" for the next action
     std::optional<Action> held;
     bool confirmed = false;
+    std::optional<Action> after_save; ///< waits for the name of the project
+    std::optional<LeftWork> left_work;
+
+    // the sample part that a start without a file opens
+    bool sample = false, sample_exported = false;
+    std::string first_steps_said;
+    double first_steps_since = 0; ///< seconds of ImGui's clock
 
     std::vector<std::filesystem::path> recent;
 };
@@ -73,9 +99,6 @@ struct Frame {
     /// Draws a view of this size (pixels) and gives its texture for ImGui.
     std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
 };
-
-/// The cut along the section line that was drawn, with the field shown; empty: there is none.
-const std::vector<SectionPiece>& section_of(Frame& frame);
 
 void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);

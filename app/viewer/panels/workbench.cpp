@@ -1,6 +1,9 @@
+#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 
@@ -34,24 +37,6 @@ void selection_actions(Frame& frame)
         if (ImGui::SmallButton(label))
             frame.actions.push(action);
     }
-}
-
-/// The values of a field are not made anew for every mouse move.
-const Eigen::VectorXd& shown_values(const Session& session, Field field, bool per_face)
-{
-    static std::shared_ptr<const FlattenResult> blank;
-    static std::shared_ptr<const SurfaceStage> surface;
-    static Field of = Field::none;
-    static bool faces = false;
-    static Eigen::VectorXd value;
-    if (blank != session.blank || surface != session.surface || of != field || faces != per_face) {
-        blank = session.blank;
-        surface = session.surface;
-        of = field;
-        faces = per_face;
-        value = values(session, field, per_face);
-    }
-    return value;
 }
 
 void status_bar(Frame& frame)
@@ -89,7 +74,8 @@ void status_bar(Frame& frame)
     const Field field = state.document.display.field;
     if (field != Field::none && available(session, field)) {
         const bool per_face = state.document.display.per_face && !vertex;
-        const Eigen::VectorXd& value = shown_values(session, field, per_face);
+        const Eigen::VectorXd& value = frame.ui.charts.values.of({session.blank, session.surface, field, per_face},
+                                                                 [&] { return values(session, field, per_face); });
         double here = 0;
         if (vertex)
             here = value[*vertex];
@@ -103,10 +89,31 @@ void status_bar(Frame& frame)
     ImGui::TextUnformatted(text.c_str());
 }
 
+/// Where there is room for one panel, both are still to be seen.
+void choice_of_panel(Frame& frame)
+{
+    const float gap = 4 * frame.ui.scale, width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+    const auto tab = [&](const char* label, SidePanels::Which which) {
+        const bool shown = frame.ui.panels.shown(which, true);
+        ImGui::PushStyleColor(ImGuiCol_Button,
+                              ImGui::GetStyleColorVec4(shown ? ImGuiCol_HeaderActive : ImGuiCol_Button));
+        if (ImGui::Button(label, {width, 0}) && !shown)
+            frame.ui.panels.toggle(which, true);
+        ImGui::PopStyleColor();
+    };
+    tab("Steps", SidePanels::steps);
+    tooltip("The chain from part to surface  (F2)");
+    ImGui::SameLine(0, gap);
+    tab("Inspect", SidePanels::inspect);
+    tooltip("The field and its charts  (F3)");
+}
+
 } // namespace
 
 void workbench(Frame& frame)
 {
+    if (pressed(frame, GLFW_KEY_ESCAPE) && close_menus())
+        std::erase_if(frame.ui.keys, [](const KeyPress& press) { return press.key == GLFW_KEY_ESCAPE; });
     const ImGuiIO& io = ImGui::GetIO();
     const float s = frame.ui.scale;
     ImGui::SetNextWindowPos({0, 0});
@@ -120,18 +127,27 @@ void workbench(Frame& frame)
     const float status = ImGui::GetFrameHeight() + 4 * s;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float height = io.DisplaySize.y - at.y - status;
-    // Narrow windows keep room for the views.
-    const float left = frame.ui.show_left ? std::min(frame.ui.left_width * s, io.DisplaySize.x * 0.3f) : 0,
-                right = frame.ui.show_right && io.DisplaySize.x > 900 * s
-                            ? std::min(frame.ui.right_width * s, io.DisplaySize.x * 0.25f)
-                            : 0;
+    // Narrow windows keep room for the views; their one panel is on the left, whichever it is.
+    const bool narrow = is_narrow(io.DisplaySize.x, s);
+    const bool steps = frame.ui.panels.shown(SidePanels::steps, narrow),
+               inspect = frame.ui.panels.shown(SidePanels::inspect, narrow);
+    const float left = steps || (narrow && inspect)
+                           ? std::min(frame.ui.left_width * s,
+                                      std::max(io.DisplaySize.x * 0.3f, std::min(230 * s, io.DisplaySize.x / 2)))
+                           : 0,
+                right = inspect && !narrow ? std::min(frame.ui.right_width * s, io.DisplaySize.x * 0.25f) : 0;
     const Palette p = palette_of(frame.state.view.dark);
     if (left > 0) {
         ImGui::SetCursorScreenPos(at);
         ImGui::BeginChild("left", {left, height}, false,
                           ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar |
                               ImGuiWindowFlags_NoScrollWithMouse);
-        steps_panel(frame);
+        if (narrow)
+            choice_of_panel(frame);
+        if (steps)
+            steps_panel(frame);
+        else
+            inspect_panel(frame);
         ImGui::EndChild();
     }
     const float middle = io.DisplaySize.x - left - right, bar = tool_bar_height(frame, middle - 12 * s) + 4 * s;
@@ -160,8 +176,11 @@ void workbench(Frame& frame)
     selection_actions(frame);
     ImGui::End();
     messages_overlay(frame, {at.x + left + middle - 12 * s, at.y + height - 12 * s}, middle - 24 * s);
+    // The key that answers a dialog means nothing else.
+    const bool answers = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
     dialogs(frame);
-    shortcuts(frame);
+    if (!answers)
+        shortcuts(frame);
 }
 
 } // namespace spia::viewer

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "app/viewer/model/project_file.h"
+#include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/viewer/viewer_samples.h"
@@ -145,6 +146,56 @@ TEST_F(UnfinishedWork, OfALivingProgramIsNotTouchedAndACleanEndLeavesNothing)
     EXPECT_EQ(found, 0);
     autosave.clear();
     EXPECT_TRUE(fs::is_empty(state_folder()));
+}
+
+TEST_F(UnfinishedWork, IsCalledByItsProjectOrElseByItsPart)
+{
+    const Document document = viewer::document_of(dome, Stage::read);
+    const auto crash = [&](const fs::path& project) {
+        return in_a_program_that_crashes([&] { (new Autosave)->save(document, {}, project); });
+    };
+    ASSERT_EQ(crash({}), 0);
+    auto left = unfinished_session();
+    ASSERT_TRUE(left);
+    EXPECT_EQ(left->name(), document.session.file.filename());
+    left->discard();
+    ASSERT_EQ(crash(folder / "mine.spia"), 0);
+    left = unfinished_session();
+    ASSERT_TRUE(left);
+    EXPECT_EQ(left->name(), "mine.spia");
+    put(left->file(), "{\"part\": 7}");
+    EXPECT_EQ(left->name(), "");
+    left.reset(); // no answer: it is kept, as damaged as it is
+    EXPECT_TRUE(unfinished_session());
+}
+
+TEST_F(UnfinishedWork, OfAPartWithoutAProjectIsUnsavedAndHasNoProjectWhenItIsOpened)
+{
+    const Document document = viewer::document_of(dome, Stage::read);
+    for (const char* project : {"", "mine.spia"}) {
+        const fs::path own = *project ? folder / project : fs::path();
+        ASSERT_EQ(in_a_program_that_crashes([&] { (new Autosave)->save(document, {}, own); }), 0);
+        auto left = unfinished_session();
+        ASSERT_TRUE(left);
+        EXPECT_TRUE(is_autosave(left->file()));
+        ViewerModel model(materials_folder.parent_path());
+        model.apply(OpenProject{left->file()});
+        EXPECT_EQ(model.state().project, own);
+        EXPECT_TRUE(model.state().unsaved);
+        left->discard();
+    }
+    EXPECT_FALSE(is_autosave(folder / "autosave-of-mine.spia"));
+}
+
+TEST(Ago, CountsTheLargestUnit)
+{
+    using namespace std::chrono_literals;
+    EXPECT_EQ(ago(-5s), "just now"); // clocks are set back
+    EXPECT_EQ(ago(59s), "just now");
+    EXPECT_EQ(ago(60s), "1 minute ago");
+    EXPECT_EQ(ago(59min + 59s), "59 minutes ago");
+    EXPECT_EQ(ago(23h + 59min), "23 hours ago");
+    EXPECT_EQ(ago(49h), "2 days ago");
 }
 
 TEST_F(UnfinishedWork, TheNewestIsOfferedFirst)

@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/viewer/model/point_cloud.h"
+#include "app/viewer/model/section.h"
+#include "app/viewer/model/statistics.h"
+#include "app/viewer/views/scene_cache.h"
+
+namespace spia::viewer {
+
+struct Frame;
+
+/// What the lists and the histogram of a field are made of; without a field all is empty.
+struct Figures {
+    Eigen::VectorXd value;       ///< per face; of a smooth field the mean of its corners
+    Eigen::VectorXd worst_value; ///< per face the worst of its corners
+    Eigen::VectorXd at_vertex;   ///< the smooth field
+    Histogram histogram;
+    std::vector<int> worst; ///< faces
+};
+
+/// What the charts show, made anew only when that changes.
+struct Charts {
+    using Blank = std::shared_ptr<const FlattenResult>;
+    using Surface = std::shared_ptr<const SurfaceStage>;
+    Memo<Figures, Blank, Surface, Field, bool> figures;
+    Memo<Eigen::VectorXd, Blank, Surface, Field, bool> values; ///< of the field: per vertex, or per face
+    Memo<std::vector<SectionPiece>, std::shared_ptr<const PartFile>, Blank, Surface, Field, std::optional<SectionLine>>
+        section;
+    Memo<PointCloud, Blank, int, int> strains;
+};
+
+/// Of the field that is shown.
+const Figures& figures(Frame& frame);
+
+/// The cut along the section line that was drawn, with the field shown; empty: there is none.
+const std::vector<SectionPiece>& section_of(Frame& frame);
+
+/// The field along the section line.
+void section_plot(Frame& frame);
+
+/// Major over minor strain, a point per face; a click selects the face of a point, a dragged box those in it.
+void strain_diagram(Frame& frame);
+
+} // namespace spia::viewer

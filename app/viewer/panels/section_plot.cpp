@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/widgets.h"
+#include "app/viewer/views/colour_scale.h"
+
+namespace spia::viewer {
+
+const std::vector<SectionPiece>& section_of(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    const Session& session = document.session;
+    const Field field = document.display.field;
+    return frame.ui.charts.section.of(
+        {session.part, session.blank, session.surface, field, document.section}, [&]() -> std::vector<SectionPiece> {
+            const auto& line = document.section;
+            const TriMesh* mesh =
+                line ? frame.model.pickers().mesh(session, line->on_blank ? View::blank : View::part) : nullptr;
+            if (!mesh || field == Field::none || !available(session, field))
+                return {};
+            return section(*mesh, values(session, field, false), *line);
+        });
+}
+
+void section_plot(Frame& frame)
+{
+    const auto& pieces = section_of(frame);
+    if (!frame.state.document.section || !ImGui::CollapsingHeader("Section", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    if (pieces.empty()) {
+        muted(frame, "The line does not cut the sheet, or no field is shown.");
+    } else {
+        const Palette p = palette_of(frame.state.view.dark);
+        const FieldInfo& field = info(frame.state.document.display.field);
+        double low = 1e300, high = -1e300;
+        for (const SectionPiece& piece : pieces) {
+            low = std::min({low, piece.from_value, piece.to_value});
+            high = std::max({high, piece.from_value, piece.to_value});
+        }
+        const double length = (frame.state.document.section->to - frame.state.document.section->from).norm();
+        const RoundRange y = round_range(low, high, 0, false);
+        const float s = frame.ui.scale, left = 44 * s, bottom = 30 * s;
+        const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 150 * s};
+        const ImVec2 from{at.x + left, at.y + 6 * s}, to{at.x + size.x - 4 * s, at.y + size.y - bottom};
+        const auto place = [&](double distance, double value) {
+            return ImVec2(from.x + float(distance / length) * (to.x - from.x),
+                          to.y - float((value - y.least) / (y.greatest - y.least)) * (to.y - from.y));
+        };
+        ImDrawList* draw = ImGui::GetWindowDrawList();
+        ImGui::PushFont(frame.ui.fonts.small);
+        for (int k = 0; k <= y.intervals; ++k) {
+            const double value = y.least + (y.greatest - y.least) * k / y.intervals;
+            const ImVec2 line = place(0, value);
+            draw->AddLine(line, {to.x, line.y}, ink(p.line));
+            if (k % ((y.intervals + 3) / 4) == 0) {
+                const std::string text = fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0 : value);
+                draw->AddText(
+                    {line.x - 5 * s - ImGui::CalcTextSize(text.c_str()).x, line.y - ImGui::GetTextLineHeight() / 2},
+                    ink(p.muted), text.c_str());
+            }
+        }
+        const std::string far = fmt::format("{:.4g} mm", length);
+        draw->AddText({from.x, to.y + 3 * s}, ink(p.muted), "0");
+        draw->AddText({to.x - ImGui::CalcTextSize(far.c_str()).x, to.y + 3 * s}, ink(p.muted), far.c_str());
+        ImGui::PopFont();
+        for (const SectionPiece& piece : pieces)
+            draw->AddLine(place(piece.from_distance, piece.from_value), place(piece.to_distance, piece.to_value),
+                          ink(p.accent), 1.6f * s);
+        ImGui::InvisibleButton("section", size);
+        if (ImGui::IsItemHovered()) {
+            const double distance = (ImGui::GetMousePos().x - from.x) / (to.x - from.x) * length;
+            for (const SectionPiece& piece : pieces)
+                if (distance >= piece.from_distance && distance <= piece.to_distance) {
+                    const double span = piece.to_distance - piece.from_distance,
+                                 t = span > 0 ? (distance - piece.from_distance) / span : 0;
+                    ImGui::SetTooltip(
+                        "%.4g mm: %s", distance,
+                        value_text(piece.from_value + t * (piece.to_value - piece.from_value), field.unit).c_str());
+                    break;
+                }
+        }
+    }
+    if (ImGui::SmallButton("Remove section"))
+        frame.actions.push(ClearSection{});
+}
+
+} // namespace spia::viewer
