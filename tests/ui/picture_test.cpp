@@ -53,7 +53,7 @@ protected:
     }
     HiddenWindow window;
     Renderer renderer;
-    ViewerModel model{"assets", [] {}};
+    ViewerModel model{SPIA_SOURCE_DIR "/assets", [] {}};
     ViewerState state;
     SceneCache cache;
 };
