@@ -8,7 +8,8 @@ namespace spia::viewer {
 
 struct Frame;
 
-/// Chooses a file or a folder by mouse or keyboard: the arrows move in the list, Return takes what is chosen, Escape leaves. In a window of ImGui: on a Debian desktop there is no library for the system's own dialog.
+/// Chooses a file or a folder by mouse or keyboard: the arrows move in the list, Return takes what is chosen, Escape
+/// leaves. In a window of ImGui: on a Debian desktop there is no library for the system's own dialog.
 class FileDialog {
 public:
     enum class Purpose {
