@@ -171,6 +171,11 @@ struct ViewerModel::Apply {
             throw InputError(fmt::format("There is no corner {}; they count from 0 to 3.", action.corner));
         if (action.vertex < 0 || action.vertex >= part().mesh.vertices())
             throw InputError(fmt::format("The part has no vertex {}.", action.vertex));
+        const std::vector<int>& outline = model.pickers_.outline(session);
+        if (std::find(outline.begin(), outline.end(), action.vertex) == outline.end())
+            throw InputError(
+                fmt::format("Vertex {} is not on the outer outline of the blank, where corners have to be.",
+                            part().source_vertex[size_t(action.vertex)]));
         std::array<int, 4> corners = corners_now();
         const int in_file = part().source_vertex[size_t(action.vertex)];
         for (int k = 0; k < 4; ++k)

@@ -90,15 +90,17 @@ void direction_control(Frame& frame)
     const Eigen::Vector3d found = session.blank ? session.blank->stamping.direction : Eigen::Vector3d(axes.col(2));
     ImGui::SetNextItemWidth(110 * frame.ui.scale);
     int wanted = now;
-    if (ImGui::Combo("Stamping direction", &wanted, names, 5) && wanted != now)
+    if (ImGui::Combo("Direction", &wanted, names, 5) && wanted != now)
         frame.actions.push(SetDirection{wanted == 0   ? std::nullopt
                                         : wanted == 4 ? std::optional(chosen.value_or(found))
                                                       : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
-    tooltip(session.blank && !chosen
-                ? fmt::format("Found: {:.3f}, {:.3f}, {:.3f}. It gives the unfolding its start, the plane of the blank "
-                              "and its outer side.",
-                              found[0], found[1], found[2])
-                : "Of the press. It gives the unfolding its start, the plane of the blank and its outer side.");
+    tooltip(
+        session.blank && !chosen
+            ? fmt::format(
+                  "Stamping direction, found: {:.3f}, {:.3f}, {:.3f}. It gives the unfolding its start, the plane of the blank "
+                  "and its outer side.",
+                  found[0], found[1], found[2])
+            : "Stamping direction, that of the press. It gives the unfolding its start, the plane of the blank and its outer side.");
     if (now != 4)
         return;
     static constexpr const char* ids[] = {"##x", "##y", "##z"};

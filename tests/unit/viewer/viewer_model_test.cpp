@@ -122,6 +122,22 @@ TEST_F(ViewerModelTest, UndoBringsBackEveryKindOfChangeByItsName)
     EXPECT_EQ(document.probes.size(), 1u);
 }
 
+TEST_F(ViewerModelTest, ACornerInsideTheBlankIsRefusedAndNotWanted)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto wanted = document.session.options.corners;
+    const std::vector<int>& outline = model.pickers().outline(document.session);
+    int inside = 0;
+    while (std::find(outline.begin(), outline.end(), inside) != outline.end())
+        ++inside;
+    model.apply(SetCorner{0, inside, false});
+    EXPECT_TRUE(says(Severity::error, "not on the outer outline"));
+    EXPECT_EQ(document.session.options.corners, wanted);
+    EXPECT_FALSE(model.busy());
+}
+
 TEST_F(ViewerModelTest, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
 {
     open();
