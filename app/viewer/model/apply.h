@@ -1,0 +1,104 @@
+#pragma once
+#include "app/viewer/model/viewer_model.h"
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+
+/// One call per kind of action. What throws is told to the user by apply().
+struct ViewerModel::Apply {
+    ViewerModel& model;
+    ViewerState& state = model.state_;
+    Document& document = state.document;
+    Session& session = document.session;
+
+    /// Before every change that undo brings back.
+    void change(std::string name, bool merge = false)
+    {
+        state.history.remember(std::move(name), document, merge);
+        state.unsaved = true;
+    }
+    const PartFile& part() const
+    {
+        if (!session.part)
+            throw InputError("Open a part first.");
+        return *session.part;
+    }
+
+    // --- the chain
+    /// Ends what runs, whatever it is about, and begins with another document.
+    void begin_with(Document fresh);
+    void require_no_export() const;
+    void operator()(const OpenPart& action);
+    void operator()(const SetUnit& action);
+    void operator()(const SetReading& action);
+    /// Numbers of faces mean others when the part is read otherwise.
+    void forget_picks();
+    void operator()(const RunTo& action);
+    void operator()(const CancelJob&);
+    void operator()(const SetMaterial& action);
+    void operator()(const SetThickness& action);
+    void operator()(const SetDirection& action);
+    /// Numbers in the file, chosen or proposed.
+    std::array<int, 4> corners_now() const;
+    void operator()(const SetCorner& action);
+    void operator()(const ProposeCorners&);
+    void operator()(const SetGrid& action);
+    void operator()(const SetEnds& action);
+
+    // --- picking
+    void select(std::vector<int> faces, PickMode mode, const char* name);
+    void operator()(const SelectFaces& action) { select(action.faces, action.mode, "Select faces"); }
+    /// What a picking tool needs of the view it is used in.
+    const RayPicker& picker(View view);
+    const Camera& camera(View view) const { return state.view.camera[size_t(view)]; }
+    void operator()(const PickAt& action);
+    void operator()(const PickArea& action);
+    void operator()(const PickBrush& action);
+    void operator()(const GrowSelection&);
+    void operator()(const ShrinkSelection&);
+    void operator()(const InvertSelection&);
+    void operator()(const ClearSelection&);
+    void select_vertices(std::vector<int> vertices, PickMode mode, const char* name);
+    /// @param vertices ascending
+    void require_vertices(const std::vector<int>& vertices) const;
+    void operator()(const SelectVertices& action) { select_vertices(action.vertices, action.mode, "Select vertices"); }
+    void operator()(const PickVertex& action);
+    void operator()(const UseVerticesAsCorners&);
+
+    size_t region(int number) const;
+    void operator()(const MakeRegion& action);
+    void operator()(const ChangeRegion& action);
+    void operator()(const RemoveRegion& action);
+    void operator()(const SelectRegion& action);
+    void operator()(const AddProbe& action);
+    void operator()(const RemoveProbe& action);
+    void operator()(const ClearProbes&);
+
+    void operator()(const DrawSection& action);
+    void operator()(const ClearSection&);
+
+    // --- looking
+    void operator()(const SetDisplay& action);
+    void operator()(const SetViewSettings& action) { state.view = action.view; }
+    void operator()(const FitView& action) { model.fit(action.view); }
+    void operator()(const LookFrom& action);
+    void operator()(const FlyTo& action);
+    void operator()(const FlyToVertex& action);
+    /// Every view shows the middle of some vertices of the part.
+    void look_at(const std::vector<int>& vertices);
+    void operator()(const ShowFault& action);
+
+    // --- the document and files
+    void operator()(const Undo&) { go(&History::undo); }
+    void operator()(const Redo&) { go(&History::redo); }
+    void go(void (History::*way)(Document&));
+    void operator()(const OpenProject& action);
+    void operator()(const SaveProject& action);
+    void operator()(const ExportFiles& action);
+    void operator()(const DismissMessages&);
+    void operator()(const Screenshot&) {}
+    void operator()(const WriteReport&) {}
+    void operator()(const Quit&) {}
+};
+
+} // namespace spia::viewer

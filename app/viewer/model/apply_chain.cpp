@@ -1,0 +1,218 @@
+#include "app/viewer/model/apply.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/forming/material_library.h"
+
+namespace spia::viewer {
+
+void ViewerModel::Apply::begin_with(Document fresh)
+{
+    if (model.chain_job_) {
+        model.chain_job_->cancel();
+        model.ending_.push_back(std::move(model.chain_job_));
+    }
+    model.next_.reset();
+    model.project_.reset();
+    model.picks_.reset();
+    state.job = JobView{};
+    document = std::move(fresh);
+    state.history = History{};
+    for (Message& message : state.messages)
+        message.dismissed = true;
+    state.refused.reset();
+    state.fault.reset();
+    model.dragging_ = false;
+    model.keep_cameras_ = false;
+    model.opening_ = true;
+    model.start(Stage::read, Stage::read, "Opening " + document.session.file.filename().string());
+}
+
+void ViewerModel::Apply::require_no_export() const
+{
+    if (model.export_job_)
+        throw InputError("Wait for the export to end.");
+}
+
+void ViewerModel::Apply::operator()(const OpenPart& action)
+{
+    require_no_export();
+    Document fresh;
+    fresh.display = document.display;
+    fresh.display.range.reset();
+    fresh.material = document.material;
+    fresh.session.options.flatten.material = session.options.flatten.material;
+    fresh.session.options.flatten.thickness = session.options.flatten.thickness;
+    fresh.session.options.interpolate = session.options.interpolate;
+    if (!action.unit.empty())
+        fresh.session.options.read.unit = length_unit(action.unit);
+    fresh.session.file = action.file;
+    if (!std::filesystem::exists(action.file))
+        throw InputError(fmt::format("There is no file {}.", action.file.string()));
+    state.project.clear();
+    state.unsaved = false;
+    begin_with(std::move(fresh));
+}
+
+void ViewerModel::Apply::operator()(const SetUnit& action)
+{
+    const LengthUnit unit = length_unit(action.unit);
+    if (part().unit == unit)
+        return;
+    if (model.busy())
+        throw InputError("Cancel the running job first; then change the unit.");
+    change("Change unit");
+    session.options.read.unit = unit;
+    forget_picks();
+    model.opening_ = true;
+    model.run_to(Stage::read, "Reading the part again");
+}
+
+void ViewerModel::Apply::operator()(const SetReading& action)
+{
+    if (session.file.empty())
+        throw InputError("Open a part first.");
+    if (model.busy())
+        throw InputError("Cancel the running job first; then read the part otherwise.");
+    ReadOptions& read = session.options.read;
+    if (read.weld == action.weld && read.doctor.keep_largest == action.keep_largest)
+        return;
+    change("Read the part otherwise");
+    (*this)(DismissMessages{}); // of the part as it was read before
+    if (session.part)
+        model.picks_ = store_picks(document);
+    read.weld = action.weld;
+    read.doctor.keep_largest = action.keep_largest;
+    forget_picks();
+    document.regions.clear();
+    model.opening_ = true;
+    model.run_to(Stage::read, "Reading the part again");
+}
+
+void ViewerModel::Apply::forget_picks()
+{
+    document.selected.clear();
+    document.vertices.clear();
+    document.probes.clear();
+    document.section.reset();
+}
+
+void ViewerModel::Apply::operator()(const RunTo& action)
+{
+    if (model.opening_) { // as soon as the part is there
+        model.next_ = action.stage;
+        return;
+    }
+    if (!first_stale(document) || *first_stale(document) > action.stage) {
+        model.say(Severity::hint, "Everything is up to date.");
+        return;
+    }
+    part();
+    for (Message& message : state.messages) // of the run before
+        message.dismissed |= message.severity != Severity::error;
+    change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
+    model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
+}
+
+void ViewerModel::Apply::operator()(const CancelJob&)
+{
+    model.next_.reset();
+    if (model.chain_job_)
+        model.chain_job_->cancel();
+    if (model.export_job_)
+        model.export_job_->cancel();
+}
+
+void ViewerModel::Apply::operator()(const SetMaterial& action)
+{
+    const Material material = find_material(action.material, model.assets() / "materials");
+    change("Change material");
+    document.material = action.material;
+    session.options.flatten.material = material;
+}
+
+void ViewerModel::Apply::operator()(const SetThickness& action)
+{
+    if (!(action.thickness > 0 && action.thickness < 1000))
+        throw InputError("The thickness must be above 0 and below 1000 mm.");
+    change("Change thickness", true);
+    session.options.flatten.thickness = action.thickness;
+}
+
+void ViewerModel::Apply::operator()(const SetDirection& action)
+{
+    if (action.direction && !(action.direction->norm() > 0))
+        throw InputError("The stamping direction needs a length above 0.");
+    change("Change stamping direction");
+    session.options.flatten.direction = action.direction;
+}
+
+std::array<int, 4> ViewerModel::Apply::corners_now() const
+{
+    if (session.options.corners)
+        return *session.options.corners;
+    if (!session.grid)
+        throw InputError("Make the grid first; then its corners can be moved.");
+    std::array<int, 4> corners{};
+    for (size_t k = 0; k < 4; ++k)
+        corners[k] = part().source_vertex[size_t(session.grid->boundary.corner[k])];
+    return corners;
+}
+
+void ViewerModel::Apply::operator()(const SetCorner& action)
+{
+    if (!session.blank)
+        throw InputError("Unfold the part first; then its corners can be chosen.");
+    if (action.corner < 0 || action.corner > 3)
+        throw InputError(fmt::format("There is no corner {}; they count from 0 to 3.", action.corner));
+    if (action.vertex < 0 || action.vertex >= part().mesh.vertices())
+        throw InputError(fmt::format("The part has no vertex {}.", action.vertex));
+    const std::vector<int>& outline = model.pickers_.outline(session);
+    if (std::find(outline.begin(), outline.end(), action.vertex) == outline.end())
+        throw InputError(fmt::format("Vertex {} is not on the outer outline of the blank, where corners have to be.",
+                                     part().source_vertex[size_t(action.vertex)]));
+    std::array<int, 4> corners = corners_now();
+    const int in_file = part().source_vertex[size_t(action.vertex)];
+    for (int k = 0; k < 4; ++k)
+        if (k != action.corner && corners[size_t(k)] == in_file)
+            return; // two corners at one place: the mouse is on its way past the other one
+    change(fmt::format("Move corner {}", action.corner + 1), true);
+    if (!action.dragging)
+        state.history.close();
+    corners[size_t(action.corner)] = in_file;
+    session.options.corners = corners;
+    model.dragging_ = action.dragging;
+    model.run_to(action.dragging ? Stage::grid : Stage::fit, "Making the grid");
+}
+
+void ViewerModel::Apply::operator()(const ProposeCorners&)
+{
+    change("Propose corners");
+    session.options.corners.reset();
+    if (session.blank)
+        model.run_to(Stage::fit, "Making the grid");
+}
+
+void ViewerModel::Apply::operator()(const SetGrid& action)
+{
+    const GridOptions& grid = action.grid;
+    if (grid.columns < 0 || grid.rows < 0 || grid.columns > 2000 || grid.rows > 2000 || grid.cells < 1 ||
+        grid.cells > 2000)
+        throw InputError("A grid has from 1 to 2000 cells each way (0: automatic).");
+    change("Change grid", true);
+    session.options.grid = grid;
+    if (session.blank)
+        model.run_to(Stage::fit, "Making the grid");
+}
+
+void ViewerModel::Apply::operator()(const SetEnds& action)
+{
+    change("Change ends of the surface");
+    session.options.interpolate.ends =
+        action.natural ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
+    if (session.lifted)
+        model.run_to(Stage::fit, "Fitting the surface");
+}
+
+} // namespace spia::viewer

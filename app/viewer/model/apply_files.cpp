@@ -1,0 +1,71 @@
+#include "app/viewer/model/apply.h"
+
+#include <fmt/core.h>
+
+#include "app/viewer/model/recent_files.h"
+#include "engine/pipeline/outputs.h"
+
+namespace spia::viewer {
+
+void ViewerModel::Apply::go(void (History::*way)(Document&))
+{
+    if (model.chain_job_)
+        throw InputError("Cancel the running job first; then undo.");
+    (state.history.*way)(document);
+    state.unsaved = true;
+}
+
+void ViewerModel::Apply::operator()(const OpenProject& action)
+{
+    require_no_export();
+    Project project = open_project(action.file, model.assets() / "materials");
+    const bool left_behind = is_autosave(action.file); // of a part without a project `recovers` is empty
+    state.project = left_behind ? project.recovers : action.file;
+    state.unsaved = left_behind;
+    begin_with(project.document);
+    model.project_ = std::move(project);
+}
+
+void ViewerModel::Apply::operator()(const SaveProject& action)
+{
+    const std::filesystem::path file = action.file.empty() ? state.project : action.file;
+    if (file.empty())
+        throw InputError("Give the project a name: Save project as.");
+    save_project(file, document, state.view);
+    state.project = file;
+    state.unsaved = false;
+    model.say(Severity::done, fmt::format("Saved {}", file.string()));
+}
+
+void ViewerModel::Apply::operator()(const ExportFiles& action)
+{
+    if (model.chain_job_ || model.export_job_)
+        throw InputError("Wait for the running job to end, then export.");
+    if (!session.blank)
+        throw InputError("There is nothing to export yet: run the chain first.");
+    state.job = JobView{};
+    state.job.running = true;
+    state.job.title = "Exporting";
+    model.export_job_ = std::make_unique<Job<std::vector<std::filesystem::path>>>(
+        [session = session, action](const Progress& progress) {
+            return write_outputs(session, action.folder, action.formats, action.options, progress);
+        },
+        model.wake_);
+}
+
+void ViewerModel::Apply::operator()(const DismissMessages&)
+{
+    for (Message& message : state.messages)
+        message.dismissed = true;
+}
+
+void ViewerModel::apply(const Action& action)
+{
+    try {
+        std::visit(Apply{*this}, action);
+    } catch (const std::exception& error) {
+        say(Severity::error, error.what());
+    }
+}
+
+} // namespace spia::viewer

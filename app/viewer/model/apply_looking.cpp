@@ -1,0 +1,82 @@
+#include "app/viewer/model/apply.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/mesh/topology.h"
+
+namespace spia::viewer {
+
+void ViewerModel::Apply::operator()(const SetDisplay& action)
+{
+    change("Change display", true);
+    document.display = action.display;
+}
+
+void ViewerModel::Apply::operator()(const LookFrom& action)
+{
+    for (const View view : all_views)
+        if (view == action.view || (state.view.linked && view != View::blank && action.view != View::blank))
+            state.view.camera[size_t(view)] = look(state.view.camera[size_t(view)], action.from);
+}
+
+void ViewerModel::Apply::operator()(const FlyTo& action)
+{
+    const TriMesh& mesh = part().mesh;
+    if (action.face < 0 || action.face >= mesh.triangles())
+        throw InputError(fmt::format("The part has no face {}.", action.face));
+    const auto t = mesh.triangle.col(action.face);
+    look_at({t[0], t[1], t[2]});
+    select({action.face}, PickMode::replace, "Go to face");
+}
+
+void ViewerModel::Apply::operator()(const FlyToVertex& action)
+{
+    require_vertices({action.vertex});
+    look_at({action.vertex});
+}
+
+void ViewerModel::Apply::look_at(const std::vector<int>& vertices)
+{
+    const TriMesh& mesh = part().mesh;
+    const auto middle = [&](const auto& position) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int v : vertices)
+            sum.head(position.rows()) += position.col(v) / double(vertices.size());
+        return glm::dvec3(sum[0], sum[1], sum[2]);
+    };
+    const double size = 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
+    for (const View view : all_views) {
+        if (view == View::blank && !session.blank)
+            continue;
+        Camera& camera = state.view.camera[size_t(view)];
+        camera.target = view == View::blank ? middle(session.blank->blank.position) : middle(mesh.position);
+        camera.height = std::min(camera.height, size);
+    }
+}
+
+void ViewerModel::Apply::operator()(const ShowFault& action)
+{
+    const PartFile* examined = session.part ? session.part.get() : state.refused.get();
+    if (!examined)
+        throw InputError("Open a part first.");
+    const auto& findings = examined->doctor.findings;
+    if (action.finding < 0 || size_t(action.finding) >= findings.size())
+        throw InputError(fmt::format("The mesh doctor has no finding {}.", action.finding));
+    const auto& place = findings[size_t(action.finding)].place;
+    if (action.entry < 0 || size_t(action.entry) >= place.size())
+        throw InputError(fmt::format("This finding has no place {}.", action.entry));
+    const Eigen::Vector3d& at = place[size_t(action.entry)];
+    state.fault = ShownFault{action.finding, action.entry, at};
+    const double size = 0.15 * bounding_diagonal(examined->mesh);
+    for (const View view : all_views) {
+        Camera& camera = state.view.camera[size_t(view)];
+        if (view == View::part || (state.view.linked && view != View::blank)) {
+            camera.target = glm::dvec3(at[0], at[1], at[2]);
+            if (size > 0)
+                camera.height = std::min(camera.height, size);
+        }
+    }
+}
+
+} // namespace spia::viewer
