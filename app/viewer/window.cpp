@@ -13,6 +13,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include "app/viewer/gl_window.h"
 #include "app/viewer/model/html_report.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/recent_files.h"
@@ -33,104 +34,6 @@ namespace spia::viewer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// GLFW, its window and the context of OpenGL.
-class GlWindow {
-public:
-    GlWindow(int width, int height, bool visible)
-    {
-        glfwSetErrorCallback([](int, const char* text) { last_error() = text; });
-        if (!glfwInit())
-            throw Error(
-                fmt::format("no window can be opened ({}); is there a display? Without one, use the command line: "
-                            "spia run PART",
-                            last_error()));
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        glfwWindowHint(GLFW_VISIBLE, visible);
-        glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-        window_ = glfwCreateWindow(width, height, "SPIA", nullptr, nullptr);
-        if (!window_) {
-            glfwTerminate();
-            throw Error(
-                fmt::format("this display offers no OpenGL 3.3 ({}); update the graphics driver, or use the command "
-                            "line: spia run PART",
-                            last_error()));
-        }
-        glfwMakeContextCurrent(window_);
-        glfwSwapInterval(1);
-        // ImGui's own callbacks, which come later, pass every event on to these.
-        glfwSetCursorPosCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
-        glfwSetMouseButtonCallback(window_, [](GLFWwindow*, int, int, int) { news() = true; });
-        glfwSetScrollCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
-        glfwSetKeyCallback(window_, [](GLFWwindow*, int key, int scan_code, int action, int modifiers) {
-            news() = true;
-            if (action == GLFW_PRESS) // a tap may be shorter than a frame
-                keys().push_back({in_layout(key, scan_code), modifiers});
-        });
-        glfwSetCharCallback(window_, [](GLFWwindow*, unsigned) { news() = true; });
-        glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int) { news() = true; });
-        glfwSetFramebufferSizeCallback(window_, [](GLFWwindow*, int, int) { news() = true; });
-        glfwSetWindowRefreshCallback(window_, [](GLFWwindow*) { news() = true; });
-    }
-    ~GlWindow()
-    {
-        glfwDestroyWindow(window_);
-        glfwTerminate();
-    }
-    GlWindow(const GlWindow&) = delete;
-    GlWindow& operator=(const GlWindow&) = delete;
-    GLFWwindow* get() const { return window_; }
-    /// Keys that were pressed since this was last emptied.
-    static std::vector<KeyPress>& keys()
-    {
-        static std::vector<KeyPress> pressed;
-        return pressed;
-    }
-    /// Whether anything has happened since this was last set to false.
-    static bool& news()
-    {
-        static bool happened = true;
-        return happened;
-    }
-
-private:
-    /// GLFW calls keys by their places on an American keyboard; people go by what is printed on them.
-    static int in_layout(int key, int scan_code)
-    {
-        if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL)
-            return key;
-        const char* name = glfwGetKeyName(key, scan_code);
-        if (!name || name[0] == 0 || name[1] != 0)
-            return key;
-        if (name[0] >= 'a' && name[0] <= 'z')
-            return GLFW_KEY_A + (name[0] - 'a');
-        return name[0] == '+' ? GLFW_KEY_EQUAL : name[0] == '-' ? GLFW_KEY_MINUS : key;
-    }
-    static std::string& last_error()
-    {
-        static std::string text;
-        return text;
-    }
-    GLFWwindow* window_;
-};
-
-struct ImGuiContextOwner {
-    explicit ImGuiContextOwner(GLFWwindow* window)
-    {
-        ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr; // what is kept is in the project
-        ImGui_ImplGlfw_InitForOpenGL(window, true);
-        ImGui_ImplOpenGL3_Init("#version 330 core");
-    }
-    ~ImGuiContextOwner()
-    {
-        ImGui_ImplOpenGL3_Shutdown();
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-    }
-};
 
 /// How long the window was busy with each frame.
 struct FrameTimes {

@@ -1,0 +1,107 @@
+#include "app/viewer/gl_window.h"
+
+#include <epoxy/gl.h>
+// after epoxy
+#include <GLFW/glfw3.h>
+#include <fmt/core.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+/// GLFW calls keys by their places on an American keyboard; people go by what is printed on them.
+int in_layout(int key, int scan_code)
+{
+    if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL)
+        return key;
+    const char* name = glfwGetKeyName(key, scan_code);
+    if (!name || name[0] == 0 || name[1] != 0)
+        return key;
+    if (name[0] >= 'a' && name[0] <= 'z')
+        return GLFW_KEY_A + (name[0] - 'a');
+    return name[0] == '+' ? GLFW_KEY_EQUAL : name[0] == '-' ? GLFW_KEY_MINUS : key;
+}
+
+std::string& last_error()
+{
+    static std::string text;
+    return text;
+}
+
+} // namespace
+
+GlWindow::GlWindow(int width, int height, bool visible)
+{
+    glfwSetErrorCallback([](int, const char* text) { last_error() = text; });
+    if (!glfwInit())
+        throw Error(fmt::format("no window can be opened ({}); is there a display? Without one, use the command line: "
+                                "spia run PART",
+                                last_error()));
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_VISIBLE, visible);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_ = glfwCreateWindow(width, height, "SPIA", nullptr, nullptr);
+    if (!window_) {
+        glfwTerminate();
+        throw Error(
+            fmt::format("this display offers no OpenGL 3.3 ({}); update the graphics driver, or use the command "
+                        "line: spia run PART",
+                        last_error()));
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    // ImGui's own callbacks, which come later, pass every event on to these.
+    glfwSetCursorPosCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow*, int, int, int) { news() = true; });
+    glfwSetScrollCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
+    glfwSetKeyCallback(window_, [](GLFWwindow*, int key, int scan_code, int action, int modifiers) {
+        news() = true;
+        if (action == GLFW_PRESS) // a tap may be shorter than a frame
+            keys().push_back({in_layout(key, scan_code), modifiers});
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow*, unsigned) { news() = true; });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int) { news() = true; });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow*, int, int) { news() = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow*) { news() = true; });
+}
+
+GlWindow::~GlWindow()
+{
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+std::vector<KeyPress>& GlWindow::keys()
+{
+    static std::vector<KeyPress> pressed;
+    return pressed;
+}
+
+bool& GlWindow::news()
+{
+    static bool happened = true;
+    return happened;
+}
+
+ImGuiContextOwner::ImGuiContextOwner(GLFWwindow* window)
+{
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // what is kept is in the project
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+ImGuiContextOwner::~ImGuiContextOwner()
+{
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+} // namespace spia::viewer
