@@ -11,7 +11,7 @@ fi
 window=yes
 for option in "$@"; do
     case $option in
-        --unit | --unit=* | --run-all | --light | --script* | --report* | --screenshot* | --exit | --width* | --height* | mm | cm | m | inch) ;;
+        --unit | --unit=* | --run-all | --light | --script* | --report* | --follow | --screenshot* | --exit | --width* | --height* | mm | cm | m | inch) ;;
         --*) window=no ;;
     esac
 done

@@ -140,6 +140,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.fonts = gui.fonts();
     aside.scale = scale;
     aside.keys.clear();
+    aside.aside = true;
     aside.labels = {};
     aside.files = {};
     aside.held.reset();

@@ -86,7 +86,7 @@ public:
         while (!quit_) {
             const bool moves = !steps_.empty() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
             if (options_.follow && !moves)
-                write_atomically(options_.report, report().dump(2) + "\n");
+                write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
                 glfwPollEvents();
             else if (model_.busy())
@@ -118,7 +118,7 @@ public:
             }
         }
         if (!options_.report.empty())
-            write_atomically(options_.report, report().dump(2) + "\n");
+            write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
         autosave_.clear();
         return exit_code_;
     }
@@ -363,11 +363,14 @@ private:
 
     void write_report(const WriteReport& wanted)
     {
-        const Session& session = model_.state().document.session;
-        if (!session.blank)
+        const Document& document = model_.state().document;
+        if (!document.session.blank)
             throw InputError("There is nothing to report yet: unfold the part first.");
-        write_html_report(wanted.file, session, report_pictures(renderer_, model_, cache_, wanted.options),
-                          wanted.options);
+        ReportOptions options = wanted.options;
+        if (const std::string stale = out_of_date(document); !stale.empty())
+            options.remarks = stale + (options.remarks.empty() ? "" : "\n" + options.remarks);
+        write_html_report(wanted.file, as_made(document), report_pictures(renderer_, model_, cache_, wanted.options),
+                          options);
         model_.say(Severity::done, fmt::format("Wrote {}", wanted.file.string()));
     }
 
@@ -413,8 +416,7 @@ private:
         if (steps_.empty()) {
             if (finishing() && ++idle_frames_ > 4) {
                 if (!options_.screenshot.empty()) {
-                    pictures_.push_back(
-                        {std::exchange(const_cast<std::filesystem::path&>(options_.screenshot), {}), {}, 0, 0});
+                    pictures_.push_back({std::exchange(options_.screenshot, {}), {}, 0, 0});
                     idle_frames_ = 0;
                 } else
                     quit_ = true;
@@ -424,7 +426,11 @@ private:
         const Step& step = steps_.front();
         try {
             if (const auto* perform = std::get_if<Perform>(&step.what)) {
-                queue_.push(action(*perform, model_.state(), step.place));
+                const Action wanted = action(*perform, model_.state(), step.place);
+                if (std::holds_alternative<SetViewSettings>(wanted))
+                    carry_out(wanted); // as a whole, of the state now
+                else
+                    queue_.push(wanted);
             } else if (const auto* wait = std::get_if<Wait>(&step.what)) {
                 const auto now = Clock::now();
                 if (!waiting_since_)

@@ -260,8 +260,14 @@ void mend_flat_triangles(Surface& s, const Tally& dropped, DoctorReport& report)
     }
     const int mended = flat.count + dropped.count - int(repair.left.size());
     if (mended > 0) {
-        Tally gone{mended, first, dropped.where};
-        gone.where.insert(gone.where.end(), flat.where.begin(), flat.where.end());
+        Tally gone;
+        for (const int number : dropped.where)
+            gone.add(number);
+        for (const int f : all_flat)
+            if (std::find(repair.left.begin(), repair.left.end(), f) == repair.left.end())
+                gone.add(s.number[size_t(f)]);
+        gone.count = mended;
+        gone.first = first;
         report.add(Fault::flat_face, Severity::repaired, gone,
                    fmt::format("{} no area (first: face {}): {} gone by joining two vertices at one place, "
                                "{} by turning the "

@@ -101,6 +101,8 @@ double area(const TriMesh& mesh) { return area_vectors(mesh).colwise().norm().su
 
 double bounding_diagonal(const TriMesh& mesh)
 {
+    if (mesh.vertices() == 0)
+        return 0;
     return (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
 }
 

@@ -210,9 +210,12 @@ TEST_F(Scripts, EveryBadFileIsAMessageAndNoEnd)
 {
     std::ofstream(folder / "empty.stl");
     std::ofstream(folder / "noise.obj") << "v 1 2\nf 1 2 3\n";
+    std::ofstream(folder / "points.obj") << "v 1 2 3\nv 2 2 3\n"; // nothing to show at all
+    std::ofstream(folder / "far.obj") << "v 1e30 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     std::ofstream(folder / "broken.spia") << "{\"schema\": \"spia-project/1\"";
     std::ofstream(folder / "newer.spia") << "{\"schema\": \"spia-project/99\"}";
-    for (const char* file : {"empty.stl", "noise.obj", "broken.spia", "newer.spia", "missing.ply", "assets"}) {
+    for (const char* file :
+         {"empty.stl", "noise.obj", "points.obj", "far.obj", "broken.spia", "newer.spia", "missing.ply", "assets"}) {
         const Ended ended = run_viewer(folder, {file});
         EXPECT_EQ(ended.exit_code, 0) << file << ": " << ended.errors;
         ASSERT_FALSE(ended.report.is_null()) << file;

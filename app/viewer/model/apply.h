@@ -31,8 +31,6 @@ struct ViewerModel::Apply {
     void operator()(const OpenPart& action);
     void operator()(const SetUnit& action);
     void operator()(const SetReading& action);
-    /// Numbers of faces mean others when the part is read otherwise.
-    void forget_picks();
     void operator()(const RunTo& action);
     void operator()(const CancelJob&);
     void operator()(const SetMaterial& action);

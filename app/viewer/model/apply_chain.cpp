@@ -15,7 +15,6 @@ void ViewerModel::Apply::begin_with(Document fresh)
     }
     model.next_.reset();
     model.project_.reset();
-    model.picks_.reset();
     state.job = JobView{};
     document = std::move(fresh);
     state.history = History{};
@@ -64,7 +63,6 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
         throw InputError("Cancel the running job first; then change the unit.");
     change("Change unit");
     session.options.read.unit = unit;
-    forget_picks();
     model.opening_ = true;
     model.run_to(Stage::read, "Reading the part again");
 }
@@ -80,26 +78,16 @@ void ViewerModel::Apply::operator()(const SetReading& action)
         return;
     change("Read the part otherwise");
     (*this)(DismissMessages{}); // of the part as it was read before
-    if (session.part)
-        model.picks_ = store_picks(document);
     read.weld = action.weld;
     read.doctor.keep_largest = action.keep_largest;
-    forget_picks();
-    document.regions.clear();
     model.opening_ = true;
     model.run_to(Stage::read, "Reading the part again");
 }
 
-void ViewerModel::Apply::forget_picks()
-{
-    document.selected.clear();
-    document.vertices.clear();
-    document.probes.clear();
-    document.section.reset();
-}
-
 void ViewerModel::Apply::operator()(const RunTo& action)
 {
+    if (state.refused && !session.part && !model.opening_)
+        throw InputError("The part was refused: mend its faults in the step Part first, or open another one.");
     if (model.opening_) { // as soon as the part is there
         model.next_ = action.stage;
         return;
@@ -111,6 +99,12 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     part();
     for (Message& message : state.messages) // of the run before
         message.dismissed |= message.severity != Severity::error;
+    if (model.export_job_)
+        throw InputError("Wait for the export to end.");
+    if (model.chain_job_) { // the newest wish counts
+        model.next_ = std::max(model.next_.value_or(action.stage), action.stage);
+        return;
+    }
     change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
     model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
 }
@@ -162,6 +156,7 @@ std::array<int, 4> ViewerModel::Apply::corners_now() const
 
 void ViewerModel::Apply::operator()(const SetCorner& action)
 {
+    model.dragging_ = false; // whatever comes: the next grid is a fine one
     if (!session.blank)
         throw InputError("Unfold the part first; then its corners can be chosen.");
     if (action.corner < 0 || action.corner > 3)
@@ -175,8 +170,12 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
     std::array<int, 4> corners = corners_now();
     const int in_file = part().source_vertex[size_t(action.vertex)];
     for (int k = 0; k < 4; ++k)
-        if (k != action.corner && corners[size_t(k)] == in_file)
-            return; // two corners at one place: the mouse is on its way past the other one
+        if (k != action.corner &&
+            corners[size_t(k)] == in_file) { // two corners at one place: the mouse is on its way past the other one
+            if (!action.dragging && session.grid)
+                model.run_to(Stage::fit, "Making the grid");
+            return;
+        }
     change(fmt::format("Move corner {}", action.corner + 1), true);
     if (!action.dragging)
         state.history.close();

@@ -11,8 +11,12 @@ void ViewerModel::Apply::go(void (History::*way)(Document&))
 {
     if (model.chain_job_)
         throw InputError("Cancel the running job first; then undo.");
+    if (way == &History::undo ? state.history.undo_name().empty() : state.history.redo_name().empty())
+        return;
     (state.history.*way)(document);
     state.unsaved = true;
+    state.refused.reset(); // of another way to read the part
+    state.fault.reset();
 }
 
 void ViewerModel::Apply::operator()(const OpenProject& action)
@@ -47,7 +51,7 @@ void ViewerModel::Apply::operator()(const ExportFiles& action)
     state.job.running = true;
     state.job.title = "Exporting";
     model.export_job_ = std::make_unique<Job<std::vector<std::filesystem::path>>>(
-        [session = session, action](const Progress& progress) {
+        [session = as_made(document), action](const Progress& progress) {
             return write_outputs(session, action.folder, action.formats, action.options, progress);
         },
         model.wake_);

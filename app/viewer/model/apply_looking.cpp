@@ -57,18 +57,21 @@ void ViewerModel::Apply::look_at(const std::vector<int>& vertices)
 
 void ViewerModel::Apply::operator()(const ShowFault& action)
 {
-    const PartFile* examined = session.part ? session.part.get() : state.refused.get();
-    if (!examined)
+    const PartFile* part = examined(state);
+    if (!part)
         throw InputError("Open a part first.");
-    const auto& findings = examined->doctor.findings;
+    const auto& findings = part->doctor.findings;
     if (action.finding < 0 || size_t(action.finding) >= findings.size())
         throw InputError(fmt::format("The mesh doctor has no finding {}.", action.finding));
     const auto& place = findings[size_t(action.finding)].place;
     if (action.entry < 0 || size_t(action.entry) >= place.size())
         throw InputError(fmt::format("This finding has no place {}.", action.entry));
     const Eigen::Vector3d& at = place[size_t(action.entry)];
+    constexpr double beyond_any_part = 1e9; // mm
+    if (!at.allFinite() || at.cwiseAbs().maxCoeff() > beyond_any_part)
+        throw InputError("This place has no coordinates that could be shown.");
     state.fault = ShownFault{action.finding, action.entry, at};
-    const double size = 0.15 * bounding_diagonal(examined->mesh);
+    const double size = 0.15 * bounding_diagonal(part->mesh);
     for (const View view : all_views) {
         Camera& camera = state.view.camera[size_t(view)];
         if (view == View::part || (state.view.linked && view != View::blank)) {

@@ -1,5 +1,7 @@
 #include "app/viewer/model/chain.h"
 
+#include <fmt/core.h>
+
 #include "engine/core/error.h"
 
 namespace spia::viewer {
@@ -79,6 +81,28 @@ std::optional<Stage> first_stale(const Document& document)
         wanted.interpolate.parameters != made.interpolate.parameters)
         return Stage::fit;
     return std::nullopt;
+}
+
+Session as_made(const Document& document)
+{
+    Session session = document.session;
+    session.options = document.made_with;
+    return session;
+}
+
+std::string out_of_date(const Document& document)
+{
+    const auto stale = first_stale(document);
+    const Session& session = document.session;
+    const bool there = stale && (*stale == Stage::read    ? session.part != nullptr
+                                 : *stale == Stage::solve ? session.blank != nullptr
+                                 : *stale == Stage::fit   ? session.surface != nullptr
+                                                          : session.grid != nullptr);
+    return there ? fmt::format(
+                       "Out of date: options were changed after these results were made, from the step \"{}\" on; "
+                       "the figures are those of the options before.",
+                       name(*stale))
+                 : "";
 }
 
 ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress)

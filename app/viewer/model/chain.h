@@ -11,6 +11,12 @@ namespace spia::viewer {
 /// Old results stay to be looked at until newer ones take their place.
 std::optional<Stage> first_stale(const Document& document);
 
+/// The results with the options they were made with, for what leaves the program.
+Session as_made(const Document& document);
+
+/// Says that results are older than the options; empty if they are not, or if there are none.
+std::string out_of_date(const Document& document);
+
 /// What a run of the chain left behind.
 struct ChainResult {
     Session session;             ///< with every stage that has ended; of the others as it was

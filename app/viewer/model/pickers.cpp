@@ -82,6 +82,15 @@ const std::vector<int>& Pickers::outline(const Session& session)
     return blank_ ? track_.get().vertex : longest_.get();
 }
 
+const std::vector<int>* Pickers::ready_outline(const Session& session)
+{
+    follow(session);
+    if (!blank_)
+        return longest_.peek();
+    const CornerTrack* track = track_.peek();
+    return track ? &track->vertex : nullptr;
+}
+
 std::optional<int> Pickers::vertex_at(const Session& session, const PickVertex& pick, const Camera& camera)
 {
     const RayPicker* on = picker(session, pick.view);

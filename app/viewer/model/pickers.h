@@ -34,6 +34,8 @@ public:
     /// Vertices of the outer boundary in their order; before there is a blank the longest one counts as that.
     /// @throws InputError if there is none
     const std::vector<int>& outline(const Session& session);
+    /// Null while it is being made. @throws likewise
+    const std::vector<int>* ready_outline(const Session& session);
     /// What a click would pick. Nothing likewise where the view shows none of the part.
     std::optional<int> vertex_at(const Session& session, const PickVertex& pick, const Camera& camera);
 

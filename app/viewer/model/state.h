@@ -65,6 +65,10 @@ struct JobView {
     std::shared_ptr<const Eigen::Matrix2Xd> blank; ///< while it converges; null: nothing yet
 };
 
+struct ViewerState;
+/// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
+const PartFile* examined(const ViewerState& state);
+
 /// All the window shows. Only actions and finished jobs change it.
 struct ViewerState {
     Document document;

@@ -160,13 +160,13 @@ Json messages_json(const std::vector<Message>& messages)
 
 Json doctor_json(const ViewerState& state)
 {
-    const PartFile* examined = state.document.session.part ? state.document.session.part.get() : state.refused.get();
-    if (!examined)
+    const PartFile* part = examined(state);
+    if (!part)
         return nullptr;
     Json findings = Json::array();
-    for (const Finding& finding : examined->doctor.findings)
+    for (const Finding& finding : part->doctor.findings)
         findings.push_back({{"fault", name(finding.fault)}, {"count", finding.count}, {"text", finding.text}});
-    Json json = {{"refused", state.refused != nullptr && !state.document.session.part}, {"findings", findings}};
+    Json json = {{"refused", state.refused != nullptr}, {"findings", findings}};
     if (state.fault)
         json["shown"] = vector_json(state.fault->place);
     return json;

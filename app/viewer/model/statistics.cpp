@@ -34,6 +34,16 @@ Histogram histogram(const TriMesh& part, const Eigen::VectorXd& value, int bins)
     return result;
 }
 
+double badness(Field field, double value)
+{
+    switch (field) {
+    case Field::thickness:
+    case Field::strain_minor: return -value;
+    case Field::deviation: return std::abs(value);
+    default: return value;
+    }
+}
+
 std::vector<int> worst_spots(const TriMesh& part, const Eigen::VectorXd& value, int most, bool smallest)
 {
     std::vector<int> order;

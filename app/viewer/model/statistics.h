@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "app/viewer/model/field.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia::viewer {
@@ -14,6 +15,9 @@ struct Histogram {
 
 /// @param value one per face; @param bins at least 1
 Histogram histogram(const TriMesh& part, const Eigen::VectorXd& value, int bins);
+
+/// How bad a value of a field is: the greater the worse. The thinner and the more squeezed the worse; a deviation by its size.
+double badness(Field field, double value);
 
 /// Faces where a field is worst, the worst first, no two nearer to each other than a tenth of the part: one spot is listed once.
 /// @param value one per face; @param smallest look for the least values instead of the greatest

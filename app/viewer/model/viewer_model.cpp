@@ -108,7 +108,11 @@ bool ViewerModel::poll()
         view.step = chain_job_->step();
         view.cancelling = chain_job_->cancelling();
         if (auto blank = live_->blank.fetch()) {
+            const bool first = !view.blank && !state_.document.session.blank;
             view.blank = std::move(*blank);
+            const size_t flat = size_t(View::blank);
+            if ((first && !keep_cameras_) || fitted_[flat] == state_.view.camera[flat])
+                fit(View::blank); // it moves and grows until it has converged
             news = true;
         }
         {
@@ -148,27 +152,24 @@ void ViewerModel::take_chain_result()
     Document& document = state_.document;
     const bool had_blank = document.session.blank != nullptr;
     result.made_with.flatten.watch = nullptr;
-    const auto take = [&](Document& changed) {
-        SessionOptions wanted = std::move(changed.session.options); // may have changed meanwhile
-        changed.session = result.session;
-        changed.session.options = std::move(wanted);
-        changed.made_with = result.made_with;
-    };
-    take(document);
-    state_.history.update_since(depth_at_start_, take); // what was picked during the run is taken back without it
-    if (!result.failed)
+    const std::shared_ptr<const PartFile> part_before = document.session.part;
+    for (const std::string& lost : take_over(document, result))
+        say(Severity::warning, lost);
+    // What was picked during the run is taken back without it.
+    state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
+    opening_ = false;
+    if (document.session.part != part_before) {
         state_.refused.reset();
-    if (std::exchange(opening_, false)) {
         state_.fault.reset();
         part_opened();
     }
-    if (const auto picks = std::exchange(picks_, std::nullopt); picks && document.session.part)
-        for (const std::string& lost : restore_picks(document, *picks))
-            say(Severity::warning, lost);
     if (project_)
         project_opened();
-    if (!had_blank && document.session.blank && !std::exchange(keep_cameras_, false))
+    const size_t flat = size_t(View::blank);
+    if (document.session.blank && ((!had_blank && !keep_cameras_) || fitted_[flat] == state_.view.camera[flat]))
         fit(View::blank);
+    if (document.session.blank)
+        keep_cameras_ = false;
     if (result.cancelled)
         say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title));
     else if (result.failed)
@@ -177,16 +178,54 @@ void ViewerModel::take_chain_result()
         for (const std::string& text : shortcomings(document.session))
             say(Severity::warning, text);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
-        run_to(*next, title);
+        run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
+}
+
+/// Puts the results of a run into a document. On a part that was read otherwise the picks stay where they are in space.
+/// @returns in words what was not found again
+std::vector<std::string> ViewerModel::take_over(Document& document, const ChainResult& result)
+{
+    const std::shared_ptr<const PartFile> before = document.session.part, after = result.session.part;
+    const bool renumbered =
+        before && after && before != after &&
+        (before->mesh.triangle.cols() != after->mesh.triangle.cols() || before->mesh.triangle != after->mesh.triangle);
+    std::optional<StoredPicks> picks;
+    if (renumbered)
+        picks = store_picks(document);
+    SessionOptions wanted = std::move(document.session.options); // may have changed meanwhile
+    document.session = result.session;
+    document.session.options = std::move(wanted);
+    document.made_with = result.made_with;
+    if (before != after)
+        document.section.reset();
+    if (!picks)
+        return {};
+    document.selected.clear();
+    document.vertices.clear();
+    document.probes.clear();
+    document.regions.clear();
+    try {
+        return restore_picks(document, *picks);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+}
+
+/// With a full stop at its end.
+static std::string sentence(std::string text)
+{
+    if (!text.empty() && std::string_view(".!?)").find(text.back()) == std::string_view::npos)
+        text += '.';
+    return text;
 }
 
 void ViewerModel::say_failed(const ChainResult& result)
 {
     const bool reading = *result.failed == Stage::read;
     state_.refused = result.refused;
-    if (!state_.refused) {
+    if (!state_.refused || !reading) {
         say(Severity::error,
-            fmt::format("{} {}", result.message, reading ? "Choose another file." : advice(*result.failed)));
+            fmt::format("{} {}", sentence(result.message), reading ? "Choose another file." : advice(*result.failed)));
         return;
     }
     const auto& findings = state_.refused->doctor.findings;
@@ -233,12 +272,16 @@ void ViewerModel::project_opened()
     Document& document = state_.document;
     if (!document.session.part)
         return;
-    for (const std::string& lost : restore_picks(document, project.picks))
-        say(Severity::warning, lost);
+    try {
+        for (const std::string& lost : restore_picks(document, project.picks))
+            say(Severity::warning, lost);
+    } catch (const InputError& error) { // the rest of the project is sound
+        say(Severity::warning, error.what());
+    }
     state_.view = project.view;
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
     if (keep_cameras_)
-        next_ = project.ran;
+        next_ = std::max(next_.value_or(*project.ran), *project.ran);
 }
 
 void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach)
@@ -277,10 +320,11 @@ void ViewerModel::fit(std::optional<View> only)
             continue;
         Camera& camera = state_.view.camera[size_t(view)];
         if (view == View::blank) {
-            if (!session.blank)
+            if (!session.blank && !state_.job.blank)
                 continue;
-            Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, session.blank->blank.position.cols());
-            flat.topRows<2>() = session.blank->blank.position;
+            const Eigen::Matrix2Xd& plane = state_.job.blank ? *state_.job.blank : session.blank->blank.position;
+            Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, plane.cols());
+            flat.topRows<2>() = plane;
             camera = spia::viewer::fit(camera, flat, size_[size_t(view)], margins(view));
         } else {
             if (state_.view.linked && view != View::part)

@@ -102,4 +102,17 @@ void follow(std::string& path, std::string& suggested, const std::string& sugges
     suggested = suggestion;
 }
 
+void old_results_banner(Frame& frame)
+{
+    const std::string text = out_of_date(frame.state.document);
+    if (text.empty())
+        return;
+    coloured(palette_of(frame.state.view.dark).warning, text);
+    if (ImGui::Button("Update all first")) {
+        frame.actions.push(RunTo{Stage::fit});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::Dummy({0, 4 * frame.ui.scale});
+}
+
 } // namespace spia::viewer

@@ -35,4 +35,7 @@ std::string beside_part(const Frame& frame, const std::string& ending);
 /// @param suggested what the path was set to last; as long as the user has typed no other, it follows the part
 void follow(std::string& path, std::string& suggested, const std::string& suggestion);
 
+/// A warning if the results are older than the options, with a way to make them anew first, which closes the dialog.
+void old_results_banner(Frame& frame);
+
 } // namespace spia::viewer

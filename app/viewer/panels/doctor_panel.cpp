@@ -85,8 +85,8 @@ void file_notes(Frame& frame, const PartFile& part)
 void doctor_panel(Frame& frame)
 {
     const ViewerState& state = frame.state;
-    const bool refused = !state.document.session.part && state.refused;
-    const PartFile* part = refused ? state.refused.get() : state.document.session.part.get();
+    const bool refused = state.refused != nullptr;
+    const PartFile* part = examined(state);
     if (!part)
         return;
     file_notes(frame, *part);

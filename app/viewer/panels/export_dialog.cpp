@@ -172,6 +172,7 @@ void export_dialog(Frame& frame)
     }
     if (!begin_dialog(frame, "Export", appears, 720))
         return;
+    old_results_banner(frame);
     const float s = frame.ui.scale;
     const FitVerdict verdict = choices.verdict.of({session.surface, choices.tolerance},
                                                   [&] { return fit_verdict(session, choices.tolerance); });

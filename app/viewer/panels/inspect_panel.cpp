@@ -18,7 +18,6 @@ Figures figures_of(const Session& session, Field field, bool per_face)
     if (!available(session, field) || field == Field::none)
         return made;
     const TriMesh& part = session.part->mesh;
-    const bool small = field == Field::thickness;
     made.value = values(session, field, true);
     made.worst_value = made.value;
     made.at_vertex = values(session, field, false);
@@ -28,11 +27,15 @@ Figures figures_of(const Session& session, Field field, bool per_face)
             const Eigen::Vector3d corner(smooth[part.triangle(0, f)], smooth[part.triangle(1, f)],
                                          smooth[part.triangle(2, f)]);
             made.value[f] = corner.mean();
-            made.worst_value[f] = small ? corner.minCoeff() : corner.maxCoeff();
+            made.worst_value[f] = *std::max_element(corner.begin(), corner.end(), [&](double a, double b) {
+                return badness(field, a) < badness(field, b);
+            });
         }
     }
     made.histogram = histogram(part, made.value, 48);
-    made.worst = worst_spots(part, made.worst_value, 6, small);
+    const Eigen::VectorXd bad = made.worst_value.unaryExpr([&](double value) { return badness(field, value); });
+    if (field != Field::necking || bad.maxCoeff() > 0)
+        made.worst = worst_spots(part, bad, 6, false);
     return made;
 }
 
@@ -79,7 +82,8 @@ void field_section(Frame& frame)
     }
     if (available(document.session, display.field) && display.field != Field::none) {
         const Figures& now = figures(frame);
-        std::array<double, 2> range = display.range.value_or(std::array{now.histogram.least, now.histogram.greatest});
+        const ColourScale legend = field_scale(display, {now.histogram.least, now.histogram.greatest}); // round numbers
+        std::array<double, 2> range = display.range.value_or(std::array{double(legend.least), double(legend.greatest)});
         bool by_hand = display.range.has_value();
         if (ImGui::Checkbox("Range", &by_hand)) {
             display.range = by_hand ? std::optional(range) : std::nullopt;
@@ -171,7 +175,13 @@ void probes_section(Frame& frame)
     for (size_t k = 0; k < document.probes.size(); ++k) {
         const Probe& probe = document.probes[k];
         ImGui::PushID(int(k));
-        const std::string value = now.value.size() ? value_text(now.value[probe.face], unit(frame)) : "";
+        std::string value;
+        if (now.value.size()) // as the label in the view has it
+            value = value_text(
+                document.display.per_face
+                    ? now.value[probe.face]
+                    : now.at_vertex(document.session.part->mesh.triangle.col(probe.face)).dot(probe.barycentric),
+                unit(frame));
         if (ImGui::Selectable(fmt::format("P{}   face {}   {}", k + 1, probe.face, value).c_str(), false, 0,
                               {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
             frame.actions.push(FlyTo{probe.face});
@@ -208,7 +218,10 @@ void vertices_as_corners(Frame& frame)
         return;
     std::string why;
     try {
-        corners_of(vertices, frame.model.pickers().outline(session), session.part->source_vertex);
+        if (const std::vector<int>* outline = frame.model.pickers().ready_outline(session))
+            corners_of(vertices, *outline, session.part->source_vertex);
+        else
+            why = "The outline is being looked for.";
     } catch (const Error& error) {
         why = error.what();
     }

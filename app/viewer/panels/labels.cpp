@@ -80,11 +80,13 @@ const LabelPlaces& places_of(Frame& frame, View view, const Scene& scene, glm::d
     const bool with_values = scene.isolines && scene.legend &&
                              !(moves && frame.state.document.session.part->mesh.triangles() > many_triangles);
     const auto isolines = with_values ? scene.isolines : nullptr;
-    const RayPicker* const picker = frame.model.pickers().ready_picker(frame.state.document.session, view);
-    if (places.picker == picker && places.camera == camera && places.size == size && places.isolines == isolines &&
-        places.legend == legend.has_value() && places.labels == scene.labels)
+    const Session& session = frame.state.document.session;
+    const bool picker = frame.model.pickers().ready_picker(session, view) != nullptr;
+    if (places.part == session.part && places.picker == picker && places.camera == camera && places.size == size &&
+        places.isolines == isolines && places.legend == legend.has_value() && places.labels == scene.labels)
         return places;
     find_places(frame, view, scene, size, with_values, legend, places);
+    places.part = session.part;
     places.picker = picker;
     places.camera = camera;
     places.size = size;

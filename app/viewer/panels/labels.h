@@ -23,7 +23,8 @@ struct LabelPlaces {
     std::vector<SceneLabel> labels;
     std::shared_ptr<const std::vector<Isoline>> isolines;
     bool legend = false;
-    const RayPicker* picker = nullptr; ///< null: what hides a place was not known yet
+    std::shared_ptr<const PartFile> part;
+    bool picker = false; ///< else what hides a place was not known yet
 
     std::vector<PlacedLabel> placed;
     std::vector<char> hidden; ///< per label placed: its place lies behind the sheet

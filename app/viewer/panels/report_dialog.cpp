@@ -69,6 +69,7 @@ void report_dialog(Frame& frame)
     }
     if (!begin_dialog(frame, "Report", appears, 600))
         return;
+    old_results_banner(frame);
     const float s = frame.ui.scale;
     ImGui::SetNextItemWidth(-1);
     text_input("##title", options.title, false, ("Title: " + session.file.filename().string()).c_str());

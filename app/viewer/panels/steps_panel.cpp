@@ -134,9 +134,13 @@ void unfold_step(Frame& frame)
     const Palette p = palette_of(frame.state.view.dark);
     const bool fine = flat.report.system == SolvedSystem::strict;
     ImGui::SameLine();
-    ImGui::TextColored(fine ? p.good : p.warning, fine                    ? "converged"
-                                                  : flat.report.converged ? "converged, relaxed"
-                                                                          : "not converged");
+    const bool old = stale && *stale <= Stage::solve;
+    ImGui::TextColored(old    ? p.muted
+                       : fine ? p.good
+                              : p.warning,
+                       fine                    ? "converged"
+                       : flat.report.converged ? "converged, relaxed"
+                                               : "not converged");
     if (!fine)
         coloured(p.warning, flat.report.reason + ". " + advice(flat.report.system));
     direction_control(frame);

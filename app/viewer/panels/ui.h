@@ -60,6 +60,8 @@ struct Ui {
     std::optional<View> busy;
     bool turning = false, panning = false;
     std::optional<int> dragged_corner;
+    bool aside = false;            ///< drawn for a picture: the views of the window keep their sizes and cameras
+    bool corner_moved = false;     ///< since it was taken
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::array<ImVec2, 4> view_from{}, view_size{};
     std::array<LabelPlaces, 4> labels;

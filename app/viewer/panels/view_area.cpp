@@ -98,10 +98,16 @@ void drag_corners(Frame& frame, const Mouse& mouse)
     const int vertex = nearest_boundary_vertex(frame.model.pickers().track(session), camera, mouse.pixel, mouse.size);
     const bool down = ImGui::IsMouseDown(0);
     const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
-    if (!down || vertex != now)
-        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, down});
-    if (!down)
-        ui.dragged_corner.reset();
+    if (down && vertex != now) {
+        ui.corner_moved = true;
+        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, true});
+    }
+    if (down)
+        return;
+    if (ui.corner_moved) // a click alone changes nothing
+        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, false});
+    ui.dragged_corner.reset();
+    ui.corner_moved = false;
 }
 
 void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
@@ -142,18 +148,15 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                                           PickVertex{}.reach * ui.scale});
         return;
     case Tool::brush:
-        if (clicked) {
+        if (clicked)
             ui.busy = view;
-            if (mode() == PickMode::replace)
-                frame.actions.push(SelectFaces{});
-        }
         if (mouse.inside)
             draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
                             float(settings.brush_radius), ink(p.accent), 32, 1.5f);
         if (ui.busy == view && !ui.turning && !ui.panning) {
             if (ImGui::IsMouseDown(0))
                 frame.actions.push(PickBrush{view, mouse.pixel, settings.brush_radius, mouse.size,
-                                             mode() == PickMode::remove ? PickMode::remove : PickMode::add,
+                                             mode() == PickMode::replace && !clicked ? PickMode::add : mode(),
                                              settings.through});
             else
                 ui.busy.reset();
@@ -252,6 +255,22 @@ void view_buttons(Frame& frame, View view)
     tooltip("Or double-click the title");
 }
 
+/// Whether a view shows results of options that have changed since.
+bool is_old(const Document& document, View view)
+{
+    const auto stale = first_stale(document);
+    const Session& session = document.session;
+    if (!stale)
+        return false;
+    switch (view) {
+    case View::part:
+    case View::blank: return session.blank && *stale <= Stage::solve;
+    case View::quads: return session.lifted && *stale <= Stage::lift;
+    case View::surface: return session.surface != nullptr;
+    }
+    return false;
+}
+
 /// @returns whether the mouse points into it and drags nothing
 bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
 {
@@ -268,6 +287,11 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::TextUnformatted(title(view));
     ImGui::PopFont();
     ImGui::PushFont(frame.ui.fonts.small);
+    if (is_old(frame.state.document, view)) {
+        ImGui::SameLine();
+        ImGui::TextColored(p.warning, "old");
+        tooltip("Options were changed after this was made: Update all  (F5)");
+    }
     view_buttons(frame, view);
     ImGui::PopFont();
     const bool in_title = ImGui::IsMouseHoveringRect(at, {at.x + whole.x, at.y + bar}) && ImGui::IsWindowHovered() &&
@@ -281,7 +305,8 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const ImVec2 from{at.x, at.y + bar}, size{whole.x, std::max(1.f, whole.y - bar)};
     frame.ui.view_from[size_t(view)] = from;
     frame.ui.view_size[size_t(view)] = size;
-    frame.model.resized(view, vec(size), frame.ui.scale);
+    if (!frame.ui.aside)
+        frame.model.resized(view, vec(size), frame.ui.scale);
     const Scene shown = scene(view, frame.state, frame.cache, size.y / frame.ui.scale);
     const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
     ImGui::SetCursorScreenPos(from);
@@ -355,9 +380,10 @@ void end_drags(Frame& frame)
     ui.turning = ui.panning = false;
     ui.trail.clear();
     const auto& grid = frame.state.document.session.grid;
-    if (ui.dragged_corner && grid)
+    if (ui.dragged_corner && ui.corner_moved && grid)
         frame.actions.push(SetCorner{*ui.dragged_corner, grid->boundary.corner[size_t(*ui.dragged_corner)], false});
     ui.dragged_corner.reset();
+    ui.corner_moved = false;
 }
 
 } // namespace

@@ -60,7 +60,7 @@ void add_shown_fault(Scene& scene, const ViewerState& state)
 {
     if (!state.fault || !state.fault->place.allFinite())
         return;
-    const PartFile* part = state.document.session.part ? state.document.session.part.get() : state.refused.get();
+    const PartFile* part = examined(state);
     if (!part || size_t(state.fault->finding) >= part->doctor.findings.size())
         return;
     const Eigen::Matrix3Xd place = state.fault->place;

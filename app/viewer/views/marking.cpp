@@ -167,8 +167,10 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
             value = values->value[probe.face];
         else if (values)
             value = values->value(triangle.col(probe.face)).dot(probe.barycentric);
-        scene.labels.push_back(
-            {places.back(), values ? value_text(value, unit) : fmt::format("face {}", probe.face), text});
+        scene.labels.push_back({places.back(),
+                                fmt::format("P{}  {}", &probe - state.document.probes.data() + 1,
+                                            values ? value_text(value, unit) : fmt::format("face {}", probe.face)),
+                                text});
     }
     dots(places, palette::probe);
 }

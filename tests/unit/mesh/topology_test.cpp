@@ -37,4 +37,6 @@ TEST(Topology, ThirdFaceOnAnEdgeIsNamed)
     }
 }
 
+TEST(Topology, AMeshWithoutVerticesHasNoExtent) { EXPECT_EQ(bounding_diagonal(TriMesh{}), 0); }
+
 } // namespace spia

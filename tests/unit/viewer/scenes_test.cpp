@@ -227,7 +227,8 @@ TEST_F(Scenes, AProbeShowsTheValueAtItsPlace)
     const Scene shown = part_scene(state, cache);
     ASSERT_EQ(shown.labels.size(), 1u);
     const Eigen::Vector3i corner = part().triangle.col(7);
-    EXPECT_NEAR(std::stod(shown.labels[0].text), session->blank->node.thickness(corner).dot(barycentric), 0.005);
+    EXPECT_NEAR(std::stod(shown.labels[0].text.substr(2)), session->blank->node.thickness(corner).dot(barycentric),
+                0.005);
     EXPECT_LT((shown.labels[0].place - part().position(Eigen::all, corner) * barycentric).norm(), 1e-9);
 }
 

@@ -90,4 +90,12 @@ TEST(Statistics, WorstSpotsAreTheGreatestOfTheirSurroundings)
     EXPECT_EQ(value[worst_spots(flat, value, 1, true)[0]], value.minCoeff());
 }
 
+TEST(Statistics, TheThinnestTheMostSqueezedAndTheFarthestOffAreTheWorst)
+{
+    EXPECT_GT(badness(Field::thickness, 0.7), badness(Field::thickness, 0.9));
+    EXPECT_GT(badness(Field::thinning, 20), badness(Field::thinning, -30));
+    EXPECT_GT(badness(Field::strain_minor, -0.3), badness(Field::strain_minor, 0.1));
+    EXPECT_GT(badness(Field::deviation, -3), badness(Field::deviation, 2));
+}
+
 } // namespace spia::viewer

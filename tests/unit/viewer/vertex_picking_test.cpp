@@ -218,8 +218,14 @@ TEST(VertexPicking, AMillionTrianglesAreSearchedWhileTheMouseMoves)
     for (int i = 0; i < moves; ++i)
         vertex_at({.pixel = {x(random), y(random)}, .size = size}, camera, sheet, picker);
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    RecordProperty("microseconds", int(1000 * taken.count() / moves));
-    EXPECT_LT(taken.count() / moves, 8); // ms: half a frame
+    // The yardstick, on the same machine under the same load: where all vertices are in the view, once.
+    const auto again = std::chrono::steady_clock::now();
+    glm::dvec3 sum(0);
+    for (int v = 0; v < sheet.vertices(); ++v)
+        sum += pixel_of(camera, sheet.position.col(v), size);
+    const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - again;
+    EXPECT_TRUE(std::isfinite(sum.x));
+    EXPECT_LT(taken.count() / moves, all.count() / 5);
 }
 
 } // namespace spia::viewer

@@ -122,6 +122,88 @@ TEST_F(ViewerModelTest, UndoBringsBackEveryKindOfChangeByItsName)
     EXPECT_EQ(document.probes.size(), 1u);
 }
 
+TEST_F(ViewerModelTest, ACornerDroppedOnAnotherEndsTheCoarseGrid)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const int cells = document.session.grid->result.planar.columns;
+    const auto corner = document.session.grid->boundary.corner;
+    model.apply(SetCorner{0, document.session.grid->boundary.side[0][3], true});
+    wait();
+    model.apply(SetCorner{0, corner[1], false}); // where corner 2 is
+    wait();
+    EXPECT_NEAR(document.session.grid->result.planar.columns, cells, 4);
+    EXPECT_FALSE(first_stale(document));
+}
+
+TEST_F(ViewerModelTest, PicksStayOnTheirFacesHoweverReadingThePartAgainEnds)
+{
+    open();
+    const Eigen::Vector3d there =
+        document.session.part->mesh.position.col(document.session.part->mesh.triangle(0, 100));
+    const auto still_there = [&] {
+        const TriMesh& mesh = document.session.part->mesh;
+        return document.selected.size() == 1 &&
+               mesh.position.col(mesh.triangle(0, document.selected[0])).isApprox(there, 1e-9);
+    };
+    model.apply(SelectFaces{{100}, PickMode::replace});
+    model.apply(MakeRegion{"clamp", RegionKind::binder});
+    model.apply(SetReading{true, true});
+    EXPECT_EQ(document.regions.size(), 1u); // so a project that is saved now has it
+    model.apply(SelectFaces{{100, 200}, PickMode::replace});
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_EQ(document.regions.size(), 1u);
+    model.apply(RunTo{Stage::solve}); // reads it after all
+    wait();
+    EXPECT_EQ(document.regions.size(), 1u);
+    ASSERT_NE(document.session.blank, nullptr);
+    while (!still_there() && !state.history.undo_name().empty())
+        model.apply(Undo{});
+    EXPECT_TRUE(still_there());
+}
+
+TEST_F(ViewerModelTest, UndoWithNothingToUndoLeavesTheWorkSaved)
+{
+    open();
+    model.apply(Undo{});
+    model.apply(Redo{});
+    EXPECT_FALSE(state.unsaved);
+}
+
+TEST_F(ViewerModelTest, AnOldResultIsSaidToBeOldAndKeepsItsOptions)
+{
+    open();
+    EXPECT_EQ(out_of_date(document), "");
+    model.apply(RunTo{Stage::solve});
+    wait();
+    EXPECT_EQ(out_of_date(document), ""); // a step is missing, but what is there is new
+    const double before = document.session.options.flatten.thickness;
+    model.apply(SetThickness{before / 2});
+    EXPECT_NE(out_of_date(document).find("solve"), std::string::npos);
+    EXPECT_EQ(as_made(document).options.flatten.thickness, before);
+    EXPECT_EQ(as_made(document).blank, document.session.blank);
+}
+
+TEST_F(ViewerModelTest, AFirstBlankIsFramedFromItsFirstShapeOn)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::solve});
+    bool seen = false;
+    while (model.busy()) {
+        model.poll();
+        if (state.job.blank && !seen) {
+            seen = true;
+            const Camera& camera = state.view.camera[size_t(View::blank)];
+            const Eigen::Vector2d size = state.job.blank->rowwise().maxCoeff() - state.job.blank->rowwise().minCoeff();
+            EXPECT_GT(camera.height, size[1]);
+            EXPECT_LT(camera.height, 3 * size.maxCoeff());
+        }
+    }
+    EXPECT_TRUE(seen);
+}
+
 TEST_F(ViewerModelTest, ACornerInsideTheBlankIsRefusedAndNotWanted)
 {
     open();
