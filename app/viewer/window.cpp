@@ -119,6 +119,12 @@ public:
         }
         if (!options_.report.empty())
             write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        if (options_.exit && options_.script.empty() && exit_code_ == 0)
+            for (const Message& message : model_.state().messages)
+                if (message.severity == Severity::error && !message.dismissed) {
+                    fmt::print(stderr, "spia-viewer: {}\n", message.text);
+                    exit_code_ = 1;
+                }
         autosave_.clear();
         return exit_code_;
     }

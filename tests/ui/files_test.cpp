@@ -217,7 +217,7 @@ TEST_F(Scripts, EveryBadFileIsAMessageAndNoEnd)
     for (const char* file :
          {"empty.stl", "noise.obj", "points.obj", "far.obj", "broken.spia", "newer.spia", "missing.ply", "assets"}) {
         const Ended ended = run_viewer(folder, {file});
-        EXPECT_EQ(ended.exit_code, 0) << file << ": " << ended.errors;
+        EXPECT_EQ(ended.exit_code, 1) << file << ": " << ended.errors;
         ASSERT_FALSE(ended.report.is_null()) << file;
         EXPECT_TRUE(ended.report["part"].is_null()) << file;
         ASSERT_EQ(ended.report["messages"].size(), 1) << file;

@@ -62,6 +62,7 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
     if (model.busy())
         throw InputError("Cancel the running job first; then change the unit.");
     change("Change unit");
+    (*this)(DismissMessages{}); // of the part as it was read before
     session.options.read.unit = unit;
     model.opening_ = true;
     model.run_to(Stage::read, "Reading the part again");

@@ -61,7 +61,7 @@ struct Document {
     std::vector<int> vertices;           ///< picked ones of the part, ascending
     std::vector<FaceRegion> regions;
     std::vector<Probe> probes;
-    std::optional<SectionLine> section; ///< not kept in projects
+    std::optional<SectionLine> section;
     FieldDisplay display;
 };
 

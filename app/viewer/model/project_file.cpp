@@ -44,6 +44,7 @@ struct StoredProject {
     FieldDisplay display;
     ViewSettings view;
     StoredPicks picks;
+    std::optional<SectionLine> section;
     fs::path recovers;
 };
 
@@ -77,6 +78,11 @@ inline constexpr auto members_of<StoredPicks> =
                member("vertices", &StoredPicks::vertices),       member("regions", &StoredPicks::regions),
                member("probes", &StoredPicks::probes),           member("corners", &StoredPicks::corners)};
 template <>
+inline constexpr auto members_of<SectionLine> =
+    std::tuple{required("from", &SectionLine::from, anywhere_in_space),
+               required("to", &SectionLine::to, anywhere_in_space),
+               required("depth", &SectionLine::depth, anywhere_in_space), member("on_blank", &SectionLine::on_blank)};
+template <>
 inline constexpr auto members_of<StoredPath> =
     std::tuple{required("file", &StoredPath::file), member("was_at", &StoredPath::was_at)};
 template <>
@@ -99,6 +105,7 @@ inline constexpr auto members_of<StoredProject> =
                member("display", &StoredProject::display),
                member("view", &StoredProject::view),
                member("picks", &StoredProject::picks),
+               member("section", &StoredProject::section),
                member("recovers", &StoredProject::recovers)};
 
 namespace {
@@ -159,6 +166,13 @@ void require_direction(const StoredProject& stored, const Place& place)
         place.member("direction").fail("must have a length; null stands for the automatic direction");
 }
 
+void require_section(const StoredProject& stored, const Place& place)
+{
+    const auto& line = stored.section;
+    if (line && !((line->to - line->from).cross(line->depth).norm() > 0))
+        place.member("section").fail("must have two places and a depth that is not along their line");
+}
+
 Document document_of(const StoredProject& stored, const fs::path& file, const fs::path& folder,
                      const fs::path& materials)
 {
@@ -181,6 +195,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
         stored.natural_ends ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
     session.options.interpolate.parameters = stored.parameters;
     document.display = stored.display;
+    document.section = stored.section;
     return document;
 }
 
@@ -208,6 +223,7 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.ran = last_stage(session);
     stored.display = document.display;
     stored.view = view;
+    stored.section = document.section;
     stored.recovers = recovers;
     write_atomically(file, lines_of(written(stored), file.string()));
 }
@@ -221,6 +237,7 @@ Project open_project(const fs::path& file, const fs::path& materials)
     const Place place(name);
     read(json, stored, place);
     require_direction(stored, place);
+    require_section(stored, place);
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
     const fs::path folder = (error ? file : whole).parent_path();

@@ -196,7 +196,7 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     document.session = result.session;
     document.session.options = std::move(wanted);
     document.made_with = result.made_with;
-    if (before != after)
+    if (before && before != after)
         document.section.reset();
     if (!picks)
         return {};

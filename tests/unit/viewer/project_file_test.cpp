@@ -56,6 +56,7 @@ Document picked(const fs::path& part, Stage last)
     Document document = viewer::document_of(part, last);
     const TriMesh& mesh = document.session.part->mesh;
     const double low = mesh.position.row(0).minCoeff(), high = mesh.position.row(0).maxCoeff();
+    document.section = SectionLine{{1, 2, 3}, {4, 5, 7}, {0, 0.6, -0.8}, true};
     document.selected = faces_between(mesh, low, 0.7 * low + 0.3 * high);
     document.regions.push_back(
         {"clamp \"1\" äöü", RegionKind::binder, {0.5f, 0.25f, 0, 1}, faces_between(mesh, 0.5 * (low + high), high)});
