@@ -6,6 +6,7 @@
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/views/views.h"
 #include "tests/support/mesh_file.h"
+#include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -114,6 +115,44 @@ TEST_F(RefusedPart, KeepsRegionsOnTheirFacesWhenFacesBeforeThemAreLeftOut)
     ASSERT_EQ(state.document.regions.size(), 1u);
     EXPECT_EQ(state.document.regions[0].faces, (std::vector<int>{3, 7}));
     EXPECT_EQ(errors(), 0);
+}
+
+TEST_F(RefusedPart, ReadAgainWithItsFacesInAnotherOrderKeepsPicksWhereTheyAreInSpace)
+{
+    const TriMesh sheet = shapes::rectangle(50, 40, 5, 4);
+    const shapes::Permuted other = shapes::permuted(sheet, 5);
+    const std::vector<int> clamp = {3, 7}, chosen = {12};
+    const auto elsewhere = [&](const std::vector<int>& faces) {
+        std::vector<int> result;
+        for (const int f : faces)
+            result.push_back(other.face[size_t(f)]);
+        std::sort(result.begin(), result.end());
+        return result;
+    };
+    ASSERT_NE(elsewhere(clamp), clamp);
+    ASSERT_NE(elsewhere(chosen), chosen);
+
+    shapes::write_mesh(folder / "sheet.obj", sheet);
+    apply(OpenPart{folder / "sheet.obj", ""});
+    apply(SelectFaces{clamp, PickMode::replace});
+    apply(MakeRegion{"clamp", RegionKind::binder});
+    apply(SelectFaces{chosen, PickMode::replace});
+    apply(AddProbe{{7, {0.2, 0.3, 0.5}}});
+    apply(SelectVertices{{4}, PickMode::replace});
+    shapes::write_mesh(folder / "sheet.obj", other.mesh); // another program wrote the file in its own order
+    apply(SetReading{true, true});
+    EXPECT_EQ(errors(), 0);
+    const Document& after = state.document;
+    ASSERT_EQ(after.session.part->mesh.triangle, other.mesh.triangle);
+    ASSERT_EQ(after.regions.size(), 1u);
+    EXPECT_EQ(after.regions[0].faces, elsewhere(clamp));
+    EXPECT_EQ(after.selected, elsewhere(chosen));
+    EXPECT_EQ(after.vertices, (std::vector<int>{other.vertex[4]}));
+    ASSERT_EQ(after.probes.size(), 1u);
+    EXPECT_EQ(after.probes[0].face, other.face[7]);
+    apply(Undo{});
+    EXPECT_EQ(after.regions[0].faces, clamp);
+    EXPECT_EQ(after.selected, chosen);
 }
 
 TEST_F(RefusedPart, ThatCannotBeReadAtAllIsNotShown)
