@@ -127,6 +127,7 @@ TEST(ProjectFile, ReopensToTheSameState)
     const Document after = reopened(folder / "a.spia", lost);
     EXPECT_TRUE(lost.empty()) << lost.front();
     expect_same_picks(after, before);
+    EXPECT_EQ(after.section, before.section);
     const Project project = open_project(folder / "a.spia", materials_folder);
     EXPECT_EQ(project.ran, Stage::solve);
     EXPECT_EQ(to_json(SetViewSettings{project.view}), to_json(SetViewSettings{view}));
@@ -366,6 +367,21 @@ TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
     Document nothing;
     EXPECT_THROW(save_project(folder / "c.spia", nothing, {}), InputError);
     EXPECT_THROW(save_project(folder / "nowhere/c.spia", viewer::document_of(dome, Stage::read), {}), ExchangeError);
+}
+
+TEST(ProjectFile, ASectionWithoutAPlaneIsRefused)
+{
+    const ScratchFolder folder;
+    Document document = viewer::document_of(dome, Stage::read);
+    const auto said = [&](const SectionLine& line) {
+        document.section = line;
+        save_project(folder / "a.spia", document, {});
+        return refusal(folder / "a.spia");
+    };
+    EXPECT_EQ(said({{1, 2, 3}, {4, 2, 3}, {0, 0, -1}}), "opened");
+    EXPECT_NE(said({{1, 2, 3}, {1, 2, 3}, {0, 0, -1}}).find("/section must have two places"), std::string::npos);
+    EXPECT_NE(said({{1, 2, 3}, {1, 2, 5}, {0, 0, -1}}).find("/section must have two places"), std::string::npos);
+    EXPECT_NE(said({{1, 2, 3}, {4, 2, 3}, {0, 0, 0}}).find("/section must have two places"), std::string::npos);
 }
 
 TEST(ProjectFile, DamageOfAnyKindEndsInAnInputError)
