@@ -4,6 +4,7 @@
 
 #include "app/cli/commands.h"
 #include "engine/forming/material_library.h"
+#include "engine/forming/membrane_law.h"
 
 namespace spia::cli {
 

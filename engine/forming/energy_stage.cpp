@@ -11,13 +11,14 @@
 namespace spia {
 namespace {
 
-double energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const MembraneLaw& law,
-              const Eigen::VectorXd& h, const Eigen::Matrix2Xd& X)
+double energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
+              const Eigen::Matrix2Xd& X)
 {
     Eigen::VectorXd part(triangle.cols());
     parallel_for(int(triangle.cols()), [&](int f) {
         const Element& e = element[size_t(f)];
-        part[f] = e.area * h[f] * energy_density_value(law, inverse_gradient(e, corners(X, triangle.col(f))));
+        part[f] = e.area * sheet.thickness[f] *
+                  energy_density_value(sheet.law_of(f), inverse_gradient(e, corners(X, triangle.col(f))));
     });
     return part.sum();
 }
@@ -56,20 +57,22 @@ int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& 
     return count;
 }
 
-EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element,
-                             const MembraneLaw& law, const Eigen::VectorXd& h, const Eigen::Matrix2Xd& start,
-                             BlockMatrix& matrix, Cholesky& cholesky, const EnergyOptions& options,
-                             const Progress& progress)
+EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
+                             const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
+                             const EnergyOptions& options, const Progress& progress)
 {
     const int faces = int(triangle.cols());
     EnergyResult result;
     result.position = start;
     Eigen::Matrix2Xd& X = result.position;
-    double E = energy(triangle, element, law, h, X);
+    double E = energy(triangle, element, sheet, X);
     // What the sheet would store at the yield point all over: the scale below which an energy is nothing.
     double yield_energy = 0;
-    for (int f = 0; f < faces; ++f)
-        yield_energy += 0.5 * element[size_t(f)].area * h[f] * law.curve().yield_stress() * law.curve().yield_strain();
+    for (int f = 0; f < faces; ++f) {
+        const StressCurve& curve = sheet.law_of(f).curve();
+        yield_energy +=
+            0.5 * element[size_t(f)].area * sheet.thickness[f] * curve.yield_stress() * curve.yield_strain();
+    }
 
     std::vector<Matrix6d> stiffness(static_cast<size_t>(faces));
     std::vector<Eigen::Matrix<double, 6, 1>> force(static_cast<size_t>(faces));
@@ -78,9 +81,9 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
                             fmt::format("energy step {}, {:.4g} J", step + 1, E * 1e-3));
         parallel_for(faces, [&](int f) {
             const Element& e = element[size_t(f)];
-            const EnergyDensity w = energy_density(law, inverse_gradient(e, corners(X, triangle.col(f))));
+            const EnergyDensity w = energy_density(sheet.law_of(f), inverse_gradient(e, corners(X, triangle.col(f))));
             const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
-            const double weight = e.area * h[f];
+            const double weight = e.area * sheet.thickness[f];
             force[size_t(f)] = weight * (B.transpose() * w.gradient.reshaped());
             stiffness[size_t(f)] = weight * (B.transpose() * w.stiffness * B);
         });
@@ -106,7 +109,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             result.ended = Ended::converged;
             if (decrement > 0 && largest_step(triangle, X, direction) > 2) { // the last step costs nothing more
                 const Eigen::Matrix2Xd trial = X + direction;
-                if (energy(triangle, element, law, h, trial) <= E)
+                if (energy(triangle, element, sheet, trial) <= E)
                     X = trial;
             }
             return result;
@@ -115,7 +118,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         bool decreased = false;
         for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
             const Eigen::Matrix2Xd trial = X + length * direction;
-            const double E_trial = energy(triangle, element, law, h, trial);
+            const double E_trial = energy(triangle, element, sheet, trial);
             if (E_trial <= E - 1e-4 * length * decrement) { // Armijo
                 X = trial;
                 E = E_trial;

@@ -34,15 +34,13 @@ struct EnergyOptions {
     StepWatch watch = {};
 };
 
-/// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held, by projected
+/// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held as it was before forming, by projected
 /// Newton steps with a majorising stiffness (energy_density()). W grows without bound as a triangle collapses and no step
 /// may turn one over: from a flip-free start every iterate is flip-free.
-/// @param h      #F, mm, the thickness that is held
 /// @param matrix work space with the mesh's pattern; @param cholesky its analysis
-EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element,
-                             const MembraneLaw& law, const Eigen::VectorXd& h, const Eigen::Matrix2Xd& start,
-                             BlockMatrix& matrix, Cholesky& cholesky, const EnergyOptions& options,
-                             const Progress& progress);
+EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
+                             const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
+                             const EnergyOptions& options, const Progress& progress);
 
 /// The largest step along `direction` that turns no triangle over (its area passing through zero); infinity if none.
 double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction);

@@ -12,50 +12,52 @@
 namespace spia {
 namespace {
 
-/// Mean translation and rotation of the blank as three orthonormal rows with area weights.
+/// How far the blank is, in the mean, moved and turned from where it lies nearest under the part (Kabsch's condition for the
+/// rotation, which is linear): orthonormal rows with area weights. One held vertex leaves the rotation only, two leave
+/// nothing to be fixed.
 class RigidMotion {
 public:
-    RigidMotion(const TriMesh& part, const std::vector<Element>& element, const Eigen::Matrix2Xd& X) : start_(X)
+    RigidMotion(const TriMesh& part, const std::vector<Element>& element, const ExternalForces& external)
+        : below_(external.plane.transpose() * (part.position.colwise() - external.origin))
     {
         Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
         for (int f = 0; f < part.triangles(); ++f)
             for (int a = 0; a < 3; ++a)
                 mass[part.triangle(a, f)] += element[size_t(f)].area / 3;
-        centre_ = X * mass / mass.sum();
-        rows_.setZero(2 * X.cols(), 3);
+        centre_ = below_ * mass / mass.sum();
+        Eigen::MatrixX3d rows(2 * below_.cols(), 3);
         for (int v = 0; v < part.vertices(); ++v) {
-            const Eigen::Vector2d arm = X.col(v) - centre_;
-            rows_.block<2, 3>(2 * v, 0) << mass[v], 0, -mass[v] * arm[1], 0, mass[v], mass[v] * arm[0];
+            const Eigen::Vector2d arm = below_.col(v) - centre_;
+            rows.block<2, 3>(2 * v, 0) << -mass[v] * arm[1], mass[v], 0, mass[v] * arm[0], 0, mass[v];
         }
-        for (int k = 0; k < 3; ++k)
-            rows_.col(k).normalize();
+        rows_ = rows.leftCols(external.held.empty() ? 3 : external.held.size() == 1 ? 1 : 0).colwise().normalized();
     }
 
-    const Eigen::MatrixX3d& rows() const { return rows_; }
-    /// Force and, about the centre of the start, moment of the nodal forces that the three multipliers stand for. N, N, N mm
-    Eigen::Vector3d resultant(const Eigen::Vector3d& multiplier) const
+    const Eigen::MatrixXd& rows() const { return rows_; }
+    /// Force and, about the centre, moment of the nodal forces that the multipliers stand for. N, N, N mm
+    Eigen::Vector3d resultant(const Eigen::VectorXd& multiplier) const
     {
         const Eigen::VectorXd force = rows_ * multiplier;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (Eigen::Index v = 0; v < start_.cols(); ++v) {
-            const Eigen::Vector2d f = force.segment<2>(2 * v), arm = start_.col(v) - centre_;
+        for (Eigen::Index v = 0; v < below_.cols(); ++v) {
+            const Eigen::Vector2d f = force.segment<2>(2 * v), arm = below_.col(v) - centre_;
             sum += Eigen::Vector3d(f[0], f[1], arm[0] * f[1] - arm[1] * f[0]);
         }
         return sum;
     }
-    Eigen::Vector3d moved(const Eigen::Matrix2Xd& X) const { return rows_.transpose() * (X - start_).reshaped(); }
+    Eigen::VectorXd moved(const Eigen::Matrix2Xd& X) const { return rows_.transpose() * (X - below_).reshaped(); }
 
 private:
-    Eigen::Matrix2Xd start_;
+    Eigen::Matrix2Xd below_; ///< the part seen along the stamping direction, in the plane of the blank
     Eigen::Vector2d centre_;
-    Eigen::MatrixX3d rows_;
+    Eigen::MatrixXd rows_;
 };
 
 class Newton {
 public:
     Newton(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work, const Eigen::Matrix2Xd& start,
            BlockMatrix& tangent, Cholesky& cholesky, const EquilibriumOptions& options)
-        : triangle_(part.triangle), work_(work), rigid_(part, element, start), tangent_(tangent),
+        : triangle_(part.triangle), work_(work), rigid_(part, element, work.external()), tangent_(tangent),
           preconditioner_(tangent), cholesky_(cholesky), options_(options), yield_force_(work.yield_force())
     {
         work_.set_axes(start);

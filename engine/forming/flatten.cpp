@@ -1,6 +1,7 @@
 #include "engine/forming/flatten.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
@@ -20,8 +21,6 @@ void require_valid(const TriMesh& part, const FlattenOptions& options)
         throw InputError("the part has no faces");
     if (!(options.thickness > 0) || !std::isfinite(options.thickness))
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", options.thickness));
-    if (options.friction.size() != 0 && options.friction.size() != part.triangles())
-        throw InputError("friction must be given for every face or not at all");
     if (options.direction && !(options.direction->norm() > 0 && options.direction->allFinite()))
         throw InputError("the stamping direction must be a finite vector that is not zero");
     if (boundary_loops(part).empty())
@@ -88,15 +87,53 @@ Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction)
     return plane;
 }
 
+/// The process on a part that was moved.
+ProcessConditions moved(ProcessConditions process, const Eigen::Vector3d& by)
+{
+    for (Drawbead& bead : process.drawbeads)
+        for (Eigen::Vector3d& point : bead.line)
+            point += by;
+    for (Pilot& pilot : process.pilots)
+        for (Eigen::Vector3d& point : pilot.line)
+            point += by;
+    return process;
+}
+
+/// Where the blank lies before forming: on the binder if there is one, else where the part's outer edge is.
+double blank_height(const ProcessConditions& process, const TriMesh& part, const Eigen::Vector3d& direction)
+{
+    double sum = 0, count = 0;
+    const auto take = [&](int v) {
+        sum += part.position.col(v).dot(direction);
+        ++count;
+    };
+    for (const ContactRegion& region : process.contact)
+        if (region.sides == 2)
+            for (const int f : region.faces)
+                for (int a = 0; a < 3 && f >= 0 && f < part.triangles(); ++a)
+                    take(part.triangle(a, f));
+    if (count == 0) {
+        const std::vector<std::vector<int>> loops = boundary_loops(part);
+        std::for_each(loops.front().begin(), loops.front().end(), take);
+    }
+    return sum / count;
+}
+
 /// What every stage of one solution needs.
 struct Job {
     const TriMesh& part;
     const std::vector<Element>& element;
     const FlattenOptions& options;
-    const Friction& friction;
+    const ExternalForces& external;
+    const Eigen::Matrix<double, 3, 2>& plane; ///< axes of the blank in space
     BlockMatrix& matrix;
     Cholesky& cholesky;
 };
+
+Sheet sheet_with(const Job& job, const StressCurve::Options& curve)
+{
+    return sheet_of(job.options.material, job.options.thickness, curve, job.options.process, job.part, job.plane);
+}
 
 /// Newton decrements of the energy stage, relative: to go on from, as a start for the equilibrium, as a result of its own.
 constexpr double rough = 1e-2, near_enough = 1e-3, exact = 1e-6;
@@ -106,7 +143,6 @@ constexpr double rough = 1e-2, near_enough = 1e-3, exact = 1e-6;
 EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eigen::Matrix2Xd X, double decrement,
                           int most_steps, SolveReport& report, const Progress& progress)
 {
-    const Eigen::VectorXd h = Eigen::VectorXd::Constant(job.part.triangles(), job.options.thickness);
     std::vector<double> shares{1};
     if (largest_strain(job.part, job.element, X) > 2)
         shares = {0.25, 0.5, 1};
@@ -119,8 +155,8 @@ EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eig
         energy.watch = job.options.watch;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
         result = minimise_energy(
-            job.part.triangle, job.element, MembraneLaw(job.options.material, gentle), h, X, job.matrix, job.cholesky,
-            energy, progress.part(double(level) / double(shares.size()), double(level + 1) / double(shares.size())));
+            job.part.triangle, job.element, sheet_with(job, gentle), X, job.matrix, job.cholesky, energy,
+            progress.part(double(level) / double(shares.size()), double(level + 1) / double(shares.size())));
         X = result.position;
         report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
     }
@@ -153,17 +189,18 @@ std::string converged_in_words(const SolveReport& report, const std::string& obs
 }
 
 /// The three stages from a flip-free start X to the blank, each tried where the one before did not get there.
-Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<double, 3, 2>& plane,
-                       SolveReport& report, const Progress& progress)
+Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
 {
     const FlattenOptions& options = job.options;
     const EquilibriumOptions newton{options.most_newton_steps, options.tolerance, options.watch};
     // A curve that never lets the sheet soften: its energy is convex enough to find the minimum from far away.
     StressCurve::Options hardening = options.curve;
     hardening.trusted_strain = uniform_strain(options.material.hardening, options.curve.trusted_strain);
+    for (const TailoredPiece& piece : options.process.tailored)
+        hardening.trusted_strain = uniform_strain(piece.material.hardening, hardening.trusted_strain);
     X = energy_stage(job, hardening, std::move(X), rough, options.most_energy_steps, report, progress.part(0, 0.3))
             .position;
-    place_under_part(job.part, job.element, plane, X);
+    place_under_part(job.part, job.element, job.plane, X);
     const Eigen::Matrix2Xd hardened = X;
 
     report.trusted_strain = options.curve.trusted_strain;
@@ -173,8 +210,8 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
                      progress.part(0.3, 0.4));
     std::string obstacle = "the energy stage did not end";
     if (energy.ended == Ended::converged) {
-        const MembraneLaw law(options.material, options.curve);
-        VirtualWork work(job.part, job.element, law, options.thickness, job.friction);
+        const Sheet sheet = sheet_with(job, options.curve);
+        VirtualWork work(job.part, job.element, sheet, job.external);
         EquilibriumResult result = solve_equilibrium(job.part, job.element, work, energy.position, job.matrix,
                                                      job.cholesky, newton, progress.part(0.4, 0.6));
         take(result, report);
@@ -186,9 +223,9 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
         obstacle = fmt::format("the equations stalled at a residual of {:.1e}", result.residual);
     }
 
-    const MembraneLaw law(options.material, hardening);
-    report.trusted_strain = law.curve().trusted_strain();
-    VirtualWork work(job.part, job.element, law, options.thickness, job.friction);
+    const Sheet sheet = sheet_with(job, hardening);
+    report.trusted_strain = sheet.law.front().curve().trusted_strain();
+    VirtualWork work(job.part, job.element, sheet, job.external);
     EnergyResult held{hardened};
     double from = 0.6;
     for (const double decrement : {near_enough, exact}) { // most often the first will do
@@ -217,7 +254,7 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, const Eigen::Matrix<d
 }
 
 /// Incompressibility, from thickness and areas measured anew in space and in the plane.
-double volume_error(const TriMesh& part, const FlattenResult& result, double h0)
+double volume_error(const TriMesh& part, const FlattenResult& result, const Sheet& sheet)
 {
     const Eigen::VectorXd formed = area_vectors(part).colwise().norm();
     double largest = 0;
@@ -225,6 +262,7 @@ double volume_error(const TriMesh& part, const FlattenResult& result, double h0)
         const auto x = corners(result.blank.position, part.triangle.col(f));
         const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
         const double flat = 0.5 * (p[0] * q[1] - p[1] * q[0]);
+        const double h0 = sheet.thickness[f];
         largest = std::max(largest, std::abs(result.face.thickness[f] * formed[f] - h0 * flat) / (h0 * flat));
     }
     return largest;
@@ -256,24 +294,28 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     result.stamping = stamping(part, options);
     const Eigen::Matrix<double, 3, 2> plane = blank_plane(result.stamping.direction);
 
+    const ExternalForces external =
+        external_forces(moved(options.process, -centre), part, options.material, options.thickness, plane,
+                        result.stamping.direction * blank_height(options.process, part, result.stamping.direction));
+
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(part.triangle, part.vertices());
     Cholesky cholesky(matrix);
     InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky, progress.part(0.03, 0.1));
     result.report.start = guess.method;
 
-    const Friction friction{options.friction, plane,
-                            result.stamping.direction * (part.position.transpose() * result.stamping.direction).mean()};
-    const Job job{part, element, options, friction, matrix, cholesky};
-    result.blank.position = solve(job, std::move(guess.position), plane, result.report, progress.part(0.1, 1));
-    place_under_part(part, element, plane, result.blank.position);
+    const Job job{part, element, options, external, plane, matrix, cholesky};
+    result.blank.position = solve(job, std::move(guess.position), result.report, progress.part(0.1, 1));
+    if (result.report.system == SolvedSystem::energy) // the others lie there
+        place_under_part(part, element, plane, result.blank.position);
 
     StressCurve::Options curve = options.curve;
     curve.trusted_strain = result.report.trusted_strain;
-    result.face = face_fields(part, element, result.blank, MembraneLaw(options.material, curve), options.thickness);
+    const Sheet sheet = sheet_with(job, curve);
+    result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
     result.necking_triangles = result.face.necking.sum();
-    result.volume_error = volume_error(part, result, options.thickness);
+    result.volume_error = volume_error(part, result, sheet);
     result.blank.position.colwise() += plane.transpose() * centre;
     result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();

@@ -7,6 +7,7 @@
 #include "engine/forming/energy_stage.h"
 #include "engine/forming/initial_guess.h"
 #include "engine/forming/material.h"
+#include "engine/forming/process.h"
 #include "engine/forming/stamping_direction.h"
 #include "engine/mesh/tri_mesh.h"
 
@@ -16,7 +17,7 @@ struct FlattenOptions {
     Material material;
     double thickness = 1;                     ///< mm, of the flat sheet
     std::optional<Eigen::Vector3d> direction; ///< stamping direction; chosen automatically if not given
-    Eigen::VectorXd friction;                 ///< #F, MPa: tangential traction against the slip; empty: none
+    ProcessConditions process;                ///< what the tools do; none: the sheet is free
     StressCurve::Options curve;               ///< where the hardening curve is trusted and how it goes on
     int most_energy_steps = 200;
     int most_newton_steps = 60;
@@ -45,7 +46,7 @@ struct SolveReport {
     std::vector<NewtonStep> newton; ///< steps of the virtual-work stage
     double residual = 0;            ///< |R| relative to the nodal forces at the yield stress
     Eigen::Vector3d resultant =
-        Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; friction would take it
+        Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; zero where pins hold it
     double seconds = 0;
 };
 

@@ -155,35 +155,4 @@ Material read_material(const std::filesystem::path& file)
     return material;
 }
 
-MembraneLaw::MembraneLaw(const Material& material, const StressCurve::Options& options)
-    : curve_(material.hardening, material.young_MPa, options), young_(material.young_MPa)
-{
-    const double r = material.normal_anisotropy();
-    metric_ << 1, r / (1 + r), r / (1 + r), 1;
-    metric_ *= (1 + r) * (1 + r) / (1 + 2 * r);
-}
-
-PlaneStress MembraneLaw::operator()(const Eigen::Vector2d& strain) const
-{
-    PlaneStress out;
-    const Eigen::Vector2d conjugate = metric_ * strain; // eps_eq * d eps_eq / d eps
-    out.equivalent_strain = std::sqrt(std::max(0.0, strain.dot(conjugate)));
-    const FlowStress flow = curve_(out.equivalent_strain);
-    out.equivalent_stress = flow.stress;
-    out.work = flow.work;
-    // On Hooke's line the secant is Young's modulus whatever the strain; dividing zero by zero is avoided there.
-    const bool elastic = out.equivalent_strain < 0.5 * curve_.yield_strain();
-    const double secant = elastic ? young_ : flow.stress / out.equivalent_strain;
-    out.stress = secant * conjugate;
-    out.deviatoric = secant * (metric_(0, 0) - metric_(0, 1));
-    out.tangent = out.majorant = secant * metric_;
-    if (!elastic) {
-        const Eigen::Vector2d direction = conjugate / out.equivalent_strain;
-        const Eigen::Matrix2d along = direction * direction.transpose();
-        out.tangent += (flow.slope - secant) * along;
-        out.majorant += std::max(0.0, flow.slope - secant) * along;
-    }
-    return out;
-}
-
 } // namespace spia

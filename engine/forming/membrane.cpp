@@ -142,24 +142,23 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
 
 MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G)
 {
+    // With M = U^T dG V and U^T dU, V^T dV the spins of the singular vectors:
+    //   strain in the axes U: d eps_k = -M_kk / s_k, 2 d eps_12 = -q (s_2 M_12 + s_1 M_21), q = ln(s_1^2/s_2^2) / (s_1^2 - s_2^2),
+    //   spin of V against U: (M_12 - M_21) / (s_1 + s_2),
+    // both without a pole at s_1 = s_2.
     const Svd2 d = svd(G);
     const Eigen::Vector2d& s = d.s;
-    const PlaneStress p = law(-s.array().log().matrix());
+    const AxisStress p = law(d.U, -s.array().log().matrix());
     const double h = h0 * s[0] * s[1];
-    const Eigen::Vector2d t = h * p.stress;
-
-    // dt_k / d eps_l = h (C_kl - sigma_k), for h = h0 exp(-(eps_1 + eps_2)).
-    const Eigen::Matrix2d dt = h * (p.tangent - p.stress * Eigen::RowVector2d::Ones());
-    // (t_1 - t_2) / (mu_1 - mu_2) with mu = s^2, from eps_1 - eps_2 = -ln(mu_1/mu_2) / 2.
-    const double shear = -0.5 * h * p.deviatoric * log_difference_quotient(s[0] * s[0], s[1] * s[1]);
-
-    // Rows: t_1, t_2, shear of h sigma in the basis V; columns: dM_11, dM_22, dM_12, dM_21 with dM = U^T dG V.
-    Eigen::Matrix<double, 3, 4> in_basis = Eigen::Matrix<double, 3, 4>::Zero();
-    for (int k = 0; k < 2; ++k)
-        for (int l = 0; l < 2; ++l)
-            in_basis(k, l) = -dt(k, l) / s[l];
-    in_basis(2, 2) = shear * s[0];
-    in_basis(2, 3) = shear * s[1];
+    const double q = log_difference_quotient(s[0] * s[0], s[1] * s[1]);
+    Eigen::Matrix<double, 3, 4> strain; // columns: M_11, M_22, M_12, M_21
+    strain << -1 / s[0], 0, 0, 0, 0, -1 / s[1], 0, 0, 0, 0, -q * s[1], -q * s[0];
+    const Eigen::RowVector4d stretch(1 / s[0], 1 / s[1], 0, 0); // dh / h
+    const double spin = 1 / (s[0] + s[1]);
+    const Eigen::Vector3d turned(-2 * p.stress[2], 2 * p.stress[2], p.stress[0] - p.stress[1]);
+    Eigen::Matrix<double, 3, 4> in_basis = h * (p.tangent * strain + p.stress * stretch);
+    in_basis.col(2) += h * spin * turned;
+    in_basis.col(3) -= h * spin * turned;
 
     const Eigen::Vector2d v1 = d.V.col(0), v2 = d.V.col(1);
     Eigen::Matrix<double, 4, 3> spread;
@@ -168,7 +167,7 @@ MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Mat
     spread.col(2) = (v1 * v2.transpose() + v2 * v1.transpose()).reshaped();
 
     MembraneForce out;
-    out.force = d.V * t.asDiagonal() * d.V.transpose();
+    out.force = (h * (spread * p.stress)).reshaped(2, 2);
     out.derivative = spread * in_basis * singular_basis(d).transpose();
     return out;
 }

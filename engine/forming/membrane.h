@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/forming/material.h"
+#include "engine/forming/sheet.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {

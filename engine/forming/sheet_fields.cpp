@@ -7,7 +7,7 @@
 namespace spia {
 
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
-                        const MembraneLaw& law, double thickness)
+                        const Sheet& sheet)
 {
     const int faces = part.triangles();
     SheetFields out;
@@ -20,10 +20,11 @@ SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element
     parallel_for(faces, [&](int f) {
         const Element& e = element[size_t(f)];
         const Svd2 d = svd(inverse_gradient(e, corners(blank.position, part.triangle.col(f))));
-        const PlaneStress p = law(-d.s.array().log().matrix()); // the second singular value is the major strain's
+        const MembraneLaw& law = sheet.law_of(f);
+        const AxisStress p = law(d.U, -d.s.array().log().matrix()); // the second singular value is the major strain's
         out.strain_major[f] = -std::log(d.s[1]);
         out.strain_minor[f] = -std::log(d.s[0]);
-        out.thickness[f] = thickness * d.s[0] * d.s[1];
+        out.thickness[f] = sheet.thickness[f] * d.s[0] * d.s[1];
         out.thinning[f] = 1 - d.s[0] * d.s[1];
         out.strain_equivalent[f] = p.equivalent_strain;
         out.stress_major[f] = p.stress[1];

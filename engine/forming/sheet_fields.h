@@ -8,9 +8,8 @@
 namespace spia {
 
 /// Strains, thickness and stresses of forming a blank into the part, one entry per face.
-/// @param thickness mm, of the flat sheet
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
-                        const MembraneLaw& law, double thickness);
+                        const Sheet& sheet);
 
 /// One entry per vertex: the area-weighted mean of the faces around it; of the directions d, the major axis of the mean of
 /// d d^T. A vertex necks if a face around it does.

@@ -19,13 +19,32 @@ Eigen::Vector3d turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to, con
     return v + w.cross(v) + w.cross(w.cross(v)) / divisor;
 }
 
+/// The symmetric part with its negative eigenvalues left out.
+Eigen::Matrix2d definite(const Eigen::Matrix2d& K)
+{
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(0.5 * (K + K.transpose()));
+    return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() * modes.eigenvectors().transpose();
+}
+
+Eigen::VectorXd areas(const std::vector<Element>& element)
+{
+    Eigen::VectorXd area(Eigen::Index(element.size()));
+    for (size_t f = 0; f < element.size(); ++f)
+        area[Eigen::Index(f)] = element[f].area;
+    return area;
+}
+
 } // namespace
 
-VirtualWork::VirtualWork(const TriMesh& part, const std::vector<Element>& element, const MembraneLaw& law, double h0,
-                         const Friction& friction)
-    : part_(part), element_(element), law_(law), h0_(h0), friction_(friction), normal_(vertex_normals(part)),
+VirtualWork::VirtualWork(const TriMesh& part, const std::vector<Element>& element, const Sheet& sheet,
+                         const ExternalForces& external)
+    : part_(part), element_(element), sheet_(sheet), external_(external), normal_(vertex_normals(part)),
+      nodal_(external, part.position, normal_, part.triangle, areas(element)), held_(size_t(part.vertices()), -1),
       turned_(element.size()), F_(element.size()), axes_(size_t(part.vertices())), relaxed_(size_t(part.vertices()), 0)
 {
+    for (size_t k = 0; k < external.held.size(); ++k)
+        held_[size_t(external.held[k].vertex)] = int(k);
+    hold_ = sheet.thickness.mean() * sheet.law.front().young();
     for (int f = 0; f < part.triangles(); ++f) {
         const auto& frame = element[size_t(f)].frame;
         const Eigen::Vector3d face_normal = frame.col(0).cross(frame.col(1));
@@ -34,12 +53,6 @@ VirtualWork::VirtualWork(const TriMesh& part, const std::vector<Element>& elemen
                 turned_[size_t(f)][size_t(a)].col(k) =
                     turn(face_normal, normal_.col(part.triangle(a, f)), frame.col(k));
     }
-    if (friction.traction.size() == 0)
-        return;
-    nodal_traction_ = Eigen::VectorXd::Zero(part.vertices());
-    for (int f = 0; f < part.triangles(); ++f)
-        for (int a = 0; a < 3; ++a)
-            nodal_traction_[part.triangle(a, f)] += friction.traction[f] * element[size_t(f)].area / 3;
 }
 
 void VirtualWork::set_axes(const Eigen::Matrix2Xd& X)
@@ -84,7 +97,7 @@ Eigen::VectorXd VirtualWork::mismatch() const
 VirtualWork::Formed VirtualWork::formed(int f, const Eigen::Matrix2Xd& X) const
 {
     const Eigen::Matrix2d G = inverse_gradient(element_[size_t(f)], corners(X, part_.triangle.col(f)));
-    return {membrane_force(law_, h0_, G), G.inverse().transpose()};
+    return {membrane_force(sheet_.law_of(f), sheet_.thickness[f], G), G.inverse().transpose()};
 }
 
 Eigen::Matrix2d VirtualWork::to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const
@@ -106,9 +119,11 @@ Eigen::VectorXd VirtualWork::residual(const Eigen::Matrix2Xd& X) const
     for (int f = 0; f < part_.triangles(); ++f)
         for (int a = 0; a < 3; ++a)
             R.segment<2>(2 * part_.triangle(a, f)) += force[size_t(f)].col(a);
-    if (nodal_traction_.size() > 0)
-        for (int v = 0; v < part_.vertices(); ++v)
-            R.segment<2>(2 * v) += nodal_friction(v, X.col(v)).force;
+    for (int v = 0; v < part_.vertices(); ++v)
+        if (nodal_.acts_on(v))
+            R.segment<2>(2 * v) += axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).force;
+    for (const HeldVertex& h : external_.held)
+        R.segment<2>(2 * h.vertex) = hold_ * (X.col(h.vertex) - h.place);
     return R;
 }
 
@@ -124,11 +139,16 @@ void VirtualWork::tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
                 -e.area * (force_change(m, pull_back, to_vertex(f, a, pull_back),
                                         relaxed_[size_t(part_.triangle(a, f))], e.gradient.col(a)) *
                            B);
+        for (int a = 0; a < 3; ++a)
+            if (held_[size_t(part_.triangle(a, f))] >= 0)
+                stiffness[size_t(f)].middleRows<2>(2 * a).setZero();
     });
     matrix.assemble(stiffness);
-    if (nodal_traction_.size() > 0)
-        for (int v = 0; v < part_.vertices(); ++v)
-            matrix.add_to_diagonal(v, nodal_friction(v, X.col(v)).derivative);
+    for (int v = 0; v < part_.vertices(); ++v)
+        if (nodal_.acts_on(v) && held_[size_t(v)] < 0)
+            matrix.add_to_diagonal(v, axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).derivative);
+    for (const HeldVertex& h : external_.held)
+        matrix.add_to_diagonal(h.vertex, hold_ * Eigen::Matrix2d::Identity());
 }
 
 void VirtualWork::definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
@@ -150,8 +170,18 @@ void VirtualWork::definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matri
         const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
         stiffness[size_t(f)] =
             e.area * (B.transpose() * modes.eigenvectors() * value.asDiagonal() * modes.eigenvectors().transpose() * B);
+        for (int a = 0; a < 3; ++a)
+            if (held_[size_t(part_.triangle(a, f))] >= 0) {
+                stiffness[size_t(f)].middleRows<2>(2 * a).setZero();
+                stiffness[size_t(f)].middleCols<2>(2 * a).setZero();
+            }
     });
     matrix.assemble(stiffness);
+    for (int v = 0; v < part_.vertices(); ++v)
+        if (nodal_.acts_on(v) && held_[size_t(v)] < 0)
+            matrix.add_to_diagonal(v, definite(axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).derivative));
+    for (const HeldVertex& h : external_.held)
+        matrix.add_to_diagonal(h.vertex, hold_ * Eigen::Matrix2d::Identity());
     // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a difference of rank six.
     const double mean = matrix.diagonal().mean();
     matrix.add_to_diagonal(0, mean);
@@ -164,7 +194,8 @@ double VirtualWork::yield_force() const
     Eigen::VectorXd force = Eigen::VectorXd::Zero(part_.vertices());
     for (int f = 0; f < part_.triangles(); ++f)
         for (int a = 0; a < 3; ++a)
-            force[part_.triangle(a, f)] += element_[size_t(f)].area * h0_ * law_.curve().yield_stress() *
+            force[part_.triangle(a, f)] += element_[size_t(f)].area * sheet_.thickness[f] *
+                                           sheet_.law_of(f).curve().yield_stress() *
                                            element_[size_t(f)].gradient.col(a).norm();
     return force.norm();
 }
@@ -182,22 +213,6 @@ Eigen::Matrix<double, 2, 4> VirtualWork::force_change(const MembraneForce& m, co
             change.col(k) -= pull_back.col(k / 2) * pulled[k % 2];
     }
     return change;
-}
-
-VirtualWork::NodalFriction VirtualWork::nodal_friction(int v, const Eigen::Vector2d& X) const
-{
-    NodalFriction out{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
-    if (nodal_traction_[v] == 0)
-        return out;
-    const Eigen::Vector3d n = normal_.col(v);
-    const Eigen::Matrix3d to_tangent = Eigen::Matrix3d::Identity() - n * n.transpose();
-    const Eigen::Vector3d slip = to_tangent * (part_.position.col(v) - friction_.origin - friction_.plane * X);
-    const double length = std::sqrt(slip.squaredNorm() + friction_.full_slip * friction_.full_slip);
-    const Eigen::Matrix3d change = (Eigen::Matrix3d::Identity() - slip * slip.transpose() / (length * length)) / length;
-    const Axes& T = axes_[size_t(v)];
-    out.force = -nodal_traction_[v] * (T.transpose() * slip) / length;
-    out.derivative = nodal_traction_[v] * T.transpose() * change * to_tangent * friction_.plane;
-    return out;
 }
 
 } // namespace spia

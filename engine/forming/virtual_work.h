@@ -2,27 +2,21 @@
 #include <array>
 #include <vector>
 
+#include "engine/forming/external_forces.h"
 #include "engine/forming/membrane.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/sparse/block_matrix.h"
 
 namespace spia {
 
-/// A friction traction on the formed part, tangential, against the material's slip from blank to part.
-struct Friction {
-    Eigen::VectorXd traction;          ///< #F, MPa (N/mm2 of the part); empty where there is none
-    Eigen::Matrix<double, 3, 2> plane; ///< axes of the blank in space
-    Eigen::Vector3d origin;            ///< point of the blank's (0, 0) in space, up to its height
-    double full_slip = 0.1;            ///< mm: below this slip the traction fades out smoothly
-};
-
 /// The principle of virtual work on the formed part (eqs. 16-23): two equations per vertex. The membrane forces h sigma
 /// of the triangles around it, turned into its tangent plane by the smallest rotation between the two normals, are in
-/// balance with friction. Keeps references to its arguments.
+/// balance with the external forces. Of a held vertex the equations say that it stays where it is held. Keeps references to
+/// its arguments.
 class VirtualWork {
 public:
-    VirtualWork(const TriMesh& part, const std::vector<Element>& element, const MembraneLaw& law, double h0,
-                const Friction& friction);
+    VirtualWork(const TriMesh& part, const std::vector<Element>& element, const Sheet& sheet,
+                const ExternalForces& external);
 
     /// Writes the equations in axes that follow the blank's x and y through the deformation X: the residual is then
     /// close to the gradient of an energy and its derivative close to symmetric. The solution does not depend on X.
@@ -51,16 +45,13 @@ public:
     /// tangent in the space of G, the eigenvalues by their magnitude (they are negative where the sheet softens).
     void definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
 
+    const ExternalForces& external() const { return external_; }
+
     /// Norm of the nodal forces of a sheet at its yield stress all over: what |R| is measured against. N
     double yield_force() const;
 
 private:
     using Axes = Eigen::Matrix<double, 3, 2>;
-    struct NodalFriction {
-        Eigen::Vector2d force;
-        Eigen::Matrix2d derivative; ///< with respect to the vertex's place on the blank
-    };
-
     struct Formed {
         MembraneForce m;           ///< h sigma of the triangle and its derivative
         Eigen::Matrix2d pull_back; ///< F^T
@@ -71,18 +62,18 @@ private:
     /// Change of M (h sigma) g with G, column by column; M itself changes with G where the vertex is relaxed.
     Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
                                              const Eigen::Matrix2d& M, bool relaxed, const Eigen::Vector2d& g) const;
-    NodalFriction nodal_friction(int v, const Eigen::Vector2d& X) const;
 
     const TriMesh& part_;
     const std::vector<Element>& element_;
-    const MembraneLaw& law_;
-    double h0_;
-    const Friction& friction_;
+    const Sheet& sheet_;
+    const ExternalForces& external_;
     Eigen::Matrix3Xd normal_;
+    NodalForces nodal_;
+    std::vector<int> held_;                   ///< per vertex, index into external_.held or -1
+    double hold_ = 0;                         ///< N/mm, weight of the equations of a held vertex
     std::vector<std::array<Axes, 3>> turned_; ///< Q_ea J_e: a triangle's axes in the tangent planes of its corners
     std::vector<Eigen::Matrix2d> F_;          ///< at the X of set_axes()
     std::vector<Axes> axes_;                  ///< T_a: push-forward of the blank's x and y, tangential
-    Eigen::VectorXd nodal_traction_;
     std::vector<char> relaxed_;
 };
 

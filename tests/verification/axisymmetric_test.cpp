@@ -77,14 +77,16 @@ Errors solve(const Case& c, int triangles)
     const shapes::AxisymmetricPart part = shapes::axisymmetric(c.meridian, triangles);
     FlattenOptions options = c.options;
     if (c.binder_traction > 0) {
-        options.friction = Eigen::VectorXd::Zero(part.mesh.triangles());
+        constexpr double coefficient = 0.1;
+        ContactRegion binder{"binder", {}, c.binder_traction / (2 * coefficient), {}, coefficient, 2};
         for (int f = 0; f < part.mesh.triangles(); ++f) {
             Eigen::Vector3d centre = Eigen::Vector3d::Zero();
             for (int a = 0; a < 3; ++a)
                 centre += part.mesh.position.col(part.mesh.triangle(a, f)) / 3;
             if (centre.head<2>().norm() > c.binder_radius)
-                options.friction[f] = c.binder_traction;
+                binder.faces.push_back(f);
         }
+        options.process.contact = {binder};
     }
     const FlattenResult result = flatten(part.mesh, options);
     Errors errors{shapes::mean_edge(part.mesh), 0, 0, result.report.converged};

@@ -21,15 +21,15 @@ TEST(Relaxation, EndsInTheStrictSolutionWhereThereIsOne)
     const TriMesh part = shapes::dome(shape).mesh;
     const std::vector<Element> element = elements(part);
     const MembraneLaw law(mild_steel());
-    const Friction none;
+    const ExternalForces none;
+    const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
     const Eigen::Matrix2Xd start = part.position.topRows<2>();
     BlockMatrix matrix(part.triangle, part.vertices());
     Cholesky cholesky(matrix);
-    const Eigen::VectorXd h = Eigen::VectorXd::Constant(part.triangles(), 0.8);
     const Eigen::Matrix2Xd X =
-        minimise_energy(part.triangle, element, law, h, start, matrix, cholesky, {}, {}).position;
+        minimise_energy(part.triangle, element, sheet, start, matrix, cholesky, {}, {}).position;
 
-    VirtualWork work(part, element, law, 0.8, none);
+    VirtualWork work(part, element, sheet, none);
     const EquilibriumResult strict = solve_equilibrium(part, element, work, X, matrix, cholesky, {}, {});
     ASSERT_EQ(strict.ended, Ended::converged);
     const EquilibriumResult relaxed = solve_relaxed_equilibrium(part, element, work, X, matrix, cholesky, {}, {});

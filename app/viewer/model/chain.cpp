@@ -15,7 +15,7 @@ bool same(const ReadOptions& a, const ReadOptions& b)
 bool same(const FlattenOptions& a, const FlattenOptions& b)
 {
     return a.material == b.material && a.thickness == b.thickness && a.direction == b.direction &&
-           a.friction.size() == b.friction.size() && a.friction == b.friction;
+           a.process == b.process;
 }
 
 bool same(const GridOptions& a, const GridOptions& b)

@@ -195,6 +195,30 @@ std::string thinnest_places(const Session& session)
         rows);
 }
 
+/// What the tools were taken to do, one row a condition.
+std::string process_rows(const ProcessConditions& process)
+{
+    std::string rows;
+    for (const ContactRegion& c : process.contact)
+        rows += row("Contact: " + c.name,
+                    fmt::format("{} on {} faces, friction {:.3g} on {}",
+                                c.force_N ? significant(*c.force_N) + " N" : significant(*c.pressure_MPa) + " MPa",
+                                c.faces.size(), c.friction, c.sides == 2 ? "both sides" : "one side"));
+    if (process.contact.empty())
+        rows += row("Friction", "none");
+    for (const Drawbead& bead : process.drawbeads)
+        rows += row("Drawbead: " + bead.name, significant(bead.force_N_mm) + " N/mm");
+    if (process.edge_restraint > 0)
+        rows += row("Outer edge", fmt::format("restrained with {:.3g} % of the lock force", 100 * process.edge_restraint));
+    for (const Pilot& pilot : process.pilots)
+        rows += row("Pilot: " + pilot.name, pilot.line.size() == 1 ? "a point is held" : "a curve is held");
+    for (const TailoredPiece& piece : process.tailored)
+        rows += row("Tailored piece: " + piece.name,
+                    fmt::format("{}, {} mm, {} faces", piece.material.name, significant(piece.thickness),
+                                piece.faces.size()));
+    return rows;
+}
+
 std::string assumptions(const Session& session)
 {
     const FlattenOptions& options = session.options.flatten;
@@ -205,14 +229,15 @@ std::string assumptions(const Session& session)
     rows +=
         row("Elasticity", fmt::format("E = {} MPa, \u03bd = {:.3g}", grouped(material.young_MPa), material.poisson));
     rows += row("Anisotropy", fmt::format("Hill 1948, r = {:.3g} / {:.3g} / {:.3g} at 0\u00b0 / 45\u00b0 / 90\u00b0; "
-                                          "their mean {:.3g} is used",
-                                          material.r0, material.r45, material.r90, material.normal_anisotropy()));
+                                          "{}",
+                                          material.r0, material.r45, material.r90,
+                                          options.process.rolling
+                                              ? "rolling direction " + vector(*options.process.rolling)
+                                              : fmt::format("their mean {:.3g} is used", material.normal_anisotropy())));
     rows += row("Sheet thickness", significant(options.thickness) + " mm");
     rows += row("Stamping direction", vector(session.blank->stamping.direction) +
                                           (options.direction ? ", as given" : ", found automatically"));
-    rows += row("Friction", options.friction.size() == 0
-                                ? "none"
-                                : fmt::format("up to {} MPa on the sheet", significant(options.friction.maxCoeff())));
+    rows += process_rows(options.process);
     rows += row("Trusted up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
                                              fixed(session.blank->report.trusted_strain, 2)));
     rows +=

@@ -36,12 +36,13 @@ TEST(Equilibrium, TangentAgreesWithCentralDifferencesWithFriction)
     const TriMesh part = wavy();
     const MembraneLaw law(mild_steel());
     const Eigen::Matrix2Xd X = strained(part);
-    Friction friction;
+    ExternalForces friction;
     friction.traction = Eigen::VectorXd::Constant(part.triangles(), 0.8);
     friction.plane << 1, 0, 0, 1, 0, 0;
     friction.origin << 0.3, -0.2, 5;
     const std::vector<Element> element = elements(part);
-    VirtualWork work(part, element, law, 0.8, friction);
+    const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
+    VirtualWork work(part, element, sheet, friction);
     std::vector<char> relaxed(size_t(part.vertices()), 0);
     for (size_t v = 0; v < relaxed.size(); v += 3)
         relaxed[v] = 1;
@@ -73,8 +74,9 @@ TEST(Equilibrium, MovingTheBlankChangesNothing)
     const Eigen::Matrix2Xd X = strained(part);
     const Eigen::Matrix2Xd moved = (Eigen::Rotation2Dd(0.7).toRotationMatrix() * X).colwise() + Eigen::Vector2d(11, -4);
     const std::vector<Element> element = elements(part);
-    const Friction none;
-    VirtualWork work(part, element, law, 0.8, none);
+    const ExternalForces none;
+    const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
+    VirtualWork work(part, element, sheet, none);
     work.set_axes(X);
     const Eigen::VectorXd a = work.residual(X), b = work.residual(moved);
     EXPECT_LT((a - b).norm(), 1e-10 * a.norm());
@@ -86,8 +88,9 @@ TEST(Equilibrium, TheAxesDoNotChangeTheForces)
     const MembraneLaw law(mild_steel());
     const Eigen::Matrix2Xd X = strained(part), flat = part.position.topRows<2>();
     const std::vector<Element> element = elements(part);
-    const Friction none;
-    VirtualWork work(part, element, law, 0.8, none);
+    const ExternalForces none;
+    const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
+    VirtualWork work(part, element, sheet, none);
     work.set_axes(X);
     const Eigen::VectorXd a = work.residual(X);
     work.set_axes(1.7 * flat);
@@ -107,13 +110,14 @@ TEST(Equilibrium, AFoldedSheetFeelsWhatAFlatOneFeels)
         if (const double beyond = flat.position(0, v) - 15; beyond > 1e-9)
             folded.position.col(v) << 15 + beyond * std::cos(1.2), flat.position(1, v), beyond * std::sin(1.2);
     const MembraneLaw law(mild_steel());
-    const Friction none;
+    const ExternalForces none;
     const Eigen::Matrix2Xd X = strained(flat);
     Eigen::VectorXd R[2];
     int k = 0;
     for (const TriMesh* part : {&flat, &std::as_const(folded)}) {
         const std::vector<Element> element = elements(*part);
-        VirtualWork work(*part, element, law, 0.8, none);
+        const Sheet sheet = uniform_sheet(law, 0.8, part->triangles());
+        VirtualWork work(*part, element, sheet, none);
         work.set_axes(X);
         R[k++] = work.residual(X);
     }
@@ -125,11 +129,12 @@ TEST(Equilibrium, TheResultantIsTheSumOfTheForcesThatAreLeft)
     const TriMesh part = wavy();
     const MembraneLaw law(mild_steel());
     const std::vector<Element> element = elements(part);
-    Friction friction; // on one half only: it has to be held
+    ExternalForces friction; // on one half only: it has to be held
     friction.traction = Eigen::VectorXd::Zero(part.triangles());
     friction.traction.head(part.triangles() / 2).setConstant(0.3);
     friction.plane << 1, 0, 0, 1, 0, 0;
-    VirtualWork work(part, element, law, 0.8, friction);
+    const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
+    VirtualWork work(part, element, sheet, friction);
     BlockMatrix matrix(part.triangle, part.vertices());
     Cholesky cholesky(matrix);
     const Eigen::Matrix2Xd start = part.position.topRows<2>();
@@ -158,8 +163,9 @@ TEST(Equilibrium, VerticesAgreeWhereTheStrainIsUniform)
     const TriMesh flat = shapes::rectangle(30, 20, 6, 5);
     const MembraneLaw law(mild_steel());
     const std::vector<Element> element = elements(flat);
-    const Friction none;
-    VirtualWork work(flat, element, law, 0.8, none);
+    const ExternalForces none;
+    const Sheet sheet = uniform_sheet(law, 0.8, flat.triangles());
+    VirtualWork work(flat, element, sheet, none);
     Eigen::Matrix2d stretch;
     stretch << 1.2, 0.1, 0, 0.9;
     const Eigen::Matrix2Xd uniform = stretch * flat.position.topRows<2>();

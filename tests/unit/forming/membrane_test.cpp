@@ -163,4 +163,79 @@ TEST(Membrane, ShapeFunctionGradientsReproduceALinearField)
     }
 }
 
+namespace {
+
+Material anisotropic() { return {"planar", 70000, 0.33, 2700, Swift{570, 0.01, 0.24}, 0.7, 0.45, 1.3, ""}; }
+
+} // namespace
+
+TEST(PlanarAnisotropy, ForceTangentAgreesWithCentralDifferences)
+{
+    const MembraneLaw law(anisotropic(), {}, 0.4);
+    for (const Eigen::Matrix2d& G : states()) {
+        const MembraneForce force = membrane_force(law, 0.78, G);
+        for (int k = 0; k < 4; ++k) {
+            const double step = 1e-7;
+            Eigen::Matrix2d up = G, down = G;
+            up(k) += step;
+            down(k) -= step;
+            const Eigen::Vector4d difference =
+                (membrane_force(law, 0.78, up).force - membrane_force(law, 0.78, down).force).reshaped() / (2 * step);
+            EXPECT_LT((difference - force.derivative.col(k)).norm(), 2e-5 * force.derivative.norm()) << G;
+        }
+    }
+}
+
+TEST(PlanarAnisotropy, WithEqualLankfordCoefficientsIsNormalAnisotropy)
+{
+    const MembraneLaw normal(mild_steel()), planar(mild_steel(), {}, 1.1);
+    for (const Eigen::Matrix2d& G : states()) {
+        const MembraneForce a = membrane_force(normal, 0.78, G), b = membrane_force(planar, 0.78, G);
+        EXPECT_LT((a.force - b.force).norm(), 1e-11 * a.force.norm());
+        EXPECT_LT((a.derivative - b.derivative).norm(), 1e-11 * a.derivative.norm());
+    }
+}
+
+TEST(PlanarAnisotropy, TurningTheSheetWithItsRollingDirectionChangesNothing)
+{
+    const double turn = 0.9;
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
+    const MembraneLaw law(anisotropic(), {}, 0.4), turned_law(anisotropic(), {}, 0.4 + turn);
+    double difference_of_laws = 0;
+    for (const Eigen::Matrix2d& G : states()) {
+        const Eigen::Matrix2d a = membrane_force(law, 1, G).force, b = membrane_force(turned_law, 1, R * G).force;
+        EXPECT_LT((a - b).norm(), 1e-11 * a.norm());
+        difference_of_laws =
+            std::max(difference_of_laws, (a - membrane_force(turned_law, 1, G).force).norm() / a.norm());
+    }
+    EXPECT_GT(difference_of_laws, 0.05); // the direction does matter
+}
+
+TEST(PlanarAnisotropy, TensionAlongAcrossAndBetweenGivesTheLankfordCoefficients)
+{
+    // Pulled along a direction, the width strain is r times the thickness strain: eps_width = -r/(1+r) eps. Then there is
+    // no stress but along it. Between the two the principal axes are those of the pull only for r0 = r90.
+    const auto pulled = [](const Material& material, double r, double angle) {
+        const MembraneLaw law(material, {}, 0.0);
+        const Eigen::Matrix2d axes = Eigen::Rotation2Dd(angle).toRotationMatrix();
+        return law(axes, {0.2, -r / (1 + r) * 0.2});
+    };
+    const Material sheet = anisotropic();
+    const AxisStress along = pulled(sheet, 0.7, 0), across = pulled(sheet, 1.3, std::acos(0.0));
+    Material even = sheet;
+    even.r90 = even.r0;
+    const AxisStress between = pulled(even, 0.45, std::acos(0.0) / 2);
+    for (const AxisStress& p : {along, across, between}) {
+        EXPECT_GT(p.stress[0], 100);
+        EXPECT_NEAR(p.stress[1], 0, 1e-10);
+        EXPECT_NEAR(p.stress[2], 0, 1e-10);
+    }
+    EXPECT_NEAR(along.stress[0], 570 * std::pow(0.21, 0.24), 1e-9); // the curve is the one along the rolling direction
+    // Across: sigma_eq^2 = (F + H) sigma^2, and the plastic work is that of the curve: sigma eps = sigma_eq eps_eq.
+    const double F = 0.7 / (1.3 * 1.7), H = 0.7 / 1.7;
+    EXPECT_NEAR(across.equivalent_stress, std::sqrt(F + H) * across.stress[0], 1e-9);
+    EXPECT_NEAR(across.equivalent_stress * across.equivalent_strain, across.stress[0] * 0.2, 1e-9);
+    EXPECT_NEAR(between.equivalent_stress * between.equivalent_strain, between.stress[0] * 0.2, 1e-9);
+}
+
 } // namespace spia

@@ -17,7 +17,7 @@ TEST(SheetFields, OfAUniformStretchAreThoseOfAPaperCalculation)
                      Eigen::DiagonalMatrix<double, 2>(1 / along_x, 1 / along_y) * part.position.topRows<2>();
     const Material steel{"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, r, r, r, ""};
     const std::vector<Element> element = elements(part);
-    const SheetFields face = face_fields(part, element, blank, MembraneLaw(steel), h0);
+    const SheetFields face = face_fields(part, element, blank, uniform_sheet(MembraneLaw(steel), h0, part.triangles()));
 
     const double e1 = std::log(along_x), e2 = std::log(along_y), q = r / (1 + r);
     const double equivalent = (1 + r) / std::sqrt(1 + 2 * r) * std::sqrt(e1 * e1 + e2 * e2 + 2 * q * e1 * e2);
@@ -51,7 +51,7 @@ TEST(SheetFields, AFaceIsMarkedFromTheTrustedStrainOn)
         Eigen::Matrix2Xd X = part.position.topRows<2>();
         X.row(0) *= std::exp(-strain);
         X.row(1) *= std::exp(strain / 2);
-        const SheetFields face = face_fields(part, element, {X}, law, 1);
+        const SheetFields face = face_fields(part, element, {X}, uniform_sheet(law, 1, part.triangles()));
         EXPECT_NEAR(face.strain_equivalent[0], strain, 1e-12);
         EXPECT_EQ(face.necking.sum(), strain > 0.2 ? 2 : 0);
     }
@@ -62,7 +62,8 @@ TEST(SheetFields, NodesTakeTheMeanByArea)
     const TriMesh part = shapes::rectangle(4, 1, 1, 1); // two triangles
     const std::vector<Element> element = elements(part);
     SheetFields face = face_fields(part, element, {part.position.topRows<2>()},
-                                   MembraneLaw({"m", 206000, 0.3, 7850, Swift{565, 0.007, 0.26}, 1, 1, 1, ""}), 1);
+                    uniform_sheet(MembraneLaw({"m", 206000, 0.3, 7850, Swift{565, 0.007, 0.26}, 1, 1, 1, ""}), 1,
+                                  part.triangles()));
     face.thickness << 1, 3;
     face.necking << 0, 1;
     std::vector<Element> uneven = element;

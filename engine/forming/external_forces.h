@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace spia {
+
+/// A force on the formed part's vertices that works against slip across a line: a drawbead or a held edge.
+struct Restraint {
+    int vertex;
+    Eigen::Vector3d across; ///< unit vector in the sheet, square to the line; its sign has no meaning
+    double force;           ///< N
+};
+
+/// A vertex that a pin holds at a place of the blank.
+struct HeldVertex {
+    int vertex;
+    Eigen::Vector2d place; ///< mm, in the blank
+};
+
+/// What acts on the formed part from outside, all tangential to it. Slip is the way from blank to part, x - X; a force
+/// against it fades out smoothly below `full_slip`.
+struct ExternalForces {
+    Eigen::VectorXd traction; ///< #F, MPa (N/mm2 of the part): friction against the slip; empty where there is none
+    std::vector<Restraint> restraint;                                            ///< several of one vertex add up
+    std::vector<HeldVertex> held;                                                ///< each vertex once
+    Eigen::Matrix<double, 3, 2> plane = Eigen::Matrix<double, 3, 2>::Identity(); ///< axes of the blank in space
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< point of the blank's (0, 0) in space, up to its height
+    double full_slip = 0.1;                           ///< mm
+};
+
+/// A force in space and how it changes with the vertex's place on the blank.
+struct ForceAtVertex {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();                              ///< N
+    Eigen::Matrix<double, 3, 2> derivative = Eigen::Matrix<double, 3, 2>::Zero(); ///< N/mm
+};
+
+/// The forces of all vertices at once.
+class NodalForces {
+public:
+    /// @param share  area of the part that belongs to each corner of each face is `area[f] / 3`
+    NodalForces(const ExternalForces& forces, const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xd& normal,
+                const Eigen::Matrix3Xi& triangle, const Eigen::VectorXd& area);
+
+    bool acts_on(int vertex) const { return friction_.size() > 0 && acts_[size_t(vertex)]; }
+    ForceAtVertex operator()(int vertex, const Eigen::Vector2d& X) const;
+
+private:
+    const ExternalForces& forces_;
+    const Eigen::Matrix3Xd& position_;
+    Eigen::Matrix3Xd normal_;
+    Eigen::VectorXd friction_;                 ///< N, per vertex; empty where nothing acts at all
+    std::vector<std::vector<Restraint>> line_; ///< by vertex
+    std::vector<char> acts_;
+};
+
+} // namespace spia

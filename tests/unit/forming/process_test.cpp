@@ -1,0 +1,190 @@
+#include "engine/forming/process.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "engine/core/error.h"
+#include "engine/forming/equilibrium.h"
+#include "tests/support/mesh_tools.h"
+#include "tests/support/shapes.h"
+
+namespace spia {
+namespace {
+
+const Material steel{"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1.77, 1.77, 1.77, ""};
+const Eigen::Matrix<double, 3, 2> flat_plane = Eigen::Matrix<double, 3, 2>::Identity();
+
+ExternalForces forces(const ProcessConditions& process, const TriMesh& part)
+{
+    return external_forces(process, part, steel, 0.8, flat_plane, Eigen::Vector3d::Zero());
+}
+
+std::string refusal(const ProcessConditions& process, const TriMesh& part)
+{
+    try {
+        forces(process, part);
+        sheet_of(steel, 0.8, {}, process, part, flat_plane);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::vector<int> all_faces(const TriMesh& part)
+{
+    std::vector<int> faces(size_t(part.triangles()));
+    for (size_t f = 0; f < faces.size(); ++f)
+        faces[f] = int(f);
+    return faces;
+}
+
+Eigen::Vector3d sum_across(const ExternalForces& forces)
+{
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Restraint& r : forces.restraint)
+        sum += r.force * r.across.cwiseAbs();
+    return sum;
+}
+
+} // namespace
+
+TEST(Process, ABinderForceIsCoulombFrictionOnBothSidesOverTheAreaSeen)
+{
+    TriMesh part = shapes::rectangle(50, 40, 5, 4);
+    ProcessConditions process;
+    process.contact = {{"binder", all_faces(part), {}, 10000, 0.12, 2}};
+    EXPECT_NEAR(forces(process, part).traction[3], 2 * 0.12 * 10000 / 2000, 1e-12);
+    process.contact[0].sides = 1;
+    EXPECT_NEAR(forces(process, part).traction[3], 0.12 * 5, 1e-12);
+    part.position.row(2) = part.position.row(0); // at 45 degrees: the same area seen from above
+    EXPECT_NEAR(forces(process, part).traction[3], 0.12 * 5, 1e-12);
+    process.contact.push_back({"pad", {3}, 2.0, {}, 0.1, 1}); // adds up where two overlap
+    EXPECT_NEAR(forces(process, part).traction[3], 0.12 * 5 + 0.2, 1e-12);
+    EXPECT_NEAR(forces(process, part).traction[4], 0.12 * 5, 1e-12);
+}
+
+TEST(Process, ADrawbeadRestrainsAcrossItsLineWithItsForceTimesItsLength)
+{
+    const TriMesh part = shapes::rectangle(50, 40, 7, 9);
+    ProcessConditions process;
+    process.drawbeads = {{"bead", {{20, 5, 0}, {20, 35, 0}}, 80}};
+    const ExternalForces out = forces(process, part);
+    EXPECT_LT((sum_across(out) - Eigen::Vector3d(80 * 30, 0, 0)).norm(), 1e-9);
+    for (const Restraint& r : out.restraint) {
+        EXPECT_NEAR(std::abs(r.across[0]), 1, 1e-12);
+        EXPECT_NEAR(part.position(0, r.vertex), 20, 50.0 / 7); // within the faces that it crosses
+    }
+}
+
+TEST(Process, AnEdgeRestraintIsAShareOfTheLockForceSquareToTheEdge)
+{
+    const TriMesh part = shapes::rectangle(50, 40, 10, 8);
+    ProcessConditions process;
+    process.edge_restraint = 0.3;
+    double across_x = 0;
+    for (const Restraint& r : forces(process, part).restraint)
+        if (std::abs(r.across[0]) > 0.99)
+            across_x += r.force;
+    // Two sides of 40 mm, less half an edge (5 mm) at each corner, where the force goes at an angle.
+    EXPECT_NEAR(across_x, 0.3 * lock_force(steel, 0.8) * 2 * (40 - 5), 1e-6);
+}
+
+TEST(Process, TheLockForceIsTheLimitOfAPlaneStrainStrip)
+{
+    // K (e0 + eps_eq)^n exp(-eps) times the plane strain factor is greatest where factor * n / (e0 + eps_eq) = 1.
+    const double r = 1.77, factor = (1 + r) / std::sqrt(1 + 2 * r), n = 0.2589, e0 = 0.007117;
+    const double equivalent = factor * n - e0;
+    const double expected = 0.8 * factor * 565.32 * std::pow(factor * n, n) * std::exp(-equivalent / factor);
+    EXPECT_NEAR(lock_force(steel, 0.8), expected, 1e-5 * expected);
+}
+
+TEST(Process, APilotHoldsTheNearestVertexWhereItIsSeen)
+{
+    TriMesh part = shapes::rectangle(50, 40, 5, 4);
+    part.position.row(2).setConstant(12);
+    ProcessConditions process;
+    process.pilots = {{"pin", {{10.4, 19.8, 12}}}, {"row", {{0, 40, 12}, {50, 40, 12}}}};
+    const ExternalForces out = forces(process, part);
+    ASSERT_EQ(out.held.size(), 1u + 6u);
+    EXPECT_LT((out.held[0].place - Eigen::Vector2d(10, 20)).norm(), 1e-12);
+    for (size_t k = 1; k < out.held.size(); ++k)
+        EXPECT_EQ(out.held[k].place[1], 40);
+}
+
+TEST(Process, ATailoredPieceHasItsOwnGradeAndGauge)
+{
+    const TriMesh part = shapes::rectangle(50, 40, 5, 4);
+    ProcessConditions process;
+    Material strong = steel;
+    strong.hardening = Swift{1000, 0.002, 0.15};
+    process.tailored = {{"side", {0, 1, 2}, strong, 1.4}, {"patch", {2}, steel, 1.1}};
+    const Sheet sheet = sheet_of(steel, 0.8, {}, process, part, flat_plane);
+    EXPECT_EQ(sheet.thickness[0], 1.4);
+    EXPECT_EQ(sheet.thickness[2], 1.1);
+    EXPECT_EQ(sheet.thickness[5], 0.8);
+    EXPECT_GT(sheet.law_of(1).curve()(0.1).stress, 1.3 * sheet.law_of(2).curve()(0.1).stress);
+    EXPECT_EQ(sheet.law_of(2).curve()(0.1).stress, sheet.law_of(5).curve()(0.1).stress);
+}
+
+TEST(Process, WhatIsWrongIsNamed)
+{
+    const TriMesh part = shapes::rectangle(50, 40, 5, 4);
+    const auto contact = [&](ContactRegion region) {
+        ProcessConditions process;
+        process.contact = {std::move(region)};
+        return refusal(process, part);
+    };
+    EXPECT_NE(contact({"rim", {}, 1.0, {}, 0.1, 2}).find("\"rim\" has no faces"), std::string::npos);
+    EXPECT_NE(contact({"rim", {40}, 1.0, {}, 0.1, 2}).find("names face 40"), std::string::npos);
+    EXPECT_NE(contact({"rim", {4}, 1.0, 5.0, 0.1, 2}).find("either a force or a pressure"), std::string::npos);
+    EXPECT_NE(contact({"rim", {4}, -1.0, {}, 0.1, 2}).find("must be positive"), std::string::npos);
+    EXPECT_NE(contact({"rim", {4}, 1.0, {}, -0.1, 2}).find("friction -0.1"), std::string::npos);
+    ProcessConditions process;
+    process.drawbeads = {{"b1", {{20, 5, 30}, {20, 35, 30}}, 80}};
+    EXPECT_NE(refusal(process, part).find("\"b1\": the place (20, "), std::string::npos);
+    process.drawbeads = {{"b1", {{20, 5, 0}}, 80}};
+    EXPECT_NE(refusal(process, part).find("at least two different places"), std::string::npos);
+    process.drawbeads = {{"b1", {{20, 5, 0}, {20, 35, 0}}, 0}};
+    EXPECT_NE(refusal(process, part).find("must be positive"), std::string::npos);
+    process = {};
+    process.edge_restraint = 1.5;
+    EXPECT_NE(refusal(process, part).find("between 0 and 1"), std::string::npos);
+    process = {};
+    process.rolling = Eigen::Vector3d(0, 0, 1);
+    EXPECT_NE(refusal(process, part).find("rolling direction"), std::string::npos);
+}
+
+TEST(Process, TheTangentHoldsWithBeadsFrictionAndPins)
+{
+    TriMesh part = shapes::rectangle(50, 40, 8, 6);
+    for (int v = 0; v < part.vertices(); ++v)
+        part.position(2, v) = 6 * std::sin(0.08 * part.position(0, v)) * std::cos(0.05 * part.position(1, v));
+    ProcessConditions process;
+    process.contact = {{"binder", all_faces(part), 2.0, {}, 0.1, 2}};
+    process.drawbeads = {{"bead", {{5, 8, 2.2}, {30, 33, 0}}, 40}};
+    process.edge_restraint = 0.2;
+    process.pilots = {{"pin", {{10, 20, 2.4}}}};
+    const ExternalForces external = forces(process, part);
+    ASSERT_FALSE(external.restraint.empty());
+    const std::vector<Element> element = elements(part);
+    const Sheet sheet = uniform_sheet(MembraneLaw(steel), 0.8, part.triangles());
+    VirtualWork work(part, element, sheet, external);
+    Eigen::Matrix2Xd X = 1.03 * part.position.topRows<2>();
+    X.row(0) += 0.05 * X.row(1);
+    work.set_axes(X);
+    BlockMatrix matrix(part.triangle, part.vertices());
+    work.tangent(X, matrix);
+    for (const int unknown : {0, 7, 30, 2 * external.held[0].vertex, 2 * external.held[0].vertex + 1, 101}) {
+        Eigen::VectorXd unit = Eigen::VectorXd::Zero(matrix.size()), column;
+        unit[unknown] = 1;
+        matrix.multiply(unit, column);
+        const double step = 1e-6;
+        Eigen::Matrix2Xd up = X, down = X;
+        up(unknown % 2, unknown / 2) += step;
+        down(unknown % 2, unknown / 2) -= step;
+        const Eigen::VectorXd difference = (work.residual(up) - work.residual(down)) / (2 * step);
+        EXPECT_LT((difference - column).norm(), 1e-5 * column.norm()) << unknown;
+    }
+}
+
+} // namespace spia
