@@ -7,31 +7,52 @@
 #include "app/viewer/render/offscreen.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/views/views.h"
+#include "engine/core/error.h"
 
 namespace spia::viewer {
 namespace {
 
-/// A context of ImGui beside the window's, with letters of its own size; the window's comes back at the end.
+/// Another context of ImGui, until its end; then the one before is back.
+class AsideContext {
+public:
+    AsideContext() { ImGui::SetCurrentContext(own_); }
+    ~AsideContext()
+    {
+        ImGui::DestroyContext(own_);
+        ImGui::SetCurrentContext(before_);
+    }
+    AsideContext(const AsideContext&) = delete;
+    AsideContext& operator=(const AsideContext&) = delete;
+
+private:
+    ImGuiContext* before_ = ImGui::GetCurrentContext();
+    ImGuiContext* own_ = ImGui::CreateContext();
+};
+
+/// What ImGui needs to draw with OpenGL, in the current context.
+struct OpenGlBackend {
+    OpenGlBackend()
+    {
+        if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
+            throw Error("legend and labels of a picture cannot be drawn: ImGui finds no OpenGL 3.3; update the "
+                        "graphics driver");
+    }
+    ~OpenGlBackend() { ImGui_ImplOpenGL3_Shutdown(); }
+    OpenGlBackend(const OpenGlBackend&) = delete;
+    OpenGlBackend& operator=(const OpenGlBackend&) = delete;
+};
+
+/// ImGui beside the window's, with letters of its own size.
 class PictureGui {
 public:
     PictureGui(int width, int height, float scale, bool dark)
     {
-        ImGui::SetCurrentContext(own_);
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.DisplaySize = {float(width), float(height)};
-        ImGui_ImplOpenGL3_Init("#version 330 core");
         fonts_ = load_fonts(scale);
         apply_theme(dark, scale);
     }
-    ~PictureGui()
-    {
-        ImGui_ImplOpenGL3_Shutdown();
-        ImGui::DestroyContext(own_);
-        ImGui::SetCurrentContext(before_);
-    }
-    PictureGui(const PictureGui&) = delete;
-    PictureGui& operator=(const PictureGui&) = delete;
     const Fonts& fonts() const { return fonts_; }
 
     template <class Draw> void frame(const Draw& draw)
@@ -43,8 +64,8 @@ public:
     }
 
 private:
-    ImGuiContext* before_ = ImGui::GetCurrentContext();
-    ImGuiContext* own_ = ImGui::CreateContext();
+    AsideContext context_;
+    OpenGlBackend backend_;
     Fonts fonts_;
 };
 
