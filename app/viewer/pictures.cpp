@@ -189,7 +189,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     return picture;
 }
 
-std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
+std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
                                            const ReportOptions& options)
 {
     constexpr int width = 1200, height = 800;
@@ -202,7 +202,7 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
                                                "NURBS surface with its control net: distance from the part"};
     ViewerState shown = options.standard_look ? standard_look(model.state()) : model.state();
     const Session& session = shown.document.session;
-    std::vector<ReportPicture> pictures;
+    std::vector<TitledPicture> pictures;
     for (const View view : all_views) {
         if (std::find(options.pictures.begin(), options.pictures.end(), view) == options.pictures.end() ||
             (view == View::blank && !session.blank) || (view == View::quads && !session.lifted) ||
@@ -212,9 +212,17 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
         if (options.standard_look)
             camera = fitted(camera, session, view, {width, height}, larger * picture_scale(width, height));
         pictures.push_back({(options.standard_look ? standard_titles : titles)[size_t(view)],
-                            png(picture_of_view(renderer, model, shown, cache, view, width, height, content))});
+                            picture_of_view(renderer, model, shown, cache, view, width, height, content)});
     }
     return pictures;
+}
+
+std::vector<ReportPicture> png_files(const std::vector<TitledPicture>& pictures)
+{
+    std::vector<ReportPicture> files;
+    for (const TitledPicture& each : pictures)
+        files.push_back({each.title, png(each.picture)});
+    return files;
 }
 
 } // namespace spia::viewer
