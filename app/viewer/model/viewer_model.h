@@ -13,8 +13,8 @@
 
 namespace spia::viewer {
 
-/// The state and the only two things that change it: actions and finished jobs. Knows no window, so that tests do all that
-/// users do.
+/// The state and all that changes it: actions, the news of jobs, the mouse over a view (hover) and the size of the views.
+/// Knows no window, so that tests do all that users do.
 class ViewerModel {
 public:
     /// @param assets folder with materials/ and parts/
