@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 // after epoxy
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <fmt/core.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
@@ -75,6 +76,20 @@ GlWindow::~GlWindow()
 {
     glfwDestroyWindow(window_);
     glfwTerminate();
+}
+
+Picture GlWindow::picture(int width, int height)
+{
+    Picture picture{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+    const size_t row = size_t(width) * 4;
+    for (size_t low = 0, high = size_t(height) - 1; low < high; ++low, --high)
+        std::swap_ranges(picture.rgba.begin() + long(low * row), picture.rgba.begin() + long((low + 1) * row),
+                         picture.rgba.begin() + long(high * row));
+    for (size_t k = 3; k < picture.rgba.size(); k += 4)
+        picture.rgba[k] = 255;
+    return picture;
 }
 
 std::vector<KeyPress>& GlWindow::keys()

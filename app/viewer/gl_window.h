@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "app/viewer/panels/ui.h"
+#include "app/viewer/render/renderer.h"
 
 struct GLFWwindow;
 
@@ -16,6 +17,8 @@ public:
     GlWindow(const GlWindow&) = delete;
     GlWindow& operator=(const GlWindow&) = delete;
     GLFWwindow* get() const { return window_; }
+    /// What the window shows before its buffers are swapped. @param width, height  pixels
+    static Picture picture(int width, int height);
     /// Keys that were pressed since this was last emptied.
     static std::vector<KeyPress>& keys();
     /// Whether anything has happened since this was last set to false.

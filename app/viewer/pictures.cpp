@@ -7,31 +7,52 @@
 #include "app/viewer/render/offscreen.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/views/views.h"
+#include "engine/core/error.h"
 
 namespace spia::viewer {
 namespace {
 
-/// A context of ImGui beside the window's, with letters of its own size; the window's comes back at the end.
+/// Another context of ImGui, until its end; then the one before is back.
+class AsideContext {
+public:
+    AsideContext() { ImGui::SetCurrentContext(own_); }
+    ~AsideContext()
+    {
+        ImGui::DestroyContext(own_);
+        ImGui::SetCurrentContext(before_);
+    }
+    AsideContext(const AsideContext&) = delete;
+    AsideContext& operator=(const AsideContext&) = delete;
+
+private:
+    ImGuiContext* before_ = ImGui::GetCurrentContext();
+    ImGuiContext* own_ = ImGui::CreateContext();
+};
+
+/// What ImGui needs to draw with OpenGL, in the current context.
+struct OpenGlBackend {
+    OpenGlBackend()
+    {
+        if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
+            throw Error("legend and labels of a picture cannot be drawn: ImGui finds no OpenGL 3.3; update the "
+                        "graphics driver");
+    }
+    ~OpenGlBackend() { ImGui_ImplOpenGL3_Shutdown(); }
+    OpenGlBackend(const OpenGlBackend&) = delete;
+    OpenGlBackend& operator=(const OpenGlBackend&) = delete;
+};
+
+/// ImGui beside the window's, with letters of its own size.
 class PictureGui {
 public:
     PictureGui(int width, int height, float scale, bool dark)
     {
-        ImGui::SetCurrentContext(own_);
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.DisplaySize = {float(width), float(height)};
-        ImGui_ImplOpenGL3_Init("#version 330 core");
         fonts_ = load_fonts(scale);
         apply_theme(dark, scale);
     }
-    ~PictureGui()
-    {
-        ImGui_ImplOpenGL3_Shutdown();
-        ImGui::DestroyContext(own_);
-        ImGui::SetCurrentContext(before_);
-    }
-    PictureGui(const PictureGui&) = delete;
-    PictureGui& operator=(const PictureGui&) = delete;
     const Fonts& fonts() const { return fonts_; }
 
     template <class Draw> void frame(const Draw& draw)
@@ -43,8 +64,8 @@ public:
     }
 
 private:
-    ImGuiContext* before_ = ImGui::GetCurrentContext();
-    ImGuiContext* own_ = ImGui::CreateContext();
+    AsideContext context_;
+    OpenGlBackend backend_;
     Fonts fonts_;
 };
 
@@ -168,7 +189,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     return picture;
 }
 
-std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
+std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
                                            const ReportOptions& options)
 {
     constexpr int width = 1200, height = 800;
@@ -181,7 +202,7 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
                                                "NURBS surface with its control net: distance from the part"};
     ViewerState shown = options.standard_look ? standard_look(model.state()) : model.state();
     const Session& session = shown.document.session;
-    std::vector<ReportPicture> pictures;
+    std::vector<TitledPicture> pictures;
     for (const View view : all_views) {
         if (std::find(options.pictures.begin(), options.pictures.end(), view) == options.pictures.end() ||
             (view == View::blank && !session.blank) || (view == View::quads && !session.lifted) ||
@@ -191,9 +212,17 @@ std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& mode
         if (options.standard_look)
             camera = fitted(camera, session, view, {width, height}, larger * picture_scale(width, height));
         pictures.push_back({(options.standard_look ? standard_titles : titles)[size_t(view)],
-                            png(picture_of_view(renderer, model, shown, cache, view, width, height, content))});
+                            picture_of_view(renderer, model, shown, cache, view, width, height, content)});
     }
     return pictures;
+}
+
+std::vector<ReportPicture> png_files(const std::vector<TitledPicture>& pictures)
+{
+    std::vector<ReportPicture> files;
+    for (const TitledPicture& each : pictures)
+        files.push_back({each.title, png(each.picture)});
+    return files;
 }
 
 } // namespace spia::viewer

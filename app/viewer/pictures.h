@@ -29,8 +29,17 @@ Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerStat
 Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& cache, const Ui& ui, glm::ivec2 screen,
                           int width, int height);
 
+/// A picture of a report, not yet as a file.
+struct TitledPicture {
+    std::string title;
+    Picture picture;
+};
+
 /// The pictures of a report, of those views that have something to show.
-std::vector<ReportPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
+std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
                                            const ReportOptions& options);
+
+/// As the report holds them; needs no OpenGL. @throws ExchangeError
+std::vector<ReportPicture> png_files(const std::vector<TitledPicture>& pictures);
 
 } // namespace spia::viewer

@@ -6,18 +6,19 @@
 #include <algorithm>
 #include <cfloat>
 #include <chrono>
-#include <deque>
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
 #include "app/viewer/gl_window.h"
+#include "app/viewer/model/file_writer.h"
+#include "app/viewer/model/frame_times.h"
 #include "app/viewer/model/html_report.h"
+#include "app/viewer/model/kept_work.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/recent_files.h"
-#include "app/viewer/model/script.h"
+#include "app/viewer/model/script_player.h"
 #include "app/viewer/model/state_report.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/ui.h"
@@ -34,21 +35,6 @@ namespace spia::viewer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// How long the window was busy with each frame.
-struct FrameTimes {
-    std::vector<double> all, solving; ///< ms
-    static Json figures(std::vector<double> times)
-    {
-        if (times.empty())
-            return {{"frames", 0}};
-        std::sort(times.begin(), times.end());
-        const auto at = [&](double share) {
-            return times[std::min(times.size() - 1, size_t(share * double(times.size())))];
-        };
-        return {{"frames", times.size()}, {"p50_ms", at(0.5)}, {"p99_ms", at(0.99)}, {"max_ms", times.back()}};
-    }
-};
 
 class Program {
 public:
@@ -75,8 +61,7 @@ public:
         settings.dark = !options.light;
         model_.apply(SetViewSettings{settings});
         if (!options.script.empty())
-            for (Step& step : parse_script(options.script))
-                steps_.push_back(std::move(step));
+            script_ = ScriptPlayer(parse_script(options.script));
         begin();
     }
 
@@ -84,7 +69,7 @@ public:
     {
         int settle = 3;
         while (!quit_) {
-            const bool moves = !steps_.empty() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
+            const bool moves = !script_.ended() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
             if (options_.follow && !moves)
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
@@ -117,6 +102,8 @@ public:
                 settle = frames_to_settle;
             }
         }
+        writer_.wait();
+        follow_files();
         if (!options_.report.empty())
             write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
         if (options_.exit && options_.script.empty() && exit_code_ == 0)
@@ -125,7 +112,7 @@ public:
                     fmt::print(stderr, "spia-viewer: {}\n", message.text);
                     exit_code_ = 1;
                 }
-        autosave_.clear();
+        kept_.end();
         return exit_code_;
     }
 
@@ -137,7 +124,7 @@ private:
         end_broken_frame();
         if (model_.state().document.session.part)
             try {
-                autosave_.save(model_.state().document, model_.state().view, model_.state().project);
+                kept_.keep(model_.state());
             } catch (const std::exception& error) {
                 text += fmt::format("; and the work cannot be kept: {}", error.what());
             }
@@ -168,21 +155,9 @@ private:
             opening_sample_ = true;
         }
         if (!options_.exit)
-            ask_about_left_work();
+            kept_.look_for_left();
         if (options_.run_all)
             queue_.push(RunTo{Stage::fit});
-    }
-
-    void ask_about_left_work()
-    {
-        left_ = unfinished_session();
-        if (!left_)
-            return;
-        const auto saved = std::chrono::file_clock::to_sys(left_->time());
-        const auto age = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now() - saved);
-        const std::time_t time = std::chrono::system_clock::to_time_t(
-            std::chrono::time_point_cast<std::chrono::system_clock::duration>(saved));
-        ui_.left_work = {left_->name(), fmt::format("{:%d %b %Y, %H:%M} ({})", fmt::localtime(time), ago(age))};
     }
 
     void follow_answer()
@@ -190,34 +165,26 @@ private:
         if (!ui_.left_work || ui_.left_work->answer == LeftWork::Answer::none)
             return;
         const LeftWork::Answer answer = std::exchange(ui_.left_work, std::nullopt)->answer;
-        if (answer == LeftWork::Answer::recover) {
-            queue_.push(OpenProject{left_->file()});
-            recovered_ = std::move(left_);
-        } else if (answer == LeftWork::Answer::discard) {
-            left_->discard();
-            left_.reset();
-            ask_about_left_work(); // there may be older work
-            return;
-        }
-        left_.reset(); // found again at the next start
-    }
-
-    /// The work that was recovered need not be kept any more: it is saved, or its end was confirmed.
-    void forget_recovered()
-    {
-        if (recovered_)
-            recovered_->discard();
-        recovered_.reset();
+        if (answer == LeftWork::Answer::recover)
+            queue_.push(kept_.recover());
+        else if (answer == LeftWork::Answer::discard)
+            kept_.discard();
+        else
+            kept_.later();
     }
 
     /// Whether --exit waits for nothing any more, and the last frames are drawn.
-    bool finishing() const { return options_.exit && steps_.empty() && !model_.busy() && queue_.empty(); }
+    bool finishing() const
+    {
+        return options_.exit && script_.ended() && !model_.busy() && !writer_.busy() && queue_.empty();
+    }
 
     void frame()
     {
         const auto start = Clock::now();
         const bool solving = model_.busy();
         model_.poll();
+        follow_files();
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
         if (dark_ != model_.state().view.dark) {
@@ -264,7 +231,6 @@ private:
             model_.gesture_ended();
         follow_part();
         follow_answer();
-        save_now_and_then();
     }
 
     Look look() const
@@ -285,16 +251,12 @@ private:
         if (!leaves)
             return false;
         const bool confirmed = std::exchange(ui_.confirmed, false);
-        const auto* opened = std::get_if<OpenProject>(&action);
-        const bool recovers = opened && recovered_ && opened->file == recovered_->file();
         if (model_.state().unsaved && model_.state().document.session.part && !options_.exit && !confirmed) {
             ui_.held = action;
             return true;
         }
-        if (confirmed && !recovers)
-            forget_recovered();
-        else if (!recovers)
-            recovered_.reset(); // it could not be opened: it stays for the next start
+        if (confirmed && std::holds_alternative<Quit>(action))
+            kept_.forget();
         return false;
     }
 
@@ -306,7 +268,8 @@ private:
                 return;
             if (std::holds_alternative<ExportFiles>(action))
                 ui_.sample_exported = true;
-            if (std::holds_alternative<OpenPart>(action) || std::holds_alternative<OpenProject>(action))
+            const bool opens = std::holds_alternative<OpenPart>(action) || std::holds_alternative<OpenProject>(action);
+            if (opens)
                 ui_.sample = std::exchange(opening_sample_, false);
             if (const auto* picture = std::get_if<Screenshot>(&action))
                 pictures_.push_back(*picture);
@@ -314,12 +277,12 @@ private:
                 write_report(*wanted);
             else if (std::get_if<Quit>(&action))
                 quit_ = true;
+            else if (opens && !options_.exit)
+                kept_.open(model_, action);
             else
                 model_.apply(action);
-            if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved) { // nothing is left to recover
-                autosave_.clear();
-                forget_recovered();
-            }
+            if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved)
+                kept_.forget();
         } catch (const std::exception& error) {
             model_.say(Severity::error, error.what());
         }
@@ -332,14 +295,13 @@ private:
             return;
         for (const Screenshot& wanted : std::exchange(pictures_, {}))
             try {
-                if (wanted.view)
-                    write_png(wanted.file, view_picture(wanted));
-                else if (wanted.width > 0 && wanted.height > 0)
-                    write_png(wanted.file, picture_of_window(renderer_, model_, cache_, ui_, {width, height},
-                                                             wanted.width, wanted.height));
-                else
-                    write_png(wanted.file, window_picture(width, height));
-                model_.say(Severity::done, fmt::format("Wrote {}", wanted.file.string()));
+                Picture picture = wanted.view ? view_picture(wanted)
+                                  : wanted.width > 0 && wanted.height > 0
+                                      ? picture_of_window(renderer_, model_, cache_, ui_, {width, height}, wanted.width,
+                                                          wanted.height)
+                                      : GlWindow::picture(width, height);
+                writer_.later(wanted.file,
+                              [file = wanted.file, picture = std::move(picture)] { write_png(file, picture); });
             } catch (const std::exception& error) {
                 model_.say(Severity::error, error.what());
             }
@@ -353,20 +315,6 @@ private:
             wanted.height > 0 ? wanted.height : int(size.y), {wanted.legend, wanted.labels, !wanted.transparent});
     }
 
-    static Picture window_picture(int width, int height)
-    {
-        Picture picture{width, height, std::vector<uint8_t>(size_t(width) * size_t(height) * 4)};
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
-        const size_t row = size_t(width) * 4;
-        for (size_t low = 0, high = size_t(height) - 1; low < high; ++low, --high)
-            std::swap_ranges(picture.rgba.begin() + long(low * row), picture.rgba.begin() + long((low + 1) * row),
-                             picture.rgba.begin() + long(high * row));
-        for (size_t k = 3; k < picture.rgba.size(); k += 4)
-            picture.rgba[k] = 255;
-        return picture;
-    }
-
     void write_report(const WriteReport& wanted)
     {
         const Document& document = model_.state().document;
@@ -375,9 +323,27 @@ private:
         ReportOptions options = wanted.options;
         if (const std::string stale = out_of_date(document); !stale.empty())
             options.remarks = stale + (options.remarks.empty() ? "" : "\n" + options.remarks);
-        write_html_report(wanted.file, as_made(document), report_pictures(renderer_, model_, cache_, wanted.options),
-                          options);
-        model_.say(Severity::done, fmt::format("Wrote {}", wanted.file.string()));
+        writer_.later(wanted.file, [file = wanted.file, session = as_made(document), options = std::move(options),
+                                    pictures = report_pictures(renderer_, model_, cache_, wanted.options)] {
+            write_html_report(file, session, png_files(pictures), options);
+        });
+    }
+
+    /// What has been written meanwhile, and what is to be.
+    void follow_files()
+    {
+        kept_.follow(model_, !options_.exit);
+        if (kept_.offer() && !ui_.left_work) {
+            ui_.left_work = {kept_.offer()->text, kept_.offer()->saved};
+            GlWindow::news() = true;
+        }
+        for (const FileWriter::Ended& ended : writer_.take_ended()) {
+            if (ended.error.empty())
+                model_.say(Severity::done, fmt::format("Wrote {}", ended.file.string()));
+            else
+                model_.say(Severity::error, ended.error);
+            GlWindow::news() = true;
+        }
     }
 
     /// A new part belongs into the list of recent files.
@@ -398,28 +364,12 @@ private:
             }
     }
 
-    void save_now_and_then()
-    {
-        const auto now = Clock::now();
-        const ViewerState& state = model_.state();
-        if (!state.unsaved || !state.document.session.part || model_.busy() || !options_.script.empty() ||
-            now - last_save_ < std::chrono::seconds(30))
-            return;
-        last_save_ = now;
-        try {
-            autosave_.save(state.document, state.view, state.project);
-            forget_recovered(); // it lives on in the new one
-        } catch (const std::exception& error) {
-            model_.say(Severity::warning, fmt::format("Autosave failed: {}", error.what()));
-        }
-    }
-
     /// One step of the script per frame; at its end, what was asked for on the command line.
     void next_step()
     {
-        if (!queue_.empty() || !pictures_.empty())
+        if (!queue_.empty() || !pictures_.empty() || writer_.busy())
             return;
-        if (steps_.empty()) {
+        if (script_.ended()) {
             if (finishing() && ++idle_frames_ > 4) {
                 if (!options_.screenshot.empty()) {
                     pictures_.push_back({std::exchange(options_.screenshot, {}), {}, 0, 0});
@@ -429,31 +379,14 @@ private:
             }
             return;
         }
-        const Step& step = steps_.front();
         try {
-            if (const auto* perform = std::get_if<Perform>(&step.what)) {
-                const Action wanted = action(*perform, model_.state(), step.place);
-                if (std::holds_alternative<SetViewSettings>(wanted))
-                    carry_out(wanted); // as a whole, of the state now
-                else
-                    queue_.push(wanted);
-            } else if (const auto* wait = std::get_if<Wait>(&step.what)) {
-                const auto now = Clock::now();
-                if (!waiting_since_)
-                    waiting_since_ = now;
-                if (model_.busy()) {
-                    if (wait->seconds && now - *waiting_since_ > std::chrono::duration<double>(*wait->seconds))
-                        return fail(1, fmt::format("{}: the job has not ended after {} s", step.place, *wait->seconds));
-                    return;
-                }
-                waiting_since_.reset();
-            } else if (const auto* expect = std::get_if<Expect>(&step.what)) {
-                if (const auto text = unmet(*expect, report()))
-                    return fail(1, fmt::format("{}: {}", step.place, *text));
-            }
-            steps_.pop_front();
-        } catch (const std::exception& error) {
-            fail(2, error.what());
+            const auto action = script_.next(model_.state(), model_.busy(), [this] { return report(); });
+            if (action && std::holds_alternative<SetViewSettings>(*action))
+                carry_out(*action); // as a whole, of the state now
+            else if (action)
+                queue_.push(*action);
+        } catch (const ScriptFailed& failure) {
+            fail(failure.exit_code, failure.what());
         }
     }
 
@@ -500,13 +433,10 @@ private:
     ActionQueue queue_;
     Ui ui_;
     std::optional<bool> dark_;
-    std::deque<Step> steps_;
+    ScriptPlayer script_;
     std::vector<Screenshot> pictures_;
-    std::optional<Clock::time_point> waiting_since_;
-    Clock::time_point last_save_ = Clock::now();
-    Autosave autosave_;
-    std::optional<UnfinishedSession> left_;      ///< asked about
-    std::optional<UnfinishedSession> recovered_; ///< open now, and not yet saved otherwise
+    FileWriter writer_{[] { glfwPostEmptyEvent(); }};
+    KeptWork kept_{[] { glfwPostEmptyEvent(); }};
     std::shared_ptr<const PartFile> known_part_;
     FrameTimes times_;
     size_t actions_done_ = 0;

@@ -20,10 +20,12 @@ public:
     bool ready() const { return state_ && state_->done.load(std::memory_order_acquire); }
     /// Null while it is being made. @throws what making it threw
     const T* peek() const { return ready() ? &state_->checked() : nullptr; }
+    /// Until it is made, or is known to fail. It must be wanted.
+    void wait() const { state_->done.wait(false, std::memory_order_acquire); }
     /// Waits. @throws what making it threw
     const T& get() const
     {
-        state_->done.wait(false, std::memory_order_acquire);
+        wait();
         return state_->checked();
     }
 

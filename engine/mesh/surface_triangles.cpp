@@ -176,11 +176,6 @@ SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector
 
 } // namespace
 
-std::string counted(int n, std::string_view one, std::string_view many)
-{
-    return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
 SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report,
                                    const Progress& progress)
 {

@@ -1,7 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/mesh/doctor.h"
@@ -19,8 +17,5 @@ struct SurfaceTriangles {
 /// corners; every change is added to the report. Expects indices in range and finite coordinates.
 SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report,
                                    const Progress& progress);
-
-/// "1 face has", "3 faces have"
-std::string counted(int n, std::string_view one, std::string_view many);
 
 } // namespace spia

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 
 #include "engine/core/error.h"
 #include "tests/ui/hidden_window.h"
@@ -105,6 +107,31 @@ TEST_F(ViewPicture, TheWindowsOwnContextOfImGuiComesBack)
     EXPECT_EQ(ImGui::GetCurrentContext(), nullptr);
     ImGuiContext* const own = ImGui::CreateContext();
     draw(300, 200, {});
+    EXPECT_EQ(ImGui::GetCurrentContext(), own);
+    ImGui::DestroyContext(own);
+}
+
+TEST_F(ViewPicture, TheContextComesBackAlsoWhenThereIsNoMemoryForTheLetters)
+{
+    struct Letters { // as large as a file of them
+        static void* get(size_t bytes, void*)
+        {
+            if (bytes > 100000)
+                throw std::bad_alloc();
+            return std::malloc(bytes);
+        }
+        static void drop(void* memory, void*) { std::free(memory); }
+    };
+    ImGuiContext* const own = ImGui::CreateContext();
+    ImGuiMemAllocFunc get = nullptr;
+    ImGuiMemFreeFunc drop = nullptr;
+    void* user = nullptr;
+    ImGui::GetAllocatorFunctions(&get, &drop, &user);
+    ImGui::SetAllocatorFunctions(Letters::get, Letters::drop);
+    EXPECT_THROW(draw(300, 200, {}), std::bad_alloc);
+    ImGui::SetAllocatorFunctions(get, drop, user);
+    EXPECT_EQ(ImGui::GetCurrentContext(), own);
+    EXPECT_NO_THROW(draw(300, 200, {}));
     EXPECT_EQ(ImGui::GetCurrentContext(), own);
     ImGui::DestroyContext(own);
 }

@@ -25,6 +25,7 @@ void ViewerModel::Apply::begin_with(Document fresh)
     model.dragging_ = false;
     model.keep_cameras_ = false;
     model.opening_ = true;
+    ++model.openings_;
     model.start(Stage::read, Stage::read, "Opening " + document.session.file.filename().string());
 }
 

@@ -55,7 +55,7 @@ struct ShownFault {
     Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< mm
 };
 
-/// A job as the window sees it; see Jobs.
+/// The running chain or export as the window sees it; ViewerModel::poll() keeps it up to date.
 struct JobView {
     bool running = false;
     bool cancelling = false;
@@ -69,7 +69,8 @@ struct ViewerState;
 /// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
 const PartFile* examined(const ViewerState& state);
 
-/// All the window shows. Only actions and finished jobs change it.
+/// All the window shows. Only a ViewerModel changes it: by actions, with the news of its jobs, and what follows the mouse and the
+/// size of the views.
 struct ViewerState {
     Document document;
     History history;

@@ -53,6 +53,9 @@ struct StoredPicks {
     std::optional<std::array<StoredCorner, 4>> corners; ///< of the grid, where the user chose them
 };
 
+/// The part that picks belong to. @throws InputError if none is open
+const PartFile& picked_part(const Document& document);
+
 /// The same for two meshes with the same coordinates, triangles and numbers in the file, and practically only for these.
 std::string fingerprint(const PartFile& part);
 

@@ -13,8 +13,8 @@
 
 namespace spia::viewer {
 
-/// The state and the only two things that change it: actions and finished jobs. Knows no window, so that tests do all that
-/// users do.
+/// The state and all that changes it: actions, the news of jobs, the mouse over a view (hover) and the size of the views.
+/// Knows no window, so that tests do all that users do.
 class ViewerModel {
 public:
     /// @param assets folder with materials/ and parts/
@@ -49,6 +49,8 @@ public:
     Pickers& pickers() { return pickers_; }
     /// Whether a job is running; closing the window then cancels it.
     bool busy() const { return chain_job_ || export_job_; }
+    /// How many times a part or project was begun to be opened: an action for that either counts here or leaves all as it was.
+    int openings() const { return openings_; }
     /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
     /// has not been moved since it was fitted is so again.
     void resized(View view, glm::dvec2 size, double scale = 1);
@@ -86,6 +88,7 @@ private:
     bool dragging_ = false;          ///< a corner: the grid is coarse
     std::optional<Stage> next_;      ///< run this far when the running job has ended
     int said_ = 0;                   ///< messages so far
+    int openings_ = 0;
     bool opening_ = false;           ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part
     Pickers pickers_;

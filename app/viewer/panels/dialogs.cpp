@@ -88,7 +88,7 @@ void unsaved_dialog(Frame& frame)
     ImGui::EndPopup();
 }
 
-/// Work of a program that crashed: nothing happens to it without an answer.
+/// Unsaved work that is out of sight: nothing happens to it without an answer.
 void recovery_dialog(Frame& frame)
 {
     constexpr const char* title = "Unsaved work";
@@ -98,8 +98,7 @@ void recovery_dialog(Frame& frame)
     if (!begin_dialog(frame, title, !ImGui::IsPopupOpen(title), 440))
         return;
     ImGui::PushTextWrapPos(0);
-    ImGui::Text("The program ended without saving %s.",
-                left->name.empty() ? "your work on a part" : left->name.c_str());
+    ImGui::TextUnformatted(left->text.c_str());
     ImGui::PopTextWrapPos();
     figure(frame, "Last kept", left->saved);
     ImGui::Dummy({0, 2 * frame.ui.scale});

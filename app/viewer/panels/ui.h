@@ -27,10 +27,11 @@ struct KeyPress {
     int key, modifiers;
 };
 
-/// Work that was left behind by a crash, and the user's word on it; without one it stays.
+/// Work that is not saved and out of sight, after a crash or an opening that failed, and the user's word on it; without one
+/// it stays.
 struct LeftWork {
     enum class Answer { none, recover, discard, later };
-    std::string name;  ///< of the project or part
+    std::string text;  ///< what became of it
     std::string saved; ///< when, in words
     Answer answer = Answer::none;
 };

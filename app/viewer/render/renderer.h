@@ -29,6 +29,8 @@ struct Picture {
     std::vector<uint8_t> rgba; ///< rows from the top, 4 bytes per pixel, sRGB, not multiplied by the opacity
 };
 
+class SceneDrawer;
+
 /// Draws scenes with OpenGL 3.3 core. Made, used and destroyed on one thread while the same context is current.
 class Renderer {
 public:
@@ -80,8 +82,7 @@ public:
     static std::filesystem::path default_shader_folder();
 
 private:
-    struct Gpu;
-    std::unique_ptr<Gpu> gpu_;
+    std::unique_ptr<SceneDrawer> drawer_;
 };
 
 } // namespace spia::viewer

@@ -47,9 +47,8 @@ struct LooseLineBuffer {
 /// when nobody holds it any more.
 class Uploads {
 public:
-    /// @throws Error if an index names a vertex that does not exist, or a field or marks do not have one value per
-    /// vertex
-    ///               or face of the mesh
+    /// Uploads what is not there yet. A field has one value per vertex or face of its mesh, marks one per face.
+    /// @throws Error if these counts are wrong, or an index names a vertex that does not exist
     MeshBuffer& of(const std::shared_ptr<const SceneMesh>& mesh);
     ValueBuffer& of(const std::shared_ptr<const SceneField>& field, const SceneMesh& on);
     ValueBuffer& of(const std::shared_ptr<const FaceMarks>& marks, const SceneMesh& on);

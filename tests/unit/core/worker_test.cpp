@@ -1,5 +1,6 @@
 #include "engine/core/worker.h"
 
+#include <chrono>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -74,15 +75,32 @@ TEST(Worker, LeavesOutWhatNobodyWaitsForAndEndsWithWorkLeft)
         EXPECT_FALSE(made);
         (void)busy;
     }
-    Gate closed;
+}
+
+TEST(Worker, EndsAfterWhatItIsMakingAndLeavesOutTheRest)
+{
+    Gate begun, gate;
+    std::atomic<bool> made = false, also = false;
     std::optional<Worker> worker(std::in_place);
     const auto busy = worker->later([&] {
-        closed.pass();
-        return 0;
+        begun.let_pass();
+        gate.pass();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the destructor has to wait meanwhile
+        return made = true;
     });
-    const auto left = worker->later([&] { return made = true; });
-    closed.let_pass();
-    worker.reset(); // does not hang
+    const auto left = worker->later([&] { return also = true; });
+    begun.pass();
+    std::thread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the destructor runs by now
+        gate.let_pass();
+    });
+    worker.reset();
+    EXPECT_TRUE(made) << "it has waited for what was being made";
+    EXPECT_TRUE(busy.ready());
+    EXPECT_TRUE(left.wanted());
+    EXPECT_FALSE(left.ready());
+    EXPECT_FALSE(also);
+    later.join();
 }
 
 } // namespace spia

@@ -8,7 +8,7 @@
 #include "app/viewer/model/project_file.h"
 #include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
-#include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/viewer/own_home.h"
 #include "tests/unit/viewer/viewer_samples.h"
 
 namespace spia::viewer {
@@ -16,35 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A home folder of its own for one test.
-class RecentFiles : public ::testing::Test {
+/// With parts in it.
+class RecentFiles : public OwnHome {
 protected:
-    void SetUp() override
-    {
-        for (size_t i = 0; i < std::size(names_); ++i)
-            if (const char* value = std::getenv(names_[i]))
-                before_[i] = value;
-        ::setenv("HOME", (folder / "").c_str(), 1);
-        ::unsetenv("XDG_CONFIG_HOME");
-        ::unsetenv("XDG_STATE_HOME");
-    }
-    void TearDown() override
-    {
-        for (size_t i = 0; i < std::size(names_); ++i)
-            before_[i] ? ::setenv(names_[i], before_[i]->c_str(), 1) : ::unsetenv(names_[i]);
-    }
-
     fs::path part(const std::string& name)
     {
         put(folder / name, "v 0 0 0\n");
         return folder / name;
     }
-
-    ScratchFolder folder;
-
-private:
-    static constexpr const char* names_[] = {"HOME", "XDG_CONFIG_HOME", "XDG_STATE_HOME"};
-    std::optional<std::string> before_[3];
 };
 using UnfinishedWork = RecentFiles;
 

@@ -1,0 +1,175 @@
+#include "app/viewer/model/kept_work.h"
+
+#include <fmt/chrono.h>
+#include <utility>
+#include <variant>
+
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string in_words(std::filesystem::file_time_type time)
+{
+    const auto saved = std::chrono::file_clock::to_sys(time);
+    const auto age = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now() - saved);
+    const std::time_t seconds =
+        std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::system_clock::duration>(saved));
+    return fmt::format("{:%d %b %Y, %H:%M} ({})", fmt::localtime(seconds), ago(age));
+}
+
+std::string name_of(const UnfinishedSession& work)
+{
+    const std::string name = work.name();
+    return name.empty() ? "your work on a part" : name;
+}
+
+void discard_of(std::optional<UnfinishedSession>& work)
+{
+    if (work)
+        work->discard();
+    work.reset();
+}
+
+/// Waits for what is being written, if anything is. @returns whether it is there
+bool finish(Eventually<bool>& writing)
+{
+    const Eventually<bool> last = std::exchange(writing, {});
+    try {
+        return last.wanted() && last.get();
+    } catch (const std::exception&) { // whoever needs it writes it again
+        return false;
+    }
+}
+
+} // namespace
+
+bool KeptWork::look_for_left()
+{
+    offer_.reset();
+    offered_ = unfinished_session();
+    if (offered_)
+        offer_ = {fmt::format("The program ended without saving {}.", name_of(*offered_)), in_words(offered_->time())};
+    return offer_.has_value();
+}
+
+OpenProject KeptWork::recover()
+{
+    offer_.reset();
+    recovering_ = std::exchange(offered_, std::nullopt);
+    return {recovering_->file()};
+}
+
+void KeptWork::discard()
+{
+    discard_of(offered_);
+    look_for_left();
+}
+
+void KeptWork::later()
+{
+    offer_.reset();
+    offered_.reset();
+}
+
+Eventually<bool> KeptWork::write(const Document& document, const ViewSettings& view,
+                                 const std::filesystem::path& project)
+{
+    return worker_.later([autosave = autosave_, document, view, project] {
+        autosave->save(document, view, project);
+        return true;
+    });
+}
+
+void KeptWork::open(ViewerModel& model, const Action& action)
+{
+    const ViewerState& state = model.state();
+    const bool leaves_work = state.unsaved && state.document.session.part;
+    const Document document = state.document;
+    const ViewSettings view = state.view;
+    const std::filesystem::path project = state.project;
+    const int openings = model.openings();
+    model.apply(action);
+    if (model.openings() == openings) // it did not even begin, and what was open still is
+        return;
+    if (leaves_work) {
+        Eventually<bool> written = write(document, view, project);
+        aside_ = Aside{std::exchange(autosave_, std::make_shared<Autosave>()), std::move(written),
+                       std::exchange(recovered_, std::nullopt)};
+        writing_ = {};
+    }
+    recovered_.reset();
+    const auto* opened = std::get_if<OpenProject>(&action);
+    if (opened && recovering_ && opened->file == recovering_->file())
+        recovered_ = std::move(recovering_);
+    recovering_.reset();
+}
+
+void KeptWork::follow(ViewerModel& model, bool now_and_then)
+{
+    const ViewerState& state = model.state();
+    if (aside_ && state.document.session.part) { // what was to be opened is there
+        finish(aside_->written);
+        aside_->autosave->clear();
+        discard_of(aside_->recovered);
+        aside_.reset();
+    } else if (aside_ && !model.busy()) {
+        offer_aside(model);
+    }
+    if (writing_.ready()) {
+        try {
+            std::exchange(writing_, {}).get();
+            discard_of(recovered_); // it lives on in the new one
+        } catch (const std::exception& error) {
+            model.say(Severity::warning, fmt::format("Autosave failed: {}", error.what()));
+        }
+    }
+    if (!now_and_then || !state.unsaved || !state.document.session.part || model.busy() || writing_.wanted() ||
+        Clock::now() - last_ < interval_)
+        return;
+    last_ = Clock::now();
+    writing_ = write(state.document, state.view, state.project);
+}
+
+void KeptWork::offer_aside(ViewerModel& model)
+{
+    Aside left = std::move(*std::exchange(aside_, std::nullopt));
+    try {
+        left.written.get();
+        discard_of(left.recovered); // it lives on in the new one
+        offered_ = left.autosave->leave_behind();
+    } catch (const std::exception& error) {
+        model.say(Severity::warning, fmt::format("The unsaved work could not be kept: {}", error.what()));
+        offered_ = std::move(left.recovered);
+    }
+    if (offered_)
+        offer_ = {fmt::format("{} could not be opened. Your unsaved work on {} is kept.",
+                              model.state().document.session.file.filename().string(), name_of(*offered_)),
+                  in_words(offered_->time())};
+}
+
+void KeptWork::keep(const ViewerState& state)
+{
+    finish(writing_);
+    autosave_->save(state.document, state.view, state.project);
+    discard_of(recovered_);
+}
+
+void KeptWork::forget()
+{
+    finish(writing_);
+    autosave_->clear();
+    discard_of(recovered_);
+}
+
+void KeptWork::end()
+{
+    if (aside_ && finish(aside_->written))
+        discard_of(aside_->recovered);
+    finish(writing_);
+    autosave_->clear();
+}
+
+} // namespace spia::viewer

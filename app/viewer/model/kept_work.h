@@ -1,0 +1,68 @@
+#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/viewer/model/recent_files.h"
+#include "app/viewer/model/viewer_model.h"
+#include "engine/core/worker.h"
+
+namespace spia::viewer {
+
+/// What becomes of work that is not saved in a project: it is kept now and then, and when something else is opened instead; it
+/// is forgotten once it is saved or the other part is really there, and offered to the user if that fails, or after a crash.
+/// Files are written on a thread of their own.
+class KeptWork {
+public:
+    /// @param wake  called on the writing thread when something is written
+    explicit KeptWork(std::function<void()> wake = [] {}) : worker_(std::move(wake)) {}
+
+    /// Work that is out of sight: why, and when it was kept; in words.
+    struct Offer {
+        std::string text, saved;
+    };
+    /// Looks for work of a program that ended without saving. @returns whether there is any
+    bool look_for_left();
+    /// What the user has to be asked about; null: nothing. One of the next three is the answer.
+    const Offer* offer() const { return offer_ ? &*offer_ : nullptr; }
+    OpenProject recover(); ///< give this to open()
+    void discard();        ///< for good; there may be older work, which is offered next
+    void later();          ///< at the next start
+
+    /// Applies OpenPart or OpenProject. The work that is open and not saved is kept until the new part is there.
+    void open(ViewerModel& model, const Action& action);
+    /// Once a frame: forgets or offers what was left for another part; keeps unsaved work every 30 s.
+    /// @param now_and_then  whether it does the latter
+    void follow(ViewerModel& model, bool now_and_then);
+    /// Waits until the work is kept. @throws ExchangeError if it cannot be written
+    void keep(const ViewerState& state);
+    /// The work is saved in a project, or it is thrown away on purpose: nothing of it need be kept.
+    void forget();
+    /// A clean end. What was left for a part that has not been opened yet stays for the next start.
+    void end();
+
+private:
+    /// Left for another part that is not there yet.
+    struct Aside {
+        std::shared_ptr<Autosave> autosave;
+        Eventually<bool> written;
+        std::optional<UnfinishedSession> recovered;
+    };
+    Eventually<bool> write(const Document& document, const ViewSettings& view, const std::filesystem::path& project);
+    void offer_aside(ViewerModel& model);
+
+    static constexpr std::chrono::seconds interval_{30};
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::shared_ptr<Autosave> autosave_ = std::make_shared<Autosave>(); ///< of what is open
+    Eventually<bool> writing_;                                          ///< it
+    std::optional<UnfinishedSession> recovered_;                        ///< open now, and not yet kept otherwise
+    std::optional<UnfinishedSession> recovering_;                       ///< being opened
+    std::optional<UnfinishedSession> offered_;
+    std::optional<Offer> offer_;
+    std::optional<Aside> aside_;
+    Worker worker_; ///< last: it ends first
+};
+
+} // namespace spia::viewer

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <fmt/core.h>
+#include <set>
+
+#include "app/viewer/model/changed_part.h"
+#include "app/viewer/model/file_numbers.h"
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+void require_sound(const StoredPatch& patch, const std::string& what)
+{
+    const auto fail = [&](const char* why) {
+        throw InputError(fmt::format("the faces of {} are damaged: {}; pick them again", what, why));
+    };
+    if (patch.triangle.cols() != Eigen::Index(patch.face.size()))
+        fail("each needs one triangle");
+    if (!patch.piece.empty() && patch.piece.size() != patch.face.size())
+        fail("each needs one piece, or none has any");
+    if (patch.triangle.size() > 0 && (patch.triangle.minCoeff() < 0 || patch.triangle.maxCoeff() >= patch.point.cols()))
+        fail("a triangle names a point that is not there");
+}
+
+/// Picks by number; nothing if a number is not the part's.
+std::optional<std::vector<int>> by_number(const PartFile& part, const StoredPatch& patch)
+{
+    const FaceNumbers numbers(part);
+    std::set<int> found;
+    for (size_t i = 0; i < patch.face.size(); ++i) {
+        const int triangle = numbers.triangle(patch.face[i], patch.piece.empty() ? 0 : patch.piece[i]);
+        if (triangle < 0)
+            return {};
+        found.insert(triangle);
+    }
+    return std::vector<int>(found.begin(), found.end());
+}
+
+std::string near(const Eigen::Vector3d& at) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", at[0], at[1], at[2]); }
+
+/// Finds picks again, on the same part by number, and says what is lost.
+class Restorer {
+public:
+    Restorer(const PartFile& part, bool same) : part_(part)
+    {
+        if (!same)
+            changed_.emplace(part.mesh);
+    }
+
+    std::vector<int> faces(const StoredPatch& patch, const std::string& what)
+    {
+        require_sound(patch, what);
+        if (!changed_)
+            if (auto found = by_number(part_, patch))
+                return *found;
+        int lost;
+        Eigen::Vector3d where;
+        std::vector<int> found = changed().find(patch, lost, where);
+        if (lost > 0)
+            missing.push_back(
+                fmt::format("{} of the {} faces of {} are not on the changed part any more, the first one "
+                            "near {}; check {}",
+                            lost, patch.face.size(), what, near(where), what));
+        return found;
+    }
+
+    std::optional<Probe> probe(const StoredProbe& stored, size_t number)
+    {
+        if (!changed_)
+            if (const int triangle = FaceNumbers(part_).triangle(stored.face, stored.piece); triangle >= 0)
+                return Probe{triangle, stored.barycentric};
+        const ClosestPoint found = changed().find(stored.at, stored.normal);
+        if (found.face >= 0)
+            return Probe{found.face, found.barycentric};
+        missing.push_back(fmt::format("probe {} near {} is not on the changed part any more; it was removed",
+                                      number + 1, near(stored.at)));
+        return {};
+    }
+
+    std::vector<int> vertices(const std::vector<StoredVertex>& stored)
+    {
+        std::set<int> found;
+        std::vector<Eigen::Vector3d> lost;
+        for (const StoredVertex& each : stored) {
+            const int vertex = changed_ ? -1 : numbered(each.vertex);
+            if (const int now = vertex >= 0 ? vertex : changed().find_vertex(each); now >= 0)
+                found.insert(now);
+            else
+                lost.push_back(each.at);
+        }
+        if (!lost.empty())
+            missing.push_back(
+                fmt::format("{} of the {} picked vertices are not on the changed part any more, the first "
+                            "one near {}; they were removed",
+                            lost.size(), stored.size(), near(lost.front())));
+        if (const size_t merged = stored.size() - lost.size() - found.size(); merged > 0)
+            missing.push_back(
+                fmt::format("{} of the {} picked vertices have become one with another on the changed part", merged,
+                            stored.size()));
+        return {found.begin(), found.end()};
+    }
+
+    std::optional<std::array<int, 4>> corners(const std::array<StoredCorner, 4>& stored)
+    {
+        std::array<int, 4> result;
+        for (size_t k = 0; k < 4; ++k) {
+            const bool known =
+                std::binary_search(part_.source_vertex.begin(), part_.source_vertex.end(), stored[k].vertex);
+            if (!changed_ && known) {
+                result[k] = stored[k].vertex;
+                continue;
+            }
+            const int vertex = changed().find_corner(stored[k].at);
+            if (vertex < 0) {
+                missing.push_back(
+                    fmt::format("corner {} of the grid, near {}, is not on the outline of the changed part "
+                                "any more; all four are chosen automatically, drag them if need be",
+                                k + 1, near(stored[k].at)));
+                return {};
+            }
+            result[k] = part_.source_vertex[size_t(vertex)];
+        }
+        if (std::set(result.begin(), result.end()).size() < 4) {
+            missing.push_back("two corners of the grid have become one on the changed part; all four are chosen "
+                              "automatically, drag them if need be");
+            return {};
+        }
+        return result;
+    }
+
+    std::vector<std::string> missing;
+
+private:
+    /// The vertex with this number in the file; -1 if there is none.
+    int numbered(int in_file) const
+    {
+        const std::vector<int>& numbers = part_.source_vertex;
+        const auto found = std::lower_bound(numbers.begin(), numbers.end(), in_file);
+        return found != numbers.end() && *found == in_file ? int(found - numbers.begin()) : -1;
+    }
+
+    const ChangedPart& changed()
+    {
+        if (!changed_)
+            changed_.emplace(part_.mesh);
+        return *changed_;
+    }
+
+    const PartFile& part_;
+    std::optional<ChangedPart> changed_;
+};
+
+} // namespace
+
+std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks)
+{
+    const PartFile& part = picked_part(document);
+    Restorer restorer(part, picks.fingerprint == fingerprint(part));
+    Document restored = document; // all or nothing
+    restored.selected = restorer.faces(picks.selected, "the selection");
+    restored.vertices = restorer.vertices(picks.vertices);
+    restored.regions.clear();
+    for (const StoredRegion& region : picks.regions)
+        restored.regions.push_back({region.name, region.kind, region.colour,
+                                    restorer.faces(region.patch, fmt::format("the region \"{}\"", region.name))});
+    restored.probes.clear();
+    for (size_t i = 0; i < picks.probes.size(); ++i)
+        if (const auto probe = restorer.probe(picks.probes[i], i))
+            restored.probes.push_back(*probe);
+    restored.session.options.corners = picks.corners ? restorer.corners(*picks.corners) : std::nullopt;
+    document = std::move(restored);
+    return restorer.missing;
+}
+
+} // namespace spia::viewer

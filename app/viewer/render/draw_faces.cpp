@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include "app/viewer/render/scene_drawer.h"
+#include "app/viewer/views/colours.h"
+#include "app/viewer/views/palette.h"
+
+namespace spia::viewer {
+namespace {
+
+// Texture units. Samplers of different kinds must not share one, even unused.
+constexpr int unit_map = 0, unit_values = 1, unit_marks = 2;
+
+constexpr float ghost_push = 8; // of the lift of lines: a few pixels, or a hundredth of the part
+} // namespace
+
+void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
+{
+    const MeshBuffer& mesh = uploads_.of(layer.mesh);
+    ShaderProgram& shader = mesh_shader_;
+    shader.use();
+    place(shader, pass, layer.mesh->origin);
+    shader.set("push", transparent(layer) ? ghost_push * pass.lift : 0.f); // or it would show through what lies on it
+    shader.set("front", layer.colour);
+    shader.set("back", Colour{layer.back[0], layer.back[1], layer.back[2], layer.colour[3]});
+    shader.set("lit", layer.lit);
+    shader.set("pixel", pass.look.content_scale);
+    shader.set("corner", glm::vec2(pass.tile.corner));
+    shader.set("map", unit_map);
+    shader.set("face_value", unit_values);
+    shader.set("face_mark", unit_marks);
+    shader.set("selected_colour", palette::selected);
+
+    glBindVertexArray(mesh.array);
+    glDisableVertexAttribArray(2);
+    shader.set("has_field", layer.field != nullptr);
+    if (layer.field) {
+        const ValueBuffer& field = uploads_.of(layer.field, *layer.mesh);
+        shader.set("per_face", layer.field->per_face);
+        shader.set("least", layer.scale.least);
+        shader.set("greatest", layer.scale.greatest);
+        shader.set("bands", layer.scale.bands);
+        shader.set("ticks", std::max(1, layer.scale.ticks));
+        shader.set("isolines", layer.scale.isolines);
+        shader.set("no_value", no_value);
+        glActiveTexture(GL_TEXTURE0 + unit_map);
+        glBindTexture(GL_TEXTURE_1D, maps_[size_t(layer.scale.map)]);
+        if (field.by_face) {
+            glActiveTexture(GL_TEXTURE0 + unit_values);
+            glBindTexture(GL_TEXTURE_BUFFER, *field.by_face);
+        } else {
+            glBindBuffer(GL_ARRAY_BUFFER, field.values);
+            glVertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+            glEnableVertexAttribArray(2);
+        }
+    }
+    shader.set("has_marks", layer.marks != nullptr);
+    if (layer.marks) {
+        std::vector<Colour> regions = pass.scene.region_colours;
+        regions.resize(FaceMarks::region + 1, Colour{1, 1, 1, 1});
+        shader.set("region_colour", regions);
+        glActiveTexture(GL_TEXTURE0 + unit_marks);
+        glBindTexture(GL_TEXTURE_BUFFER, *uploads_.of(layer.marks, *layer.mesh).by_face);
+    }
+    glDrawElements(GL_TRIANGLES, mesh.indices, GL_UNSIGNED_INT, nullptr);
+}
+
+} // namespace spia::viewer
