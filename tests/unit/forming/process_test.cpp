@@ -70,6 +70,8 @@ TEST(Process, ADrawbeadRestrainsAcrossItsLineWithItsForceTimesItsLength)
     process.drawbeads = {{"bead", {{20, 5, 0}, {20, 35, 0}}, 80}};
     const ExternalForces out = forces(process, part);
     EXPECT_LT((sum_across(out) - Eigen::Vector3d(80 * 30, 0, 0)).norm(), 1e-9);
+    process.drawbeads[0].line.push_back({20, 5, 0}); // there and back: two beads, and not none
+    EXPECT_LT((sum_across(forces(process, part)) - Eigen::Vector3d(80 * 60, 0, 0)).norm(), 1e-9);
     for (const Restraint& r : out.restraint) {
         EXPECT_NEAR(std::abs(r.across[0]), 1, 1e-12);
         EXPECT_NEAR(part.position(0, r.vertex), 20, 50.0 / 7); // within the faces that it crosses
