@@ -370,7 +370,8 @@ void ViewerModel::resized(View view, glm::dvec2 size, double scale)
 /// Beside what is shown there is room for the legend if there is one.
 Margins ViewerModel::margins(View view) const
 {
-    constexpr double around = 24, legend = 72; // pixels
+    constexpr double around = 24;                        // pixels
+    const double legend = view == View::quads ? 92 : 72; // its title is long
     const Document& document = state_.document;
     const bool coloured = view == View::quads     ? state_.view.quad_quality
                           : view == View::surface ? state_.view.surface_deviation

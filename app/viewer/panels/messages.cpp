@@ -113,7 +113,8 @@ MessageStrip message_strip(Frame& frame, float width)
         height +=
             ImGui::CalcTextSize(message.text.c_str(), nullptr, false, std::max(wrap, 60.f)).y + style.ItemSpacing.y;
     if (height > 0)
-        height = std::max(height - style.ItemSpacing.y, ImGui::GetTextLineHeight()) + 2 * style.WindowPadding.y;
+        height = std::max(height - style.ItemSpacing.y, ImGui::GetTextLineHeight()) + 2 * style.WindowPadding.y +
+                 4 * frame.ui.scale;
     height = std::min(height, 0.3f * ImGui::GetIO().DisplaySize.y);
     // What is being dragged does not move away under the mouse.
     const bool hold = !frame.ui.aside && (frame.ui.busy || frame.ui.dragged_corner);

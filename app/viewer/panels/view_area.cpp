@@ -237,7 +237,7 @@ void view_buttons(Frame& frame, View view)
         return sum;
     };
     const float right = ImGui::GetWindowContentRegionMax().x,
-                title_end = ImGui::GetItemRectSize().x + 2 * style.ItemSpacing.x;
+                title_end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + style.ItemSpacing.x;
     while (items.size() > 1 && whole() > right - title_end)
         items.erase(items.begin());
     ImGui::SameLine(right - whole() + gap);

@@ -35,8 +35,8 @@ void add_worst_cell(Scene& scene, const LaterResults& made, const GridFigures& f
     for (const int node : {lifted.node(i, j), lifted.node(i + 1, j), lifted.node(i, j + 1), lifted.node(i + 1, j + 1)})
         middle += lifted.position.col(node) / 4;
     scene.rings.push_back({middle});
-    scene.labels.push_back(
-        {middle, fmt::format("min {} in {}, {}", value_text(figures.scaled_jacobian, ""), i, j), palette::text(dark)});
+    scene.labels.push_back({middle, fmt::format("min {} in cell {}, {}", value_text(figures.scaled_jacobian, ""), i, j),
+                            palette::text(dark)});
 }
 
 } // namespace

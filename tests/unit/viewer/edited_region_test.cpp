@@ -14,7 +14,7 @@ TEST(EditedRegion, EndsWithItsRegionItsPartAndWhereAnotherTookItsPlace)
     EXPECT_TRUE(still_there(edited, document));
 
     Document renamed = document;
-    renamed.regions[1].name = "c";
+    renamed.regions[1].name += " two";
     renamed.regions[1].kind = RegionKind::other;
     EXPECT_TRUE(still_there(edited, renamed)) << "that is what editing does";
 
