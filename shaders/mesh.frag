@@ -14,6 +14,7 @@ uniform bool has_field, per_face;
 uniform samplerBuffer face_value;
 uniform sampler1D map;
 uniform float least, greatest;
+uniform bool about_zero; // the middle of the map is at zero: place_in_map() in colours.h
 uniform int bands, ticks; // bands 0: smooth
 uniform bool isolines;
 uniform vec4 no_value;
@@ -34,13 +35,19 @@ float stripes(float width, float share)
     return clamp(0.5 * share * width - wave + 0.5, 0.0, 1.0);
 }
 
-vec3 map_colour(float t)
+vec3 map_colour(float share)
 {
+    float t = share;
+    if (about_zero) {
+        float value = least + clamp(share, 0.0, 1.0) * (greatest - least);
+        t = value < 0.0 ? (least < 0.0 ? 0.5 - 0.5 * value / least : 0.0)
+                        : (greatest > 0.0 ? 0.5 + 0.5 * value / greatest : 0.5);
+    }
     float texels = float(textureSize(map, 0));
     return texture(map, (clamp(t, 0.0, 1.0) * (texels - 1.0) + 0.5) / texels).rgb;
 }
 
-/// The outer bands have the colours of the map's ends.
+/// The outer bands have the colours of the scale's ends.
 vec3 band_colour(float band)
 {
     float last = float(bands - 1);

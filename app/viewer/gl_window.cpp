@@ -58,8 +58,14 @@ GlWindow::GlWindow(int width, int height, bool visible)
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     // ImGui's own callbacks, which come later, pass every event on to these.
-    glfwSetCursorPosCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow*, int, int, int) { news() = true; });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow*, double x, double y) {
+        news() = true;
+        mouse().moved({x, y});
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow*, int, int action, int) {
+        news() = true;
+        mouse().button(action == GLFW_PRESS);
+    });
     glfwSetScrollCallback(window_, [](GLFWwindow*, double, double) { news() = true; });
     glfwSetKeyCallback(window_, [](GLFWwindow*, int key, int scan_code, int action, int modifiers) {
         news() = true;
@@ -96,6 +102,25 @@ std::vector<KeyPress>& GlWindow::keys()
 {
     static std::vector<KeyPress> pressed;
     return pressed;
+}
+
+MouseTrail& GlWindow::mouse()
+{
+    static MouseTrail trail;
+    return trail;
+}
+
+void GlWindow::place_mouse()
+{
+    if (const auto at = mouse().next())
+        ImGui::GetIO().MousePos = {float(at->x), float(at->y)};
+}
+
+void GlWindow::call(const std::string& title)
+{
+    if (title != title_)
+        glfwSetWindowTitle(window_, title.c_str());
+    title_ = title;
 }
 
 bool& GlWindow::news()

@@ -1,6 +1,8 @@
 #pragma once
+#include <string>
 #include <vector>
 
+#include "app/viewer/panels/mouse_trail.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/render/renderer.h"
 
@@ -21,11 +23,16 @@ public:
     static Picture picture(int width, int height);
     /// Keys that were pressed since this was last emptied.
     static std::vector<KeyPress>& keys();
+    /// Between the backend's part of a frame and ImGui's: the mouse is where it was pressed or let go since the last frame.
+    static void place_mouse();
+    void call(const std::string& title);
     /// Whether anything has happened since this was last set to false.
     static bool& news();
 
 private:
+    static MouseTrail& mouse();
     GLFWwindow* window_;
+    std::string title_;
 };
 
 /// ImGui with its backends for the window.

@@ -193,6 +193,8 @@ private:
         }
         ImGui_ImplOpenGL3_NewFrame();
         ImGui_ImplGlfw_NewFrame();
+        GlWindow::place_mouse();
+        window_.call(window_title(model_.state()));
         if (options_.exit) // nobody is there: where the mouse happens to be is not to be seen
             ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
         ImGui::NewFrame();

@@ -2,9 +2,11 @@
 
 #include <sys/resource.h>
 
+#include <array>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/coons/cell_quality.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -120,6 +122,14 @@ Json result_json(const FlattenResult& flat)
             {"volume_error", flat.volume_error}};
 }
 
+/// Column and row of the cell with the smallest scaled Jacobian.
+std::array<int, 2> worst_cell(const QuadGrid& planar)
+{
+    int cell = 0;
+    scaled_jacobians(planar).minCoeff(&cell);
+    return {cell % planar.columns, cell / planar.columns};
+}
+
 Json grid_json(const Session& session)
 {
     const GridResult& grid = session.grid->result;
@@ -131,6 +141,7 @@ Json grid_json(const Session& session)
             {"folded_cells", grid.quality.folded_cells},
             {"method", name(grid.route)},
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
+            {"worst_cell", worst_cell(grid.planar)},
             {"corners", corners},
             {"filled_holes", grid.filled->holes}};
 }
@@ -175,9 +186,15 @@ std::vector<std::string> shortcomings(const Session& session)
                             "cut the part or unfold it in steps",
                             n));
     }
-    if (session.grid && session.grid->result.quality.folded_cells > 0)
-        list.push_back(fmt::format("{} cells of the grid are folded; choose other corners or the harmonic method",
-                                   session.grid->result.quality.folded_cells));
+    if (session.grid && session.grid->result.quality.folded_cells > 0) {
+        const CellQuality& quality = session.grid->result.quality;
+        const auto [column, row] = worst_cell(session.grid->result.planar);
+        list.push_back(
+            fmt::format("{} of the grid {} folded, worst the cell in column {}, row {} (scaled Jacobian {:.2f}); "
+                        "choose other corners or the harmonic method",
+                        quality.folded_cells == 1 ? "1 cell" : fmt::format("{} cells", quality.folded_cells),
+                        quality.folded_cells == 1 ? "is" : "are", column, row, quality.min_scaled_jacobian));
+    }
     return list;
 }
 

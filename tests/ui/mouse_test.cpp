@@ -108,6 +108,30 @@ TEST_F(Mouse, PicksFacesAndTakesItBack)
     wait_for("/selection/faces", 0);
 }
 
+TEST_F(Mouse, ADragFasterThanAFrameKeepsItsStart)
+{
+    tool("b", "box");
+    const Json before = viewer->report();
+    const glm::dvec2 from = in_view(before, "part", 0.3, 0.3), to = in_view(before, "part", 0.7, 0.8);
+    viewer->drag(from.x, from.y, to.x, to.y);
+    Json now = viewer->wait("faces in a box", [](const Json& r) { return r["selection"]["faces"] > 100; });
+    const Json in_box = now["selection"];
+    viewer->keys("Escape");
+    wait_for("/selection/faces", 0);
+    viewer->fling(from.x, from.y, to.x, to.y);
+    now = viewer->wait("faces in the same box", [](const Json& r) { return r["selection"]["faces"] > 0; });
+    EXPECT_EQ(now["selection"], in_box);
+
+    const Json solved = unfold();
+    tool("c", "corners");
+    const glm::dvec2 corner = corner_on_screen(solved, 0), there = corner + glm::dvec2(60, 0);
+    viewer->fling(corner.x, corner.y, there.x, there.y);
+    viewer->wait("the corner where the mouse was let go", [&](const Json& r) {
+        return r["options"]["corners"].is_array() && r["job"]["running"] == false && r["corners"].is_array() &&
+               glm::length(corner_on_screen(r, 0) - there) < 25;
+    });
+}
+
 TEST_F(Mouse, TurnsZoomsAndEnlargesViews)
 {
     const Json before = viewer->report();

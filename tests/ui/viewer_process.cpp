@@ -165,6 +165,12 @@ Json OpenViewer::button_is(int button, bool down)
                 [&](const Json& now) { return now["window"]["buttons"][of_report[button]] == down; });
 }
 
+void OpenViewer::fling(double x, double y, double to_x, double to_y)
+{
+    xdotool(fmt::format("mousemove --window {0} {1} {2} mousedown 1 mousemove --window {0} {3} {4} mouseup 1", window_,
+                        std::round(x), std::round(y), std::round(to_x), std::round(to_y)));
+}
+
 Json OpenViewer::press(int button) { return button_is(button, true); }
 Json OpenViewer::release(int button) { return button_is(button, false); }
 

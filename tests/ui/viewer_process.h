@@ -40,6 +40,8 @@ public:
     void hold(const std::string& key);         ///< until let_go()
     void let_go(const std::string& key);
     Json move(double x, double y); ///< of the window; waits until the program has seen it there
+    /// Presses the left button, moves and lets go, all faster than a frame.
+    void fling(double x, double y, double to_x, double to_y);
     Json press(int button);        ///< 1 left, 2 middle, 3 right; waits until it is seen
     Json release(int button);
     Json click(double x, double y);

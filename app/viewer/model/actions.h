@@ -162,6 +162,7 @@ struct FlyToVertex {
 struct ShowFault {
     int finding = 0, entry = 0;
 };
+struct HideFault {}; ///< "hide_fault": its mark goes, the views stay
 
 // --- the document and files
 struct Undo {}; ///< "undo"
@@ -197,8 +198,8 @@ using Action =
                  ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
                  UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
                  ChangeRegion, RemoveRegion, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection,
-                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, Undo,
-                 Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
+                 Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

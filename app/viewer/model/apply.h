@@ -85,6 +85,7 @@ struct ViewerModel::Apply {
     /// Every view shows the middle of some vertices of the part.
     void look_at(const std::vector<int>& vertices);
     void operator()(const ShowFault& action);
+    void operator()(const HideFault&) { state.fault.reset(); }
 
     // --- the document and files
     void operator()(const Undo&) { go(&History::undo); }

@@ -95,6 +95,7 @@ struct SceneLegend {
     std::string unit;  ///< "" for a pure number
     ColourScale scale;
     bool below = false, above = false; ///< there are values outside of the scale, in the colours of its ends
+    std::string note = "";             ///< a line under the title; empty: none
 };
 
 /// One layer of triangles and how it is drawn.

@@ -118,6 +118,7 @@ constexpr std::tuple forms{
     form<FlyToVertex>("fly_to_vertex", required("vertex", &FlyToVertex::vertex, any_index)),
     form<ShowFault>("show_fault", required("finding", &ShowFault::finding, any_index),
                     member("entry", &ShowFault::entry, any_index)),
+    form<HideFault>("hide_fault"),
     form<Undo>("undo"),
     form<Redo>("redo"),
     form<OpenProject>("open_project", required("file", &OpenProject::file, not_empty)),

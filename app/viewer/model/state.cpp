@@ -1,5 +1,6 @@
 #include "app/viewer/model/state.h"
 
+#include "app/viewer/model/chain.h"
 #include "app/viewer/model/names.h"
 
 namespace spia::viewer {
@@ -13,6 +14,38 @@ Tool tool_by_name(std::string_view name) { return value_by_name<Tool>(name); }
 const PartFile* examined(const ViewerState& state)
 {
     return state.refused ? state.refused.get() : state.document.session.part.get();
+}
+
+static LaterResults shown(const ViewerState& state, bool there)
+{
+    const Session& session = state.document.session;
+    if (there)
+        return {session.blank, session.grid, session.lifted, session.surface};
+    return session.blank && state.before.blank == session.blank ? state.before : LaterResults{};
+}
+
+LaterResults quads_shown(const ViewerState& state) { return shown(state, state.document.session.lifted != nullptr); }
+
+LaterResults surface_shown(const ViewerState& state) { return shown(state, state.document.session.surface != nullptr); }
+
+bool is_old(const ViewerState& state, View view)
+{
+    const auto stale = first_stale(state.document);
+    if (!stale)
+        return false;
+    switch (view) {
+    case View::part:
+    case View::blank: return state.document.session.blank && *stale <= Stage::solve;
+    case View::quads: return quads_shown(state).lifted && *stale <= Stage::lift;
+    case View::surface: return surface_shown(state).surface != nullptr;
+    }
+    return false;
+}
+
+std::string window_title(const ViewerState& state)
+{
+    const std::filesystem::path& about = state.project.empty() ? state.document.session.file : state.project;
+    return about.empty() ? "SPIA" : about.stem().string() + (state.unsaved ? "* - SPIA" : " - SPIA");
 }
 
 } // namespace spia::viewer

@@ -65,6 +65,14 @@ struct JobView {
     std::shared_ptr<const Eigen::Matrix2Xd> blank; ///< while it converges; null: nothing yet
 };
 
+/// The later results of a blank: its grid, the quad mesh, the surface.
+struct LaterResults {
+    std::shared_ptr<const FlattenResult> blank;
+    std::shared_ptr<const GridStage> grid;
+    std::shared_ptr<const LiftResult> lifted;
+    std::shared_ptr<const SurfaceStage> surface;
+};
+
 struct ViewerState;
 /// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
 const PartFile* examined(const ViewerState& state);
@@ -77,6 +85,7 @@ struct ViewerState {
     ViewSettings view;
     JobView job;
     std::vector<Message> messages;
+    LaterResults before;           ///< those that a grid being made (a corner being dragged) has put out of date
     std::filesystem::path project; ///< file it was saved to or opened from; empty: none yet
     bool unsaved = false;
     std::optional<int> hovered;              ///< face under the mouse
@@ -84,5 +93,15 @@ struct ViewerState {
     std::optional<ShownFault> fault;         ///< the one that is looked at
     std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
 };
+
+/// What the views of quads and surface show: the results of the session, and while newer ones of the same blank are being made,
+/// those before. Null where there is nothing to show.
+LaterResults quads_shown(const ViewerState& state);
+LaterResults surface_shown(const ViewerState& state);
+/// Whether a view shows results of other options than are wanted now.
+bool is_old(const ViewerState& state, View view);
+
+/// Of the project, else of the part; with a star where something is not saved.
+std::string window_title(const ViewerState& state);
 
 } // namespace spia::viewer

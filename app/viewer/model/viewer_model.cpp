@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <mutex>
 
+#include "app/viewer/model/grid_advice.h"
+#include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
@@ -47,6 +49,7 @@ ViewerModel::~ViewerModel() = default;
 
 void ViewerModel::say(Severity severity, std::string text)
 {
+    text = in_viewer_words(std::move(text));
     constexpr size_t most = 50;
     const auto same = [&](const Message& message) { return message.severity == severity && message.text == text; };
     std::erase_if(state_.messages, same); // said again, it is the newest once more
@@ -153,10 +156,12 @@ void ViewerModel::take_chain_result()
     const bool had_blank = document.session.blank != nullptr;
     result.made_with.flatten.watch = nullptr;
     const std::shared_ptr<const PartFile> part_before = document.session.part;
+    const LaterResults quads = quads_shown(state_), surface = surface_shown(state_);
     for (const std::string& lost : take_over(document, result))
         say(Severity::warning, lost);
     // What was picked during the run is taken back without it.
     state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
+    keep_before(result, quads, surface);
     opening_ = false;
     if (document.session.part != part_before) {
         state_.refused.reset();
@@ -179,6 +184,19 @@ void ViewerModel::take_chain_result()
             say(Severity::warning, text);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
+}
+
+/// A run that has made another grid and went no further leaves the quad mesh and the surface of the last one to be looked at;
+/// where one of them cannot be made of the grid, there is none.
+void ViewerModel::keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface)
+{
+    const Session& session = state_.document.session;
+    state_.before = {};
+    if (result.failed == Stage::lift || result.failed == Stage::fit || session.surface || !session.grid)
+        return;
+    const LaterResults& last = surface.surface ? surface : quads;
+    if (last.blank == session.blank)
+        state_.before = last;
 }
 
 /// Puts the results of a run into a document. On a part that was read otherwise the picks stay where they are in space.
@@ -224,8 +242,10 @@ void ViewerModel::say_failed(const ChainResult& result)
     const bool reading = *result.failed == Stage::read;
     state_.refused = result.refused;
     if (!state_.refused || !reading) {
-        say(Severity::error,
-            fmt::format("{} {}", sentence(result.message), reading ? "Choose another file." : advice(*result.failed)));
+        say(Severity::error, fmt::format("{} {}", sentence(result.message),
+                                         reading                         ? "Choose another file."
+                                         : *result.failed == Stage::grid ? grid_advice(result.session)
+                                                                         : advice(*result.failed)));
         return;
     }
     const auto& findings = state_.refused->doctor.findings;
@@ -350,7 +370,8 @@ void ViewerModel::resized(View view, glm::dvec2 size, double scale)
 /// Beside what is shown there is room for the legend if there is one.
 Margins ViewerModel::margins(View view) const
 {
-    constexpr double around = 24, legend = 72; // pixels
+    constexpr double around = 24;                        // pixels
+    const double legend = view == View::quads ? 92 : 72; // its title is long
     const Document& document = state_.document;
     const bool coloured = view == View::quads     ? state_.view.quad_quality
                           : view == View::surface ? state_.view.surface_deviation

@@ -64,6 +64,7 @@ private:
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
     static std::vector<std::string> take_over(Document& document, const ChainResult& result);
+    void keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface);
     void say_failed(const ChainResult& result);
     void take_export_result();
     void fit(std::optional<View> view);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/viewer/model/figures.h"
 #include "app/viewer/model/point_cloud.h"
 #include "app/viewer/model/section.h"
 #include "app/viewer/model/statistics.h"
@@ -29,8 +30,24 @@ struct Charts {
     Memo<Figures, Blank, Surface, Field, bool> figures;
     Memo<Eigen::VectorXd, Blank, Surface, Field, bool> values; ///< of the field: per vertex, or per face
     Memo<std::vector<SectionPiece>, std::shared_ptr<const PartFile>, Blank, Surface, Field, std::optional<SectionLine>>
-        section;
+        section, section_elsewhere;
     Memo<PointCloud, Blank, int, int> strains;
+    Memo<PartFigures, std::shared_ptr<const PartFile>> part, refused;
+    Memo<SheetFigures, Blank> sheet;
+    Memo<GridFigures, std::shared_ptr<const GridStage>, Blank> grid;
+};
+
+/// Of the results there are; the part, the blank, the grid must be there.
+const PartFigures& part_figures(Frame& frame);
+/// Of the one that the mesh doctor's panel is about.
+const PartFigures& examined_figures(Frame& frame);
+const SheetFigures& sheet_figures(Frame& frame);
+const GridFigures& grid_figures(Frame& frame);
+
+/// A place of the section plot under the mouse, to be marked in the views.
+struct SectionMark {
+    SectionPlace place;
+    int frame = 0; ///< of ImGui, in which the mouse was there: the views of the next one show it
 };
 
 /// Of the field that is shown.
@@ -38,6 +55,8 @@ const Figures& figures(Frame& frame);
 
 /// The cut along the section line that was drawn, with the field shown; empty: there is none.
 const std::vector<SectionPiece>& section_of(Frame& frame);
+/// The same pieces as a view shows them: on the part, or on the blank.
+const std::vector<SectionPiece>& section_in(Frame& frame, View view);
 
 /// The field along the section line.
 void section_plot(Frame& frame);

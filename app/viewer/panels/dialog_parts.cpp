@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cfloat>
 
+#include "app/viewer/model/suggested_files.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -88,11 +89,29 @@ Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const I
     return answer;
 }
 
-std::string beside_part(const Frame& frame, const std::string& ending)
+std::filesystem::path suggested_file(const Frame& frame, const std::string& ending)
 {
-    std::filesystem::path file = std::filesystem::absolute(frame.state.document.session.file);
-    file.replace_filename(file.stem().string() + ending);
-    return file.string();
+    return suggested_file(frame.state, frame.ui.recent, frame.model.assets(), ending);
+}
+
+void choose_part(Frame& frame)
+{
+    const std::filesystem::path& file = frame.state.document.session.file;
+    const std::filesystem::path folder = working_folder(frame.state, frame.ui.recent, frame.model.assets());
+    const bool here = file.has_filename() && std::filesystem::absolute(file).parent_path() == folder;
+    frame.ui.files.open(FileDialog::Purpose::open_part, here ? std::filesystem::absolute(file) : folder);
+}
+
+void choose_project(Frame& frame)
+{
+    frame.ui.files.open(FileDialog::Purpose::open_project,
+                        frame.state.project.empty() ? working_folder(frame.state, frame.ui.recent, frame.model.assets())
+                                                    : frame.state.project);
+}
+
+void choose_project_name(Frame& frame)
+{
+    frame.ui.files.open(FileDialog::Purpose::save_project, suggested_file(frame, std::string(project_ending)));
 }
 
 void follow(std::string& path, std::string& suggested, const std::string& suggestion)

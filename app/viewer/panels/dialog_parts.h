@@ -29,8 +29,13 @@ void replaced_note(const Frame& frame, const std::filesystem::path& file);
 enum class Answer { none, yes, cancel };
 Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const ImVec4& colour);
 
-/// A file beside the part: its name with this instead of its ending.
-std::string beside_part(const Frame& frame, const std::string& ending);
+/// A file in the folder where the user works, see model/suggested_files.h.
+std::filesystem::path suggested_file(const Frame& frame, const std::string& ending);
+
+/// Open the file dialog where the user works.
+void choose_part(Frame& frame);
+void choose_project(Frame& frame);
+void choose_project_name(Frame& frame);
 
 /// @param suggested what the path was set to last; as long as the user has typed no other, it follows the part
 void follow(std::string& path, std::string& suggested, const std::string& suggestion);

@@ -68,9 +68,7 @@ void unsaved_dialog(Frame& frame)
     };
     if (primary_button(frame, "Save...")) {
         if (frame.state.project.empty()) {
-            frame.ui.files.open(
-                FileDialog::Purpose::save_project,
-                std::filesystem::path(frame.state.document.session.file).replace_extension(project_ending));
+            choose_project_name(frame);
             frame.ui.after_save = std::exchange(frame.ui.held, std::nullopt);
             ImGui::CloseCurrentPopup();
         } else {

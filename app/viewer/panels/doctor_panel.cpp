@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
-#include "engine/mesh/topology.h"
 
 namespace spia::viewer {
 namespace {
 
-/// "Show", or for a fault in several places back and forth between them.
+/// "Show", which stays pressed; for a fault in several places back and forth between them.
 void show_buttons(Frame& frame, int number, const Finding& finding)
 {
     const int places = int(finding.place.size());
@@ -15,11 +15,20 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
         return;
     const auto& shown = frame.state.fault;
     const bool here = shown && shown->finding == number;
-    if (places == 1 || !here) {
-        if (ImGui::SmallButton("Show"))
-            frame.actions.push(ShowFault{number, 0});
+    if (here)
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    const std::string label = here ? "Shown" : "Show";
+    const float width = ImGui::CalcTextSize("Shown").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
+    if (ImGui::Button(label.c_str(), {width, 0}))
+        frame.actions.push(here ? Action{HideFault{}} : Action{ShowFault{number, 0}});
+    ImGui::PopStyleVar();
+    if (here)
+        ImGui::PopStyleColor();
+    tooltip(here ? "Takes the mark away" : "The views go there and mark it");
+    if (!here || places == 1)
         return;
-    }
+    ImGui::SameLine(0, 8 * frame.ui.scale);
     const auto go = [&](int by) { frame.actions.push(ShowFault{number, (shown->entry + by + places) % places}); };
     if (ImGui::SmallButton("<"))
         go(-1);
@@ -53,10 +62,9 @@ void fix_button(Frame& frame, const Finding& finding)
 }
 
 /// The unit that would make a sheet part of it; nothing if its size is a likely one already.
-std::optional<LengthUnit> likelier_unit(const PartFile& part)
+std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
 {
     constexpr double small = 5, large = 20'000; // mm, as read_part() says
-    const double diagonal = bounding_diagonal(part.mesh);
     if (!(diagonal > 0) || (diagonal >= small && diagonal <= large))
         return std::nullopt;
     for (const LengthUnit unit : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::inch}) {
@@ -71,8 +79,8 @@ std::optional<LengthUnit> likelier_unit(const PartFile& part)
 void file_notes(Frame& frame, const PartFile& part)
 {
     for (const std::string& note : part.notes)
-        muted(frame, note);
-    const auto unit = likelier_unit(part);
+        muted(frame, in_viewer_words(note));
+    const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
     if (!unit || frame.model.busy())
         return;
     if (ImGui::SmallButton(fmt::format("Read it in {}", name(*unit)).c_str()))
@@ -123,7 +131,7 @@ void doctor_panel(Frame& frame)
                 ImGui::TextUnformatted(finding.text.c_str());
             ImGui::PopTextWrapPos();
             if (!finding.advice.empty())
-                muted(frame, finding.advice);
+                muted(frame, in_viewer_words(finding.advice));
             show_buttons(frame, i, finding);
             fix_button(frame, finding);
             ImGui::Dummy({0, 2 * frame.ui.scale});

@@ -165,8 +165,7 @@ void export_dialog(Frame& frame)
     const Session& session = frame.state.document.session;
     const bool appears = std::exchange(frame.ui.show_export, false);
     if (appears) {
-        const fs::path beside = fs::absolute(session.file).parent_path();
-        follow(choices.folder, choices.suggested, (beside / "spia-out").string());
+        follow(choices.folder, choices.suggested, suggested_file(frame, "-out").string());
         choices.planned = {}; // files may have come and gone
         choices.asked = false;
     }

@@ -82,7 +82,8 @@ void field_section(Frame& frame)
     }
     if (available(document.session, display.field) && display.field != Field::none) {
         const Figures& now = figures(frame);
-        const ColourScale legend = field_scale(display, {now.histogram.least, now.histogram.greatest}); // round numbers
+        const ColourScale legend = field_scale(display, {now.histogram.least, now.histogram.greatest},
+                                               part_figures(frame).diagonal); // round numbers
         std::array<double, 2> range = display.range.value_or(std::array{double(legend.least), double(legend.greatest)});
         bool by_hand = display.range.has_value();
         if (ImGui::Checkbox("Range", &by_hand)) {
@@ -117,7 +118,8 @@ void histogram_section(Frame& frame)
     if (now.value.size() == 0 || !ImGui::CollapsingHeader("Histogram", ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const Histogram& h = now.histogram;
-    const ColourScale scale = field_scale(frame.state.document.display, {h.least, h.greatest});
+    const ColourScale scale =
+        field_scale(frame.state.document.display, {h.least, h.greatest}, part_figures(frame).diagonal);
     const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 84 * frame.ui.scale};
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const double highest = std::sqrt(*std::max_element(h.share.begin(), h.share.end()));

@@ -19,8 +19,16 @@ std::optional<PixelBox> draw_legend(const Frame& frame, const Scene& scene, ImVe
     const float height = std::min(200 * s, size.y - 110 * s), width = 13 * s;
     const ImVec2 low{from.x + 14 * s, from.y + size.y - 18 * s}, high{low.x + width, low.y - height};
     const bool dark = frame.state.view.dark;
-    const ImU32 text = dark ? IM_COL32(235, 238, 242, 255) : IM_COL32(24, 28, 34, 255),
-                halo = dark ? IM_COL32(20, 24, 30, 200) : IM_COL32(255, 255, 255, 200);
+    const ImU32 text = dark ? IM_COL32(235, 238, 242, 255) : IM_COL32(24, 28, 34, 255);
+    ImGui::PushFont(frame.ui.fonts.small);
+    const float line = ImGui::GetTextLineHeight(), label = high.x + 7 * s;
+    const auto ticks = legend_ticks(legend, 1 + int(height / (18 * s)));
+    float right = low.x + std::max(ImGui::CalcTextSize(title.c_str()).x, ImGui::CalcTextSize(legend.note.c_str()).x);
+    for (const LegendTick& tick : ticks)
+        right = std::max(right, label + ImGui::CalcTextSize(tick.text.c_str()).x);
+    const float top = high.y - (legend.note.empty() ? 1.5f : 2.6f) * line, pad = 6 * s;
+    const ImVec2 plate_from{low.x - pad, top - pad}, plate_to{right + pad, low.y + line / 2 + pad / 2};
+    draw->AddRectFilled(plate_from, plate_to, dark ? IM_COL32(24, 28, 34, 205) : IM_COL32(250, 251, 252, 215), 4 * s);
     constexpr int strips = 64;
     for (int k = 0; k < strips; ++k) {
         const float value = scale.least + (float(k) + 0.5f) / strips * (scale.greatest - scale.least);
@@ -28,19 +36,16 @@ std::optional<PixelBox> draw_legend(const Frame& frame, const Scene& scene, ImVe
                             {high.x, low.y - height * float(k) / strips + 0.5f}, ink(colour_of(scale, value)));
     }
     draw->AddRect({low.x, high.y}, {high.x, low.y}, text);
-    ImGui::PushFont(frame.ui.fonts.small);
-    const float line = ImGui::GetTextLineHeight(), label = high.x + 7 * s;
-    float right = low.x + ImGui::CalcTextSize(title.c_str()).x;
-    for (const LegendTick& tick : legend_ticks(legend, 1 + int(height / (18 * s)))) {
+    for (const LegendTick& tick : ticks) {
         const float y = low.y - height * float(tick.share);
         draw->AddLine({high.x, y}, {high.x + 4 * s, y}, text);
-        haloed(draw, {label, y - line / 2}, text, halo, tick.text.c_str());
-        right = std::max(right, label + ImGui::CalcTextSize(tick.text.c_str()).x);
+        draw->AddText({label, y - line / 2}, text, tick.text.c_str());
     }
-    const float top = high.y - 1.5f * line;
-    haloed(draw, {low.x, top}, text, halo, title.c_str());
+    draw->AddText({low.x, top}, text, title.c_str());
+    if (!legend.note.empty())
+        draw->AddText({low.x, top + 1.1f * line}, ink(palette_of(dark).muted), legend.note.c_str());
     ImGui::PopFont();
-    return PixelBox{{low.x - from.x, top - from.y}, {right - from.x, low.y + line / 2 - from.y}};
+    return PixelBox{{plate_from.x - from.x, plate_from.y - from.y}, {plate_to.x - from.x, plate_to.y - from.y}};
 }
 
 } // namespace spia::viewer

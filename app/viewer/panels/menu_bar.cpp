@@ -1,6 +1,7 @@
 #include <optional>
 #include <tuple>
 
+#include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -12,9 +13,9 @@ void menu_bar(Frame& frame)
         return;
     if (ImGui::BeginMenu("File")) {
         if (ImGui::MenuItem("Open part...", "Ctrl+O"))
-            frame.ui.files.open(FileDialog::Purpose::open_part, state.document.session.file);
+            choose_part(frame);
         if (ImGui::MenuItem("Open project..."))
-            frame.ui.files.open(FileDialog::Purpose::open_project, state.project);
+            choose_project(frame);
         if (ImGui::BeginMenu("Recent", !frame.ui.recent.empty())) {
             for (const auto& file : frame.ui.recent)
                 if (ImGui::MenuItem(file.string().c_str())) {
@@ -29,18 +30,12 @@ void menu_bar(Frame& frame)
         const bool part = state.document.session.part != nullptr;
         if (ImGui::MenuItem("Save project", "Ctrl+S", false, part)) {
             if (state.project.empty())
-                frame.ui.files.open(
-                    FileDialog::Purpose::save_project,
-                    std::filesystem::path(state.document.session.file).replace_extension(project_ending));
+                choose_project_name(frame);
             else
                 frame.actions.push(SaveProject{});
         }
         if (ImGui::MenuItem("Save project as...", nullptr, false, part))
-            frame.ui.files.open(
-                FileDialog::Purpose::save_project,
-                state.project.empty()
-                    ? std::filesystem::path(state.document.session.file).replace_extension(project_ending)
-                    : state.project);
+            choose_project_name(frame);
         ImGui::Separator();
         if (ImGui::MenuItem("Export...", "Ctrl+E", false, state.document.session.blank != nullptr))
             frame.ui.show_export = true;

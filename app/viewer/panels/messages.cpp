@@ -7,6 +7,20 @@
 namespace spia::viewer {
 namespace {
 
+constexpr float dot = 18; ///< room before a message, at content scale 1
+
+std::string more_label(size_t more) { return fmt::format("{} more...", more); }
+
+/// With the gap before them.
+float buttons_width(const Frame& frame, size_t more)
+{
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const auto width = [&](const std::string& label) {
+        return ImGui::CalcTextSize(label.c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    };
+    return width("Dismiss") + (more > 0 ? width(more_label(more)) : 0) + 4 * frame.ui.scale;
+}
+
 void message_row(const Frame& frame, const Message& message)
 {
     const Palette p = palette_of(frame.state.view.dark);
@@ -17,7 +31,7 @@ void message_row(const Frame& frame, const Message& message)
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5 * frame.ui.scale, at.y + ImGui::GetTextLineHeight() / 2},
                                                 4 * frame.ui.scale, ink(colour));
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 18 * frame.ui.scale);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + dot * frame.ui.scale);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopTextWrapPos();
@@ -84,37 +98,54 @@ void add_first_steps(Frame& frame, std::vector<Message>& shown)
 
 } // namespace
 
-void messages_overlay(Frame& frame, ImVec2 low_right, float width)
+MessageStrip message_strip(Frame& frame, float width)
 {
-    std::vector<Message> shown = current(frame);
-    add_first_steps(frame, shown);
-    if (shown.empty())
-        return;
+    MessageStrip strip;
+    strip.shown = current(frame);
+    add_first_steps(frame, strip.shown);
     constexpr size_t most = 3;
-    const size_t more = shown.size() > most ? shown.size() - most : 0;
-    shown.resize(shown.size() - more);
-    ImGui::SetNextWindowPos(low_right, ImGuiCond_Always, {1, 1});
-    ImGui::SetNextWindowSize({std::min(width, 460 * frame.ui.scale), 0});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * frame.ui.scale);
-    ImGui::Begin("messages", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    for (const Message& message : shown)
+    strip.more = strip.shown.size() > most ? strip.shown.size() - most : 0;
+    strip.shown.resize(strip.shown.size() - strip.more);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float wrap = width - buttons_width(frame, strip.more) - dot * frame.ui.scale - 2 * style.WindowPadding.x;
+    float height = 0;
+    for (const Message& message : strip.shown)
+        height +=
+            ImGui::CalcTextSize(message.text.c_str(), nullptr, false, std::max(wrap, 60.f)).y + style.ItemSpacing.y;
+    if (height > 0)
+        height = std::max(height - style.ItemSpacing.y, ImGui::GetTextLineHeight()) + 2 * style.WindowPadding.y +
+                 4 * frame.ui.scale;
+    height = std::min(height, 0.3f * ImGui::GetIO().DisplaySize.y);
+    // What is being dragged does not move away under the mouse.
+    const bool hold = !frame.ui.aside && (frame.ui.busy || frame.ui.dragged_corner);
+    strip.height = hold ? frame.ui.message_height : height;
+    frame.ui.message_height = strip.height;
+    return strip;
+}
+
+void draw_messages(Frame& frame, const MessageStrip& strip)
+{
+    if (strip.shown.empty())
+        return;
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_PopupBg));
+    draw->AddLine(at, {at.x + size.x, at.y}, ink(palette_of(frame.state.view.dark).line));
+    const float buttons = buttons_width(frame, strip.more);
+    ImGui::BeginChild("texts", {ImGui::GetContentRegionAvail().x - buttons, 0});
+    for (const Message& message : strip.shown)
         message_row(frame, message);
+    ImGui::EndChild();
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ImGui::GetStyle().ItemSpacing.x);
+    if (strip.more > 0) {
+        if (ImGui::SmallButton(more_label(strip.more).c_str()))
+            frame.ui.show_messages = true;
+        ImGui::SameLine();
+    }
     if (ImGui::SmallButton("Dismiss")) {
         frame.actions.push(DismissMessages{});
         frame.ui.sample = false;
     }
-    if (more > 0) {
-        ImGui::SameLine();
-        if (ImGui::SmallButton(fmt::format("{} more...", more).c_str()))
-            frame.ui.show_messages = true;
-    }
-    ImGui::End();
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
 }
 
 void messages_window(Frame& frame)

@@ -85,7 +85,7 @@ void picture_dialog(Frame& frame)
     if (!begin_dialog(frame, "Picture", appears, 520))
         return;
     const std::string suggestion =
-        beside_part(frame, fmt::format("-{}.png", choices.view ? name(*choices.view) : "window"));
+        suggested_file(frame, fmt::format("-{}.png", choices.view ? name(*choices.view) : "window")).string();
     if (appears || suggestion != choices.suggested)
         follow(choices.file, choices.suggested, suggestion);
     const auto labelled = [&](const char* label) {

@@ -62,7 +62,7 @@ void report_dialog(Frame& frame)
     const Session& session = frame.state.document.session;
     const bool appears = std::exchange(frame.ui.show_report, false);
     if (appears) {
-        follow(choices.file, choices.suggested, beside_part(frame, ".html"));
+        follow(choices.file, choices.suggested, suggested_file(frame, ".html").string());
         if (choices.about != session.file.string())
             options.title = options.remarks = "";
         choices.about = session.file.string();

@@ -22,6 +22,23 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
         });
 }
 
+const std::vector<SectionPiece>& section_in(Frame& frame, View view)
+{
+    const Document& document = frame.state.document;
+    const Session& session = document.session;
+    const std::vector<SectionPiece>& drawn = section_of(frame);
+    if (drawn.empty() || document.section->on_blank == (view == View::blank))
+        return drawn;
+    return frame.ui.charts.section_elsewhere.of(
+        {session.part, session.blank, session.surface, document.display.field, document.section},
+        [&]() -> std::vector<SectionPiece> {
+            Pickers& pickers = frame.model.pickers();
+            const TriMesh* from = pickers.mesh(session, document.section->on_blank ? View::blank : View::part);
+            const TriMesh* to = pickers.mesh(session, document.section->on_blank ? View::part : View::blank);
+            return from && to ? carried(drawn, *from, *to) : std::vector<SectionPiece>{};
+        });
+}
+
 void section_plot(Frame& frame)
 {
     const auto& pieces = section_of(frame);
@@ -32,18 +49,18 @@ void section_plot(Frame& frame)
     } else {
         const Palette p = palette_of(frame.state.view.dark);
         const FieldInfo& field = info(frame.state.document.display.field);
-        double low = 1e300, high = -1e300;
+        double low = 1e300, high = -1e300, length = 0;
         for (const SectionPiece& piece : pieces) {
             low = std::min({low, piece.from_value, piece.to_value});
             high = std::max({high, piece.from_value, piece.to_value});
+            length = std::max(length, piece.to_arc);
         }
-        const double length = (frame.state.document.section->to - frame.state.document.section->from).norm();
         const RoundRange y = round_range(low, high, 0, false);
         const float s = frame.ui.scale, left = 44 * s, bottom = 30 * s;
         const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 150 * s};
         const ImVec2 from{at.x + left, at.y + 6 * s}, to{at.x + size.x - 4 * s, at.y + size.y - bottom};
-        const auto place = [&](double distance, double value) {
-            return ImVec2(from.x + float(distance / length) * (to.x - from.x),
+        const auto place = [&](double arc, double value) {
+            return ImVec2(from.x + float(length > 0 ? arc / length : 0) * (to.x - from.x),
                           to.y - float((value - y.least) / (y.greatest - y.least)) * (to.y - from.y));
         };
         ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -60,24 +77,26 @@ void section_plot(Frame& frame)
             }
         }
         const std::string far = fmt::format("{:.4g} mm", length);
+        const char* words = frame.state.document.section->on_blank ? "along the cut of the blank" : "along the cut";
         draw->AddText({from.x, to.y + 3 * s}, ink(p.muted), "0");
+        draw->AddText({(from.x + to.x - ImGui::CalcTextSize(words).x) / 2, to.y + 3 * s}, ink(p.muted), words);
         draw->AddText({to.x - ImGui::CalcTextSize(far.c_str()).x, to.y + 3 * s}, ink(p.muted), far.c_str());
         ImGui::PopFont();
         for (const SectionPiece& piece : pieces)
-            draw->AddLine(place(piece.from_distance, piece.from_value), place(piece.to_distance, piece.to_value),
-                          ink(p.accent), 1.6f * s);
+            draw->AddLine(place(piece.from_arc, piece.from_value), place(piece.to_arc, piece.to_value), ink(p.accent),
+                          1.6f * s);
         ImGui::InvisibleButton("section", size);
         if (ImGui::IsItemHovered()) {
-            const double distance = (ImGui::GetMousePos().x - from.x) / (to.x - from.x) * length;
-            for (const SectionPiece& piece : pieces)
-                if (distance >= piece.from_distance && distance <= piece.to_distance) {
-                    const double span = piece.to_distance - piece.from_distance,
-                                 t = span > 0 ? (distance - piece.from_distance) / span : 0;
-                    ImGui::SetTooltip(
-                        "%.4g mm: %s", distance,
-                        value_text(piece.from_value + t * (piece.to_value - piece.from_value), field.unit).c_str());
-                    break;
-                }
+            const double arc = (ImGui::GetMousePos().x - from.x) / (to.x - from.x) * length;
+            if (const auto here = place_at(pieces, arc)) {
+                const SectionPiece& piece = pieces[here->piece];
+                const double value = piece.from_value + here->share * (piece.to_value - piece.from_value);
+                draw->AddLine({place(arc, 0).x, from.y}, {place(arc, 0).x, to.y}, ink(p.warning), s);
+                draw->AddCircleFilled(place(arc, value), 3.5f * s, ink(p.warning));
+                const std::string text = fmt::format("{:.4g} mm: {}", arc, value_text(value, field.unit));
+                ImGui::SetTooltip("%s", text.c_str());
+                frame.ui.section_mark = SectionMark{*here, ImGui::GetFrameCount()};
+            }
         }
     }
     if (ImGui::SmallButton("Remove section"))

@@ -5,7 +5,6 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
-#include "engine/mesh/topology.h"
 
 namespace spia::viewer {
 namespace {
@@ -24,7 +23,7 @@ void part_step(Frame& frame)
     step_heading(frame, 1, "Part",
                  frame.state.refused ? Status::failed : status(frame, Stage::read, session.part != nullptr));
     if (ImGui::Button("Open..."))
-        frame.ui.files.open(FileDialog::Purpose::open_part, session.file);
+        choose_part(frame);
     tooltip("STL, OBJ, PLY, OFF, glTF or GLB. You can also drop a file on the window.");
     if (!session.part) {
         if (frame.state.refused)
@@ -43,7 +42,7 @@ void part_step(Frame& frame)
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(session.file.filename().string().c_str());
     ImGui::PopTextWrapPos();
-    const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
+    const Eigen::Vector3d& size = part_figures(frame).size;
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
     figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
     doctor_panel(frame);
@@ -144,12 +143,11 @@ void unfold_step(Frame& frame)
     if (!fine)
         coloured(p.warning, flat.report.reason + ". " + advice(flat.report.system));
     direction_control(frame);
-    const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
-    figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
-    figure(
-        frame, "Thinning per face",
-        fmt::format("{:+.1f} to {:+.1f} %", 100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff()));
-    figure(frame, "Equivalent strain", fmt::format("up to {:.3f}", flat.face.strain_equivalent.maxCoeff()));
+    const SheetFigures& sheet = sheet_figures(frame);
+    figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", sheet.size[0], sheet.size[1]));
+    figure(frame, "Thinning per face",
+           fmt::format("{:+.1f} to {:+.1f} %", 100 * sheet.thinning[0], 100 * sheet.thinning[1]));
+    figure(frame, "Equivalent strain", fmt::format("up to {:.3f}", sheet.strain_equivalent));
     if (flat.necking_triangles > 0) {
         ImGui::PushStyleColor(ImGuiCol_Text, p.warning);
         figure(frame, "Beyond trusted strain", fmt::format("{} triangles", flat.necking_triangles));
@@ -224,15 +222,15 @@ void grid_step(Frame& frame)
                               result.quality.folded_cells ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
         figure(frame, "Folded cells", fmt::format("{}", result.quality.folded_cells));
         ImGui::PopStyleColor();
-        figure(frame, "Worst scaled Jacobian", fmt::format("{:.3f}", result.quality.min_scaled_jacobian));
+        const GridFigures& figures = grid_figures(frame);
+        figure(frame, "Worst scaled Jacobian", fmt::format("{:.3f}", figures.scaled_jacobian));
+        figure(frame, "in column, row", fmt::format("{}, {}", figures.column, figures.row));
+        tooltip(
+            "Of this cell, counted from 0: column along the side from corner 1 to 2, row from corner 1 to 4. It has a ring "
+            "in the quad mesh.");
         std::string lengths;
-        for (const auto& side : session.grid->boundary.side) {
-            double length = 0;
-            for (size_t i = 1; i < side.size(); ++i)
-                length += (session.blank->blank.position.col(side[i]) - session.blank->blank.position.col(side[i - 1]))
-                              .norm();
+        for (const double length : figures.side)
             lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", length);
-        }
         figure(frame, "Sides", lengths + " mm");
     }
 }
@@ -323,12 +321,14 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
     }
     tooltip("Remove this region (its faces stay)");
     if (edit)
-        frame.ui.edited_region = EditedRegion{number, region.name};
+        frame.ui.edited_region = edit_of(frame.state.document, number);
 }
 
 void regions_section(Frame& frame)
 {
     const Document& document = frame.state.document;
+    if (frame.ui.edited_region && !still_there(*frame.ui.edited_region, document))
+        frame.ui.edited_region.reset();
     if (!document.session.part || !ImGui::CollapsingHeader("Regions", ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const Palette p = palette_of(frame.state.view.dark);
@@ -377,7 +377,7 @@ void steps_panel(Frame& frame)
             frame.actions.push(CancelJob{});
     } else if (!document.session.part) {
         if (primary_button(frame, "Open a part..."))
-            frame.ui.files.open(FileDialog::Purpose::open_part);
+            choose_part(frame);
     } else if (first_stale(document)) {
         if (primary_button(frame, document.session.surface ? "Update all" : "Unfold and fit a surface"))
             frame.actions.push(RunTo{Stage::fit});

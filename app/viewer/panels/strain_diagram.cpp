@@ -30,13 +30,12 @@ struct Axes {
 };
 
 /// The plane reaches well above the points and to either side of pure plane strain: there runs the limit of forming.
-Axes axes_of(const SheetFields& face, ImVec2 low, ImVec2 high)
+Axes axes_of(const SheetFigures& sheet, ImVec2 low, ImVec2 high)
 {
     constexpr double above = 1.3, least_height = 0.1, least_width = 0.1;
-    return {round_range(std::min(1.1 * face.strain_minor.minCoeff(), -least_width),
-                        std::max(1.1 * face.strain_minor.maxCoeff(), least_width)),
-            round_range(std::min(face.strain_major.minCoeff(), 0.),
-                        std::max(above * face.strain_major.maxCoeff(), least_height)),
+    return {round_range(std::min(1.1 * sheet.strain_minor[0], -least_width),
+                        std::max(1.1 * sheet.strain_minor[1], least_width)),
+            round_range(std::min(sheet.strain_major[0], 0.), std::max(above * sheet.strain_major[1], least_height)),
             low, high};
 }
 
@@ -131,20 +130,31 @@ void choose(Frame& frame, const SheetFields& face, const Axes& axes, ImVec2 from
 void strain_diagram(Frame& frame)
 {
     const Document& document = frame.state.document;
-    if (!document.session.blank || !ImGui::CollapsingHeader("Strain diagram", ImGuiTreeNodeFlags_DefaultOpen))
+    if (!document.session.blank)
+        return;
+    const bool open = ImGui::CollapsingHeader("Strain diagram", ImGuiTreeNodeFlags_DefaultOpen);
+    tooltip("Every face as a point: major over minor strain; the more of them, the more solid. Red: beyond the trusted "
+            "strain. Click a point to select its face, drag a box to select many.");
+    if (!open)
         return;
     const SheetFields& face = document.session.blank->face;
     const float s = frame.ui.scale, side = ImGui::GetContentRegionAvail().x, height = std::min(side, 260 * s);
     const float line = frame.ui.fonts.small->FontSize;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const Axes axes = axes_of(face, {at.x + 38 * s, at.y + height - 2 * line - 6 * s},
+    const Axes axes = axes_of(sheet_figures(frame), {at.x + 38 * s, at.y + height - 2 * line - 6 * s},
                               {at.x + side - 4 * s, at.y + 1.5f * line + 4 * s});
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw_axes(frame, axes, draw);
     draw_cloud(frame, face, axes, draw);
     ImGui::InvisibleButton("diagram", {side, height});
-    tooltip("Every face as a point: major over minor strain; the more of them, the more solid. Red: beyond the trusted "
-            "strain. Click a point to select its face, drag a box to select many.");
+    if (ImGui::IsItemHovered()) { // above the diagram, where no points are
+        const Eigen::Vector2d here = axes.strains(ImGui::GetMousePos());
+        const std::string text = fmt::format("{:.3f}, {:.3f}", here[0] + 0., here[1] + 0.);
+        ImGui::PushFont(frame.ui.fonts.small);
+        draw->AddText({axes.high.x - ImGui::CalcTextSize(text.c_str()).x, axes.high.y - 1.5f * line},
+                      ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+        ImGui::PopFont();
+    }
     auto& from = frame.ui.diagram_from;
     if (ImGui::IsItemActivated())
         from = ImGui::GetMousePos();

@@ -86,8 +86,8 @@ void apply_theme(bool dark, float scale)
     c[ImGuiCol_Header] = dark ? rgb(0x2c3644) : rgb(0xdfe8f8);
     c[ImGuiCol_HeaderHovered] = hover;
     c[ImGuiCol_HeaderActive] = dark ? rgb(0x3b4859) : rgb(0xcfdcf3);
-    c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrab] = c[ImGuiCol_PlotHistogram] = p.accent;
-    c[ImGuiCol_SliderGrabActive] = p.accent;
+    c[ImGuiCol_CheckMark] = c[ImGuiCol_PlotHistogram] = p.accent;
+    c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = dark ? rgb(0x2c57a3) : rgb(0xa8c5f5); // text is read on it
     c[ImGuiCol_TextSelectedBg] = ImVec4(p.accent.x, p.accent.y, p.accent.z, 0.35f);
     c[ImGuiCol_NavHighlight] = p.accent;
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = dark ? rgb(0x262c34) : rgb(0xe9ecf1);

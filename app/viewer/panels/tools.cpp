@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -177,11 +178,10 @@ void shortcuts(Frame& frame)
         if (pressed(GLFW_KEY_Y))
             frame.actions.push(Redo{});
         if (pressed(GLFW_KEY_O))
-            frame.ui.files.open(FileDialog::Purpose::open_part, session.file);
+            choose_part(frame);
         if (pressed(GLFW_KEY_S) && session.part) {
             if (frame.state.project.empty())
-                frame.ui.files.open(FileDialog::Purpose::save_project,
-                                    std::filesystem::path(session.file).replace_extension(project_ending));
+                choose_project_name(frame);
             else
                 frame.actions.push(SaveProject{});
         }

@@ -11,6 +11,7 @@
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/charts.h"
+#include "app/viewer/panels/edited_region.h"
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/labels.h"
@@ -36,13 +37,6 @@ struct LeftWork {
     Answer answer = Answer::none;
 };
 
-/// The region whose name and kind are being edited.
-struct EditedRegion {
-    int region = 0;
-    std::string name;
-    bool appears = true; ///< in this frame
-};
-
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
@@ -52,6 +46,7 @@ struct Ui {
     bool show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since;                                 ///< seconds; by number
+    float message_height = 0;                                            ///< pixels, in the frame before
     double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     std::vector<KeyPress> keys;      ///< pressed since the last frame
@@ -62,6 +57,7 @@ struct Ui {
     bool turning = false, panning = false;
     std::optional<int> dragged_corner;
     bool aside = false;            ///< drawn for a picture: the views of the window keep their sizes and cameras
+    glm::dvec2 corner_taken_at{0}; ///< pixels of the view
     bool corner_moved = false;     ///< since it was taken
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::array<ImVec2, 4> view_from{}, view_size{};
@@ -72,6 +68,7 @@ struct Ui {
     ReportChoices reporting;
 
     Charts charts;
+    std::optional<SectionMark> section_mark;
 
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
@@ -112,8 +109,14 @@ void view_area(Frame& frame);
 void tool_bar(Frame& frame);
 float tool_bar_height(const Frame& frame, float width); ///< pixels; narrow windows need two rows
 void dialogs(Frame& frame);
-/// The newest messages, with their lower right corner at a place of the window; what only confirms goes by itself.
-void messages_overlay(Frame& frame, ImVec2 low_right, float width);
+/// The newest messages below the views, which end where they begin; what only confirms goes by itself.
+struct MessageStrip {
+    std::vector<Message> shown; ///< the gravest first
+    size_t more = 0;            ///< that have no room
+    float height = 0;           ///< pixels; 0: there are none
+};
+MessageStrip message_strip(Frame& frame, float width);
+void draw_messages(Frame& frame, const MessageStrip& strip);
 /// All that was said, if asked for.
 void messages_window(Frame& frame);
 /// Keyboard shortcuts, unless a text is being typed.

@@ -42,6 +42,7 @@ void navigate(Frame& frame, View view, const Mouse& mouse)
     ImGuiIO& io = ImGui::GetIO();
     Ui& ui = frame.ui;
     const Tool tool = frame.state.view.tool;
+    const auto busy_before = ui.busy;
     if (mouse.inside && !ui.busy) {
         const bool left_turns = tool == Tool::look && !ui.dragged_corner;
         if (ImGui::IsMouseClicked(2) || (ImGui::IsMouseClicked(1) && io.KeyShift)) {
@@ -54,7 +55,8 @@ void navigate(Frame& frame, View view, const Mouse& mouse)
     }
     Camera camera = frame.state.view.camera[size_t(view)];
     const Camera before = camera;
-    const glm::dvec2 drag(io.MouseDelta.x, io.MouseDelta.y);
+    const glm::dvec2 drag =
+        busy_before ? glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) : glm::dvec2(0); // from the press on
     if (ui.busy == view && (ui.turning || ui.panning)) {
         if (drag != glm::dvec2(0))
             camera = ui.panning ? pan(camera, drag, mouse.size) : orbit(camera, drag, mouse.size);
@@ -90,18 +92,19 @@ void drag_corners(Frame& frame, const Mouse& mouse)
         for (int k = 0; k < 4; ++k) {
             const Eigen::Vector2d at = session.blank->blank.position.col(session.grid->boundary.corner[size_t(k)]);
             const glm::dvec3 pixel = pixel_of(camera, {at[0], at[1], 0}, mouse.size);
-            if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale)
+            if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale) {
                 ui.dragged_corner = k;
+                ui.corner_taken_at = mouse.pixel;
+            }
         }
     if (!ui.dragged_corner)
         return;
     const int vertex = nearest_boundary_vertex(frame.model.pickers().track(session), camera, mouse.pixel, mouse.size);
     const bool down = ImGui::IsMouseDown(0);
     const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
-    if (down && vertex != now) {
-        ui.corner_moved = true;
+    ui.corner_moved |= glm::length(mouse.pixel - ui.corner_taken_at) > 3 * ui.scale;
+    if (down && ui.corner_moved && vertex != now)
         frame.actions.push(SetCorner{*ui.dragged_corner, vertex, true});
-    }
     if (down)
         return;
     if (ui.corner_moved) // a click alone changes nothing
@@ -234,7 +237,7 @@ void view_buttons(Frame& frame, View view)
         return sum;
     };
     const float right = ImGui::GetWindowContentRegionMax().x,
-                title_end = ImGui::GetItemRectSize().x + 2 * style.ItemSpacing.x;
+                title_end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + style.ItemSpacing.x;
     while (items.size() > 1 && whole() > right - title_end)
         items.erase(items.begin());
     ImGui::SameLine(right - whole() + gap);
@@ -255,20 +258,27 @@ void view_buttons(Frame& frame, View view)
     tooltip("Or double-click the title");
 }
 
-/// Whether a view shows results of options that have changed since.
-bool is_old(const Document& document, View view)
+/// The cut of the section line, and the place of its plot that is under the mouse.
+void draw_section(Frame& frame, View view, glm::dvec2 size, ImVec2 from, ImDrawList* draw)
 {
-    const auto stale = first_stale(document);
-    const Session& session = document.session;
-    if (!stale)
-        return false;
-    switch (view) {
-    case View::part:
-    case View::blank: return session.blank && *stale <= Stage::solve;
-    case View::quads: return session.lifted && *stale <= Stage::lift;
-    case View::surface: return session.surface != nullptr;
-    }
-    return false;
+    const Palette p = palette_of(frame.state.view.dark);
+    const float s = frame.ui.scale;
+    const ImU32 casing = IM_COL32(20, 24, 30, 200);
+    const auto dot = [&](const Eigen::Vector3d& place) {
+        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], place, size);
+        return ImVec2(from.x + float(pixel.x), from.y + float(pixel.y));
+    };
+    const std::vector<SectionPiece>& pieces = section_in(frame, view);
+    for (const auto& [colour, width] : {std::pair(casing, 4.5f * s), std::pair(ink(p.warning), 2 * s)})
+        for (const SectionPiece& piece : pieces)
+            draw->AddLine(dot(piece.from), dot(piece.to), colour, width);
+    const auto& mark = frame.ui.section_mark;
+    if (!mark || mark->frame + 1 < ImGui::GetFrameCount() || mark->place.piece >= pieces.size())
+        return;
+    const SectionPiece& piece = pieces[mark->place.piece];
+    const ImVec2 middle = dot(piece.from + mark->place.share * (piece.to - piece.from));
+    draw->AddCircleFilled(middle, 7 * s, casing);
+    draw->AddCircleFilled(middle, 5 * s, ink(p.warning));
 }
 
 /// @returns whether the mouse points into it and drags nothing
@@ -287,10 +297,12 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::TextUnformatted(title(view));
     ImGui::PopFont();
     ImGui::PushFont(frame.ui.fonts.small);
-    if (is_old(frame.state.document, view)) {
+    const bool old = is_old(frame.state, view);
+    if (old) {
         ImGui::SameLine();
         ImGui::TextColored(p.warning, "old");
-        tooltip("Options were changed after this was made: Update all  (F5)");
+        tooltip(frame.state.job.running ? "A new one is being made"
+                                        : "Options were changed after this was made: Update all  (F5)");
     }
     view_buttons(frame, view);
     ImGui::PopFont();
@@ -312,6 +324,9 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::SetCursorScreenPos(from);
     ImGui::Image(frame.draw(shown, view, std::max(1, int(size.x * dots.x)), std::max(1, int(size.y * dots.y))), size,
                  {0, 1}, {1, 0});
+    if (old && (view == View::quads || view == View::surface)) // dimmed, until newer ones stand
+        draw->AddRectFilled(from, {from.x + size.x, from.y + size.y},
+                            ink(ImVec4(p.panel.x, p.panel.y, p.panel.z, 0.5f)));
     ImGui::SetCursorScreenPos(from);
     ImGui::InvisibleButton("canvas", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -332,14 +347,8 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
         draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2}, ink(p.muted),
                       shown.empty.c_str(), nullptr, wrap);
     }
-    if (frame.state.document.section && frame.state.document.section->on_blank == (view == View::blank))
-        for (const SectionPiece& piece : section_of(frame)) {
-            const auto dot = [&](const Eigen::Vector3d& place) {
-                const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], place, mouse.size);
-                return ImVec2(from.x + float(pixel.x), from.y + float(pixel.y));
-            };
-            draw->AddLine(dot(piece.from), dot(piece.to), ink(p.warning), 2 * frame.ui.scale);
-        }
+    if (frame.state.document.section)
+        draw_section(frame, view, mouse.size, from, draw);
     const auto legend = draw_legend(frame, shown, from, size, draw);
     draw_labels(frame, view, shown, from, size, legend, draw);
     use_tool(frame, view, mouse, from, draw);

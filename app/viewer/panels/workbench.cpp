@@ -156,11 +156,18 @@ void workbench(Frame& frame)
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     tool_bar(frame);
     ImGui::EndChild();
+    const MessageStrip messages = message_strip(frame, middle);
     ImGui::SetCursorScreenPos({at.x + left, at.y + bar});
-    ImGui::BeginChild("views", {middle, height - bar}, false,
+    ImGui::BeginChild("views", {middle, height - bar - messages.height}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     view_area(frame);
     ImGui::EndChild();
+    if (messages.height > 0) {
+        ImGui::SetCursorScreenPos({at.x + left, at.y + height - messages.height});
+        ImGui::BeginChild("messages", {middle, messages.height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+        draw_messages(frame, messages);
+        ImGui::EndChild();
+    }
     if (right > 0) {
         ImGui::SetCursorScreenPos({at.x + left + middle, at.y});
         ImGui::BeginChild("right", {right, height}, false,
@@ -175,7 +182,6 @@ void workbench(Frame& frame)
     status_bar(frame);
     selection_actions(frame);
     ImGui::End();
-    messages_overlay(frame, {at.x + left + middle - 12 * s, at.y + height - 12 * s}, middle - 24 * s);
     // The key that answers a dialog means nothing else.
     const bool answers = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
     dialogs(frame);

@@ -38,6 +38,7 @@ void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
         shader.set("per_face", layer.field->per_face);
         shader.set("least", layer.scale.least);
         shader.set("greatest", layer.scale.greatest);
+        shader.set("about_zero", layer.scale.map == ColourMap::diverging);
         shader.set("bands", layer.scale.bands);
         shader.set("ticks", std::max(1, layer.scale.ticks));
         shader.set("isolines", layer.scale.isolines);

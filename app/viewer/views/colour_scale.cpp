@@ -59,7 +59,49 @@ RoundRange round_range(double least, double greatest, int intervals, bool about_
     }
 }
 
-ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes)
+double least_range(Field field, double size)
+{
+    constexpr double strain = 1e-4; // far below what forming does to a sheet, above what the solver leaves
+    switch (field) {
+    case Field::strain_major:
+    case Field::strain_minor:
+    case Field::strain_equivalent: return strain;
+    case Field::thinning:
+    case Field::thickening:
+    case Field::area_change: return 100 * strain; // %
+    case Field::thickness: return strain;         // mm
+    case Field::angle_distortion: return 0.01;
+    case Field::stress_major:
+    case Field::stress_minor:
+    case Field::stress_equivalent: return 0.1; // MPa
+    case Field::deviation: return 1e-6 * size;
+    case Field::necking:
+    case Field::none: return 0;
+    }
+    return 0;
+}
+
+/// The values, or a range around them that is long enough to be coloured.
+static std::array<double, 2> lengthened(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
+{
+    const double shortest = least_range(display.field, size), missing = shortest - (extremes[1] - extremes[0]);
+    if (!(missing > 0))
+        return extremes;
+    if (info(display.field).diverging && std::max(std::abs(extremes[0]), std::abs(extremes[1])) < shortest)
+        return {-shortest, shortest};
+    if (extremes[0] >= 0 && extremes[1] < shortest)
+        return {0, shortest};
+    return {extremes[0] - missing / 2, extremes[1] + missing / 2};
+}
+
+std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
+{
+    if (display.range || lengthened(display, extremes, size) == extremes)
+        return "";
+    return fmt::format("even within {:.2g}", least_range(display.field, size));
+}
+
+ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
 {
     const bool diverging = info(display.field).diverging;
     ColourScale scale;
@@ -71,7 +113,8 @@ ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>
         scale.greatest = float((*display.range)[1]);
         scale.ticks = display.bands > 0 ? display.bands : intervals_of((*display.range)[1] - (*display.range)[0]);
     } else {
-        const RoundRange range = round_range(extremes[0], extremes[1], display.bands, diverging);
+        const auto [low, high] = lengthened(display, extremes, size);
+        const RoundRange range = round_range(low, high, display.bands, diverging);
         scale.least = float(range.least);
         scale.greatest = float(range.greatest);
         scale.ticks = range.intervals;
@@ -93,7 +136,9 @@ std::string tick_text(const ColourScale& scale, double value)
 {
     if (std::abs(value) < 1e-6 * (double(scale.greatest) - double(scale.least)))
         value = 0; // a remainder of single precision
-    return fmt::format("{:.4g}", value);
+    const double step = (double(scale.greatest) - double(scale.least)) / std::max(1, scale.ticks);
+    const double places = std::abs(value) > 0 && step > 0 ? std::log10(std::abs(value) / step) : 0;
+    return fmt::format("{:.{}g}", value, std::clamp(int(std::ceil(places)) + 1, 4, 9));
 }
 
 bool below(const ColourScale& scale, double value)

@@ -20,10 +20,19 @@ struct RoundRange {
 /// @param about_zero  as far below 0 as above
 RoundRange round_range(double least, double greatest, int intervals = 0, bool about_zero = false);
 
+/// The shortest range that a field is coloured over, in its unit: values that differ by less are noise of the solver, and
+/// colours would make a landscape of it.
+/// @param size of the part, mm
+double least_range(Field field, double size);
+
 /// How a field is coloured on the part: the range, map and bands the user asked for; else a round range around all
-/// values, symmetric about 0 where zero matters.
+/// values, symmetric about 0 where zero matters, and no shorter than least_range().
 /// @param extremes the field's least and greatest value
-ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes);
+/// @param size     of the part, mm
+ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size = 0);
+
+/// What a legend says under its title where the values are nearer to each other than the least range; else empty.
+std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size);
 
 /// A value written beside the colours of a scale.
 struct LegendTick {

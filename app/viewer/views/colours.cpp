@@ -62,6 +62,16 @@ Eigen::Vector3d map_colour(ColourMap map, double t)
     return {};
 }
 
+double place_in_map(const ColourScale& scale, double share)
+{
+    if (scale.map != ColourMap::diverging)
+        return share;
+    const double least = scale.least, greatest = scale.greatest, value = least + share * (greatest - least);
+    if (value < 0)
+        return least < 0 ? 0.5 - 0.5 * std::min(1., value / least) : 0;
+    return greatest > 0 ? 0.5 + 0.5 * std::min(1., value / greatest) : 0.5;
+}
+
 Colour colour_of(const ColourScale& scale, float value)
 {
     if (std::isnan(value))
@@ -69,9 +79,9 @@ Colour colour_of(const ColourScale& scale, float value)
     double t = scale.greatest > scale.least ? (value - scale.least) / (scale.greatest - scale.least) : 0.5;
     if (scale.bands > 0) {
         const double band = std::clamp(std::floor(t * scale.bands), 0.0, scale.bands - 1.0);
-        t = scale.bands > 1 ? band / (scale.bands - 1) : 0.5; // the outer bands have the colours of the map's ends
+        t = scale.bands > 1 ? band / (scale.bands - 1) : 0.5; // the outer bands have the colours of the scale's ends
     }
-    const Eigen::Vector3f colour = map_colour(scale.map, t).cast<float>();
+    const Eigen::Vector3f colour = map_colour(scale.map, place_in_map(scale, std::clamp(t, 0., 1.))).cast<float>();
     return {colour[0], colour[1], colour[2], 1};
 }
 

@@ -18,6 +18,11 @@ Eigen::Vector3d srgb(const Oklab& colour); ///< outside 0..1 where a screen cann
 /// blindness. grey: dark to light. quality: dark orange, poor, to light grey, good.
 Eigen::Vector3d map_colour(ColourMap map, double t);
 
+/// Where in its map a scale has the colour of a value, 0 to 1. The diverging map has its middle at zero wherever the range
+/// lies: each side has its own half, up to the end of the range on that side.
+/// @param share of the scale's range that lies below the value, 0 to 1
+double place_in_map(const ColourScale& scale, double share);
+
 /// What a value looks like on a surface that is not shaded; not a number: no_value.
 Colour colour_of(const ColourScale& scale, float value);
 inline constexpr Colour no_value{0.48f, 0.48f, 0.48f, 1};

@@ -63,6 +63,7 @@ bool meets_any(const PixelBox& box, const std::vector<PixelBox>& others)
 std::vector<PlacedLabel> place_labels(const std::vector<LabelWish>& wishes, glm::dvec2 view,
                                       const std::vector<PixelBox>& taken, double scale)
 {
+    constexpr double edge = 5; // pixels that stay free at the border of the view, for the outline of the letters too
     std::vector<PixelBox> full = taken;
     for (const LabelWish& wish : wishes)
         if (wish.kind != LabelKind::region && in_view(wish.place, view))
@@ -77,7 +78,7 @@ std::vector<PlacedLabel> place_labels(const std::vector<LabelWish>& wishes, glm:
         const Middles choice = middles_for(wishes[i], scale);
         for (size_t k = 0; k < choice.middle.size(); ++k) {
             const PixelBox box = around(choice.middle[k], wishes[i].size);
-            if (!inside(box, view) || meets_any(grown(box, scale), full))
+            if (!inside(grown(box, edge * scale), view) || meets_any(grown(box, scale), full))
                 continue;
             placed.push_back({i, box, k >= choice.pushed});
             full.push_back(box);

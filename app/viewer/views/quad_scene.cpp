@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
@@ -25,20 +26,34 @@ std::string what_is_missing(const Session& session)
     return "The grid is not on the part yet: carry on with the chain.";
 }
 
+/// A ring and a text at the cell with the least scaled Jacobian.
+void add_worst_cell(Scene& scene, const LaterResults& made, const GridFigures& figures, bool dark)
+{
+    const QuadGrid& lifted = made.lifted->lifted;
+    const int i = figures.column, j = figures.row;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int node : {lifted.node(i, j), lifted.node(i + 1, j), lifted.node(i, j + 1), lifted.node(i + 1, j + 1)})
+        middle += lifted.position.col(node) / 4;
+    scene.rings.push_back({middle});
+    scene.labels.push_back({middle, fmt::format("min {} in cell {}, {}", value_text(figures.scaled_jacobian, ""), i, j),
+                            palette::text(dark)});
+}
+
 } // namespace
 
 Scene quad_scene(const ViewerState& state, SceneCache& cache)
 {
     Scene result;
     const Session& session = state.document.session;
-    if (!session.part || !session.grid || !session.lifted) {
+    const LaterResults made = quads_shown(state);
+    if (!session.part || !made.lifted) {
         result.empty = what_is_missing(session);
         return result;
     }
-    const QuadGrid& lifted = session.lifted->lifted;
+    const QuadGrid& lifted = made.lifted->lifted;
     const bool by_quality = state.view.quad_quality;
-    const StageShape& quads = cache.quads.of({session.grid, session.lifted, by_quality}, [&] {
-        return lifted_grid_shape(lifted, session.grid->result.planar, by_quality);
+    const StageShape& quads = cache.quads.of({made.grid, made.lifted, by_quality}, [&] {
+        return lifted_grid_shape(lifted, made.grid->result.planar, by_quality);
     });
     result.layers = quads.layers;
     result.lines = quads.lines;
@@ -65,6 +80,11 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
     corner << lifted.position.col(lifted.node(0, 0)), lifted.position.col(lifted.node(lifted.columns, 0)),
         lifted.position.col(lifted.node(lifted.columns, lifted.rows)), lifted.position.col(lifted.node(0, lifted.rows));
     add_corners(result, corner, state.view.dark);
+    if (by_quality && state.document.display.extremes)
+        add_worst_cell(
+            result, made,
+            cache.grid_figures.of({made.grid, made.blank}, [&] { return grid_figures(*made.grid, made.blank->blank); }),
+            state.view.dark);
     add_part_outlines(result, state, cache);
     return result;
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "app/viewer/model/figures.h"
 #include "app/viewer/model/scene.h"
 #include "app/viewer/model/state.h"
 
@@ -111,6 +112,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
     Memo<StageShape, Grid, bool> planar_grid;
     Memo<StageShape, Grid, Lifted, bool> quads;
+    Memo<GridFigures, Grid, Blank> grid_figures;
     Memo<LineList, Part> boundary_on_quads;
     Memo<StageShape, Part, Grid, Surface, bool> surface;
     Memo<StageShape, Surface, bool> control_net;

@@ -48,14 +48,15 @@ const FieldValues* field_values(const ViewerState& state, SceneCache& cache)
                             [&] { return with_extremes(values(session, display.field, display.per_face)); });
 }
 
-SceneLegend legend_of(const ViewerState& state, const FieldValues& values)
+SceneLegend legend_of(const ViewerState& state, const FieldValues& values, double size)
 {
     const FieldInfo& field = info(state.document.display.field);
     const std::array<double, 2> extremes = values.extremes();
     SceneLegend legend{std::string(field.label), std::string(field.unit),
-                       field_scale(state.document.display, extremes)};
+                       field_scale(state.document.display, extremes, size)};
     legend.below = below(legend.scale, extremes[0]);
     legend.above = above(legend.scale, extremes[1]);
+    legend.note = noise_note(state.document.display, extremes, size);
     return legend;
 }
 
@@ -84,7 +85,7 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
     sheet.lit = !place.flat;
     const FieldValues* const values = place.converging ? nullptr : field_values(state, shared);
     if (values) {
-        scene.legend = legend_of(state, *values);
+        scene.legend = legend_of(state, *values, part_shape(state, shared).box.diagonal().norm());
         sheet.scale = scene.legend->scale;
         sheet.field =
             cache.field.of({mesh, session.part, session.blank, session.surface, display.field, display.per_face},

@@ -10,8 +10,8 @@ const PartShape& part_shape(const ViewerState& state, SceneCache& cache);
 /// The field of the display; null: none is chosen, or the session does not have it.
 const FieldValues* field_values(const ViewerState& state, SceneCache& cache);
 
-/// How that field is called and coloured.
-SceneLegend legend_of(const ViewerState& state, const FieldValues& values);
+/// How that field is called and coloured. @param size of the part, mm
+SceneLegend legend_of(const ViewerState& state, const FieldValues& values, double size);
 
 /// Where the sheet of the part is drawn: formed or flat.
 struct SheetPlace {

@@ -62,6 +62,9 @@ StageShape surface_shape(const NurbsSurface& surface, const FilledMesh* part)
         for (const double d : deviation)
             if (std::isfinite(d))
                 largest = std::max(largest, std::abs(d));
+        const Eigen::Vector3d size =
+            part->mesh.position.rowwise().maxCoeff() - part->mesh.position.rowwise().minCoeff();
+        largest = std::max(largest, least_range(Field::deviation, size.norm()));
         const RoundRange range = round_range(-largest, largest, 0, true);
         layer.scale = {.map = ColourMap::diverging,
                        .least = float(range.least),

@@ -199,11 +199,16 @@ TEST(Report, NamesEveryShortcoming)
     session.blank = std::make_shared<FlattenResult>(poorer);
     GridStage folded = *session.grid;
     folded.result.quality.folded_cells = 2;
+    QuadGrid& planar = folded.result.planar = {4, 3, Eigen::Matrix3Xd::Zero(3, 20)};
+    for (int j = 0; j <= 3; ++j)
+        for (int i = 0; i <= 4; ++i)
+            planar.position.col(planar.node(i, j)) << i, j, 0;
+    planar.position.col(planar.node(4, 3)) << 3.3, 2.3, 0; // a corner of one cell alone, pushed in
     session.grid = std::make_shared<GridStage>(folded);
     std::string all;
     for (const std::string& text : shortcomings(session))
         all += text + "\n";
-    for (const char* part : {"stalled", "3 triangles are strained", "crosses itself", "2 cells of the grid"})
+    for (const char* part : {"stalled", "3 triangles are strained", "crosses itself", "2 cells of the grid", "column 3, row 2"})
         EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
 }
 

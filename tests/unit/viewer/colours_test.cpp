@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/palette.h"
@@ -143,6 +144,80 @@ TEST(FieldScale, IsSymmetricWhereZeroMattersAndObeysTheUser)
     display.bands = 0;
     display.range = {{0, 20}};
     EXPECT_EQ(field_scale(display, {0, 1}).ticks, 8) << "of 2.5";
+}
+
+TEST(FieldScale, KeepsTheRangeOfTheUserWhateverTheBands)
+{
+    FieldDisplay display;
+    display.field = Field::thinning;
+    display.range = {{-3.3, 17.7}};
+    for (const int bands : {0, 1, 3, 7, 20}) {
+        display.bands = bands;
+        const ColourScale scale = field_scale(display, {-40, 60}, 1000);
+        EXPECT_FLOAT_EQ(scale.least, -3.3f) << bands;
+        EXPECT_FLOAT_EQ(scale.greatest, 17.7f) << bands;
+    }
+    display.range = {{0, 1e-7}};
+    EXPECT_FLOAT_EQ(field_scale(display, {0, 1}, 1000).greatest, 1e-7f) << "also a range of noise";
+    EXPECT_EQ(noise_note(display, {0, 1e-9}, 1000), "");
+}
+
+TEST(FieldScale, DoesNotMakeALandscapeOfNoise)
+{
+    FieldDisplay display;
+    const double size = 500, noise = 1e-9;
+    const struct {
+        Field field;
+        double base, shortest;
+    } cases[] = {{Field::strain_major, 0, 1e-4}, {Field::strain_minor, 0, 1e-4}, {Field::thinning, 0, 1e-2},
+                 {Field::thickness, 1, 1e-4},    {Field::deviation, 0, 5e-4},    {Field::stress_equivalent, 240, 0.1}};
+    for (const auto& [field, base, shortest] : cases) {
+        display.field = field;
+        const ColourScale scale = field_scale(display, {base - noise, base + noise}, size);
+        EXPECT_GE(scale.greatest - scale.least, 0.99 * shortest) << info(field).name;
+        const auto t = [&](double v) { return (v - scale.least) / (double(scale.greatest) - double(scale.least)); };
+        EXPECT_LT(std::abs(t(base + noise) - t(base - noise)), 1e-3) << "one colour: " << info(field).name;
+        EXPECT_NE(noise_note(display, {base - noise, base + noise}, size), "") << info(field).name;
+        const double wide = 10 * shortest; // what is no noise is coloured as ever
+        EXPECT_EQ(noise_note(display, {base - wide, base + wide}, size), "") << info(field).name;
+        const ColourScale full = field_scale(display, {base - wide, base + wide}, size);
+        const RoundRange range = round_range(base - wide, base + wide, 0, info(field).diverging);
+        EXPECT_FLOAT_EQ(full.least, float(range.least));
+        EXPECT_FLOAT_EQ(full.greatest, float(range.greatest));
+    }
+}
+
+TEST(DivergingMap, IsLightestAtZeroInEveryRange)
+{
+    for (const auto& [least, greatest] : {std::pair(-0.2f, 0.4f), {-3.f, 1.f}, {-1.f, 1.f}}) {
+        const ColourScale scale{.map = ColourMap::diverging, .least = least, .greatest = greatest};
+        const auto rgb = [&](float v) {
+            const Colour c = colour_of(scale, v);
+            return Eigen::Vector3d(c[0], c[1], c[2]);
+        };
+        EXPECT_LT((rgb(0) - map_colour(ColourMap::diverging, 0.5)).norm(), 1e-6);
+        EXPECT_LT((rgb(least) - map_colour(ColourMap::diverging, 0)).norm(), 1e-6);
+        EXPECT_LT((rgb(greatest) - map_colour(ColourMap::diverging, 1)).norm(), 1e-6);
+        EXPECT_LT((rgb(least / 2) - map_colour(ColourMap::diverging, 0.25)).norm(), 1e-5);
+        EXPECT_LT((rgb(greatest / 2) - map_colour(ColourMap::diverging, 0.75)).norm(), 1e-5);
+    }
+    const ColourScale above{.map = ColourMap::diverging, .least = 5, .greatest = 20}; // no zero: one half of the map
+    EXPECT_NEAR(place_in_map(above, 1), 1, 1e-12);
+    EXPECT_NEAR(place_in_map(above, 0), 0.5 + 0.5 * 5 / 20, 1e-12);
+    ColourScale bands{.map = ColourMap::diverging, .least = -1, .greatest = 3, .bands = 8}; // of 0.5, zero between two
+    for (const float v : {-0.9f, -0.3f})
+        EXPECT_GT(colour_of(bands, v)[2], colour_of(bands, v)[0]) << "blue below zero: " << v;
+    for (const float v : {0.6f, 2.9f})
+        EXPECT_GT(colour_of(bands, v)[0], colour_of(bands, v)[2]) << "orange above: " << v;
+}
+
+TEST(LegendTicks, OfANarrowRangeFarFromZeroAreDifferent)
+{
+    const SceneLegend legend{"Thickness", "mm", {.least = 0.99995f, .greatest = 1.00005f, .ticks = 4}};
+    std::set<std::string> texts;
+    for (const LegendTick& tick : legend_ticks(legend, 9))
+        texts.insert(tick.text);
+    EXPECT_EQ(texts.size(), 5u);
 }
 
 TEST(LegendTicks, AreRoundWithBothEndsAndTellOfValuesBeyond)

@@ -70,6 +70,13 @@ TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
     EXPECT_EQ(errors(), 2); // there is one place only
     apply(ShowFault{int(findings.size()), 0});
     EXPECT_EQ(errors(), 3);
+    const auto camera = state.view.camera;
+    apply(HideFault{});
+    EXPECT_FALSE(state.fault);
+    EXPECT_TRUE(scene(View::part, state, cache).labels.empty());
+    EXPECT_EQ(state.view.camera, camera);
+    for (const Message& message : state.messages)
+        EXPECT_EQ(message.text.find("--"), std::string::npos) << message.text << ": there is no command line here";
 }
 
 TEST_F(RefusedPart, IsTakenWithoutItsSmallerPiecesAndRefusedAgainAfterUndo)

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/viewer/model/names.h"
+#include "app/viewer/views/views.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia::viewer {
@@ -63,6 +64,19 @@ TEST_F(ViewerModelTest, RunsTheChainInTheBackgroundAndShowsTheBlankWhileItConver
     ASSERT_NE(document.session.surface, nullptr);
     EXPECT_FALSE(state.job.running);
     EXPECT_FALSE(first_stale(document));
+}
+
+TEST_F(ViewerModelTest, TheTitleOfTheWindowNamesThePartAndMarksWhatIsNotSaved)
+{
+    EXPECT_EQ(window_title(state), "SPIA");
+    open();
+    EXPECT_EQ(window_title(state), "dome - SPIA");
+    model.apply(SelectFaces{{1}});
+    EXPECT_EQ(window_title(state), "dome* - SPIA");
+    const ScratchFolder folder;
+    const auto file = folder / "first try.spia";
+    model.apply(SaveProject{file});
+    EXPECT_EQ(window_title(state), "first try - SPIA");
 }
 
 TEST_F(ViewerModelTest, CancellingKeepsWhatWasThere)
@@ -243,6 +257,38 @@ TEST_F(ViewerModelTest, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
     EXPECT_EQ(state.history.undo_name(), "Move corner 1");
     model.apply(Undo{});
     EXPECT_EQ(document.session.grid->boundary.corner, before);
+}
+
+TEST_F(ViewerModelTest, WhileACornerIsDraggedTheLastQuadsAndSurfaceStayAndAreCalledOld)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    const auto lifted = document.session.lifted;
+    const auto surface = document.session.surface;
+    EXPECT_FALSE(is_old(state, View::quads) || is_old(state, View::surface));
+    const std::vector<int> side = document.session.grid->boundary.side[0];
+    for (const size_t k : {2, 4}) { // two coarse grids, one after the other
+        model.apply(SetCorner{0, side[k], true});
+        wait();
+        ASSERT_EQ(document.session.lifted, nullptr);
+        EXPECT_EQ(quads_shown(state).lifted, lifted);
+        EXPECT_EQ(surface_shown(state).surface, surface);
+        EXPECT_TRUE(is_old(state, View::quads) && is_old(state, View::surface));
+        SceneCache cache;
+        EXPECT_TRUE(scene(View::quads, state, cache).empty.empty());
+        EXPECT_TRUE(scene(View::surface, state, cache).empty.empty());
+    }
+    model.apply(SetCorner{0, side[5], false});
+    wait();
+    EXPECT_NE(quads_shown(state).lifted, lifted);
+    EXPECT_EQ(quads_shown(state).lifted, document.session.lifted);
+    EXPECT_EQ(state.before.surface, nullptr) << "memory for nothing";
+    EXPECT_FALSE(is_old(state, View::quads) || is_old(state, View::surface));
+    model.apply(SetCorner{0, side[2], true});
+    wait();
+    open("square-cup.obj");
+    EXPECT_EQ(quads_shown(state).lifted, nullptr) << "of another part";
 }
 
 TEST_F(ViewerModelTest, AViewThatShowsAllOfThePartStillDoesSoInAnotherSize)

@@ -1,0 +1,33 @@
+#include "app/viewer/panels/charts.h"
+
+#include "app/viewer/panels/ui.h"
+
+namespace spia::viewer {
+
+const PartFigures& part_figures(Frame& frame)
+{
+    const auto& part = frame.state.document.session.part;
+    return frame.ui.charts.part.of({part}, [&] { return part_figures(*part); });
+}
+
+const PartFigures& examined_figures(Frame& frame)
+{
+    const auto& refused = frame.state.refused;
+    return refused ? frame.ui.charts.refused.of({refused}, [&] { return part_figures(*refused); })
+                   : part_figures(frame);
+}
+
+const SheetFigures& sheet_figures(Frame& frame)
+{
+    const auto& blank = frame.state.document.session.blank;
+    return frame.ui.charts.sheet.of({blank}, [&] { return sheet_figures(*blank); });
+}
+
+const GridFigures& grid_figures(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    return frame.ui.charts.grid.of({session.grid, session.blank},
+                                   [&] { return grid_figures(*session.grid, session.blank->blank); });
+}
+
+} // namespace spia::viewer

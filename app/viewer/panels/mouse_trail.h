@@ -1,0 +1,45 @@
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+namespace spia::viewer {
+
+/// Where the mouse was when its buttons went down and up. A frame notices a press late: a fast hand is farther along
+/// by then, and what begins there (a box, a section, a corner that is taken) has lost its start.
+class MouseTrail {
+public:
+    void moved(glm::dvec2 to) { at_ = to; }
+    void button(bool down)
+    {
+        if (at_)
+            events_.push_back({down, *at_});
+    }
+
+    /// Where the mouse belongs in this frame: at its last press, in the next frame at the release that followed; nothing:
+    /// where it is. The frame after another is to come at once.
+    std::optional<glm::dvec2> next()
+    {
+        size_t take = events_.size();
+        for (size_t k = 0; k < events_.size(); ++k)
+            if (events_[k].down)
+                take = k;
+        if (events_.empty())
+            return std::nullopt;
+        if (take == events_.size()) // releases alone
+            take = events_.size() - 1;
+        const glm::dvec2 place = events_[take].at;
+        events_.erase(events_.begin(), events_.begin() + long(take) + 1);
+        return place;
+    }
+
+private:
+    struct Event {
+        bool down;
+        glm::dvec2 at;
+    };
+    std::optional<glm::dvec2> at_; ///< not before it has moved
+    std::vector<Event> events_;
+};
+
+} // namespace spia::viewer

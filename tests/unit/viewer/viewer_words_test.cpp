@@ -1,0 +1,32 @@
+#include "app/viewer/model/viewer_words.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <regex>
+
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia::viewer {
+
+TEST(ViewerWords, NameButtonsInPlaceOfFlags)
+{
+    EXPECT_EQ(in_viewer_words("join them (--weld); keep one (--keep-largest)"),
+              "join them (\"Join them\" in the step Part); keep one (\"Keep the largest piece\" in the step Part)");
+    EXPECT_EQ(in_viewer_words("nothing -- to say"), "nothing -- to say");
+}
+
+TEST(ViewerWords, LeaveNoFlagOfTheEngineAsItIs)
+{
+    const std::regex flag(R"re("[^"\n]*(--[a-z][a-z-]*)[^"\n]*")re");
+    int found = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(SPIA_SOURCE_DIR "/engine")) {
+        if (file.path().extension() != ".cpp")
+            continue;
+        const std::string text = content_of(file.path());
+        for (std::sregex_iterator at(text.begin(), text.end(), flag), end; at != end; ++at, ++found)
+            EXPECT_EQ(in_viewer_words((*at)[1]).find("--"), std::string::npos) << file.path() << ": " << at->str();
+    }
+    EXPECT_GE(found, 4) << "the doctor advises flags of the command line";
+}
+
+} // namespace spia::viewer
