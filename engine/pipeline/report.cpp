@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/forming/material_text.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -190,6 +191,7 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
     if (session.blank) {
         const Distortion d = distortion(session.part->mesh, session.blank->blank.position);
         json["material"] = session.options.flatten.material.name;
+        json["hardening"] = Json::parse(hardening_text(session.options.flatten.material.hardening));
         json["sheet_thickness_mm"] = session.options.flatten.thickness;
         json["solve"] = solve_json(session.blank->report, session.blank->stamping);
         json["blank"] = blank_json(session.part->mesh, *session.blank);
