@@ -39,6 +39,18 @@ int info(const InfoArguments& arguments);
 /// Prints the built-in grades. @returns 0
 int materials();
 
+struct FitArguments {
+    std::filesystem::path table, out;
+    std::string law = "best", name; ///< empty name: the stem of `out`
+    std::string data, strain;       ///< engineering or true; fraction or percent; empty: as the heading says
+    std::optional<double> young;    ///< MPa
+    double poisson = 0.3, density = 7850;
+    std::vector<double> r = {1, 1, 1};
+};
+
+/// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
+int fit_material(const FitArguments& arguments);
+
 /// Where the materials and sample parts lie: SPIA_ASSETS, or the folder the program was built from.
 std::filesystem::path assets();
 
