@@ -19,7 +19,11 @@ struct RunArguments {
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's
     std::vector<std::string> glb_nodes = {"part", "blank", "quad_mesh", "surface", "control_net"};
-    std::vector<std::string> csv_tables = {"fields", "outline"};
+    std::vector<std::string> csv_tables = {"fields", "outline", "faces"};
+    std::string flc = "automatic"; ///< automatic, keeler-brazier, none, or a file of points
+    std::optional<double> flc_n;
+    std::optional<double> marginal;                ///< percent
+    double max_thinning = 25, max_thickening = 10; ///< percent
     bool strict = false, weld = false, keep_largest = false;
 };
 

@@ -54,6 +54,27 @@ int main(int count, char** values)
         ->type_name("NAME|FILE")
         ->capture_default_str();
     run_command->add_option("--thickness", run.thickness, "of the flat sheet")->type_name("MM")->capture_default_str();
+    run_command
+        ->add_option("--flc", run.flc,
+                     "forming limit curve: keeler-brazier, none, a file of minor and major strains, or automatic: "
+                     "keeler-brazier for steel, none else")
+        ->type_name("keeler-brazier|FILE.csv|none")
+        ->capture_default_str();
+    run_command->add_option("--flc-n", run.flc_n, "n of keeler-brazier (default: the uniform strain of the material)")
+        ->check(CLI::Range(1e-3, 0.99));
+    run_command
+        ->add_option("--marginal", run.marginal,
+                     "points of engineering major strain below the curve that are a risk (default 10, aluminium 8)")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PERCENT");
+    run_command->add_option("--max-thinning", run.max_thinning, "allowable thinning")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PERCENT")
+        ->capture_default_str();
+    run_command->add_option("--max-thickening", run.max_thickening, "allowable thickening")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->type_name("PERCENT")
+        ->capture_default_str();
     run_command->add_option("--direction", run.direction, "stamping direction x,y,z (default: automatic)")
         ->delimiter(',')
         ->expected(3);

@@ -10,8 +10,8 @@
 namespace spia {
 namespace {
 
-constexpr double largest_n = 0.21, largest_thickness = 3; // mm; of the sheets behind the formula
-constexpr double right_slope = 0.6, right_end = 0.2;      // engineering
+constexpr double least_n = 0.05, largest_n = 0.21, largest_thickness = 3; // mm; of the sheets behind the formula
+constexpr double right_slope = 0.6, right_end = 0.2;                      // engineering
 
 /// The lowest point lies at plane strain, and the curve rises from there to both sides.
 void note_odd_shape(FormingLimitCurve& curve)
@@ -51,14 +51,14 @@ double FormingLimitCurve::operator()(double minor_strain) const
     const auto above = std::upper_bound(minor.begin(), minor.end(), minor_strain) - minor.begin();
     const size_t i = size_t(std::clamp<std::ptrdiff_t>(above - 1, 0, std::ptrdiff_t(minor.size()) - 2));
     const double slope = (major[i + 1] - major[i]) / (minor[i + 1] - minor[i]);
-    return major[i] + slope * (minor_strain - minor[i]);
+    constexpr double most = 5; // a line prolonged beyond all strains of sheet must stay a number
+    return std::clamp(major[i] + slope * (minor_strain - minor[i]), 0., most);
 }
 
 FormingLimitCurve keeler_brazier(double thickness, double n)
 {
-    if (!(thickness > 0 && thickness < 20))
-        throw InputError(
-            fmt::format("no forming limit for a sheet of {} mm; give a thickness between 0 and 20 mm", thickness));
+    if (!(thickness > 0 && std::isfinite(thickness)))
+        throw InputError(fmt::format("no forming limit for a sheet of {} mm; give its thickness in mm", thickness));
     if (!(n > 0 && n < 1))
         throw InputError(
             fmt::format("no forming limit for n = {:.4g}: the sheet necks at once, or the hardening law is "
@@ -74,6 +74,11 @@ FormingLimitCurve keeler_brazier(double thickness, double n)
     if (n > largest_n)
         curve.notes.push_back(
             fmt::format("n = {:.3f} is above 0.21, where Keeler-Brazier levels off: 0.21 was taken", n));
+    if (n < least_n)
+        curve.notes.push_back(
+            fmt::format("n = {:.3g} is below that of sheets for forming ({}): the curve of Keeler-Brazier "
+                        "is hardly above 0; check the hardening law or give a curve by points",
+                        n, least_n));
     if (thickness > largest_thickness)
         curve.notes.push_back(fmt::format(
             "{:.4g} mm is thicker than the sheets behind Keeler-Brazier (3 mm): an extrapolation", thickness));

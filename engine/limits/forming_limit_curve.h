@@ -15,7 +15,7 @@ struct FormingLimitCurve {
     std::string formula;              ///< how it came about, in words
     std::vector<std::string> notes;   ///< where it is not to be trusted, in words
 
-    /// Limit of the logarithmic major strain. Outside the points the first and last line are prolonged.
+    /// Limit of the logarithmic major strain. Outside the points the first and last line are prolonged, within 0 to 5.
     double operator()(double minor_strain) const;
     double at_plane_strain() const { return (*this)(0); } ///< FLC0, logarithmic
 
@@ -30,8 +30,8 @@ struct FormingLimitCurve {
 /// 75 (1977), give FLC0. Both branches are worded so in the WorldAutoSteel AHSS Application Guidelines, "Forming limit curves",
 /// of which Keeler was the technical editor. The left branch is straight in logarithmic strains, not in engineering ones.
 /// @param thickness mm, of the flat sheet; above 3 the curve is noted as an extrapolation
-/// @param n at uniform elongation; above 0.21 it is noted that 0.21 was taken
-/// @throws InputError unless both are above 0, t below 20 and n below 1
+/// @param n at uniform elongation; above 0.21 it is noted that 0.21 was taken, below 0.05 that this is no sheet for forming
+/// @throws InputError unless both are above 0 and n is below 1
 FormingLimitCurve keeler_brazier(double thickness, double n);
 
 /// A curve through measured points.

@@ -95,7 +95,7 @@ std::vector<WorstSpot> worst_spots(const TriMesh& part, const SheetFields& face,
         const bool is_new = at < 0;
         if (is_new) {
             at = int(spots.size());
-            spots.push_back({zone, f, {}, value, 0, 0, 0, 0, 0});
+            spots.push_back({zone, f, Eigen::Vector3d::Zero(), value, 0, 0, 0, 0, 0});
         }
         WorstSpot& spot = spots[size_t(at)];
         ++spot.region_faces;
@@ -165,8 +165,9 @@ std::string definition(Zone zone, const ZoneOptions& options)
     switch (zone) {
     case Zone::crack: return "major strain above the forming limit curve";
     case Zone::risk:
-        return fmt::format("below the forming limit curve by less than {:.4g} points of engineering major strain in %",
-                           100 * options.margin);
+        return fmt::format(
+            "below the forming limit curve by less than {:.4g} percentage points of engineering major strain",
+            100 * options.margin);
     case Zone::excessive_thinning: return fmt::format("thinner by more than {:.4g} %", 100 * options.max_thinning);
     case Zone::strong_thickening: return fmt::format("thicker by more than {:.4g} %", 100 * options.max_thickening);
     case Zone::low_strain:

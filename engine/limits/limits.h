@@ -50,7 +50,7 @@ struct ZoneOptions {
     friend bool operator==(const ZoneOptions&, const ZoneOptions&) = default;
 };
 
-/// A zone in words, with its numbers: "below the curve by less than 10 points of engineering major strain".
+/// A zone in words, with its numbers: "below the curve by less than 10 percentage points ...".
 std::string definition(Zone zone, const ZoneOptions& options);
 
 struct ZoneShare {
@@ -62,7 +62,7 @@ struct ZoneShare {
 /// The worst face of a connected region of one zone. Low strain and safe have none.
 struct WorstSpot {
     Zone zone = Zone::safe;
-    int face = 0;                 ///< of the part
+    int face = 0;             ///< of the part
     Eigen::Vector3d position; ///< mm, middle of the face on the part
     double value; ///< crack, risk: distance to the curve; else thinning or thickening, whatever the zone is about
     double strain_major, strain_minor; ///< logarithmic

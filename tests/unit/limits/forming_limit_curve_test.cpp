@@ -73,8 +73,9 @@ TEST(KeelerBrazier, SaysWhereItIsAnExtrapolationAndRefusesNonsense)
     EXPECT_THAT(keeler_brazier(1, 0.25).notes, testing::ElementsAre(HasSubstr("0.21")));
     EXPECT_EQ(keeler_brazier(1, 0.25).at_plane_strain(), keeler_brazier(1, 0.21).at_plane_strain());
     EXPECT_THAT(keeler_brazier(3.5, 0.2).notes, testing::ElementsAre(HasSubstr("3 mm")));
+    EXPECT_THAT(keeler_brazier(1, 0.01).notes, testing::ElementsAre(HasSubstr("n = 0.01")));
     EXPECT_THAT(keeler_brazier(1, 0.2).formula, AllOf(HasSubstr("Keeler-Brazier"), HasSubstr("35.65 %")));
-    for (const double bad : {0.0, -1.0, 20.0, std::nan("")})
+    for (const double bad : {0.0, -1.0, double(INFINITY), std::nan("")})
         EXPECT_THROW(keeler_brazier(bad, 0.2), InputError);
     for (const double bad : {0.0, -0.1, 1.0, std::nan("")})
         EXPECT_THROW(keeler_brazier(1, bad), InputError);
@@ -98,6 +99,9 @@ TEST(FormingLimitCurve, PassesThroughMeasuredPointsHoweverTheyAreWritten)
     // Prolonged with the last slopes, in logarithmic strains.
     const double slope = (std::log(1.4) - std::log(1.35)) / std::log(1.1);
     EXPECT_NEAR(straight(0.3), std::log(1.4) + slope * (0.3 - std::log(1.1)), 1e-12);
+    const FormingLimitCurve steep = curve_through({-0.001, 0, 0.001}, {0.9, 0.1, 0.09}, false, "steep");
+    EXPECT_EQ(steep(-9), 5); // a number whatever comes
+    EXPECT_EQ(steep(9), 0);
     const auto read = [&](const std::string& text) {
         put(folder / "flc.csv", text);
         return read_forming_limit_curve(folder / "flc.csv");

@@ -178,7 +178,7 @@ TEST(Zones, NamesDiffer)
     }
     EXPECT_EQ(names.size(), size_t(zone_count));
     EXPECT_EQ(texts.size(), size_t(zone_count));
-    EXPECT_THAT(definition(Zone::risk, {.margin = 0.08}), HasSubstr("8 points"));
+    EXPECT_THAT(definition(Zone::risk, {.margin = 0.08}), HasSubstr("8 percentage points"));
 }
 
 TEST(Zones, WhatDoesNotBelongTogetherIsRefused)
