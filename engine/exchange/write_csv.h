@@ -16,8 +16,9 @@ void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, co
                       const SheetFields& node_fields, const std::vector<int>& number = {},
                       LengthUnit unit = LengthUnit::mm);
 
-/// face,x,y,z,thickness,thinning,strain_major,strain_minor,strain_equivalent,zone,limit_distance - one row per face; x, y, z is
-/// its middle on the part. Without zones the last two columns are left out, without a forming limit curve the last one.
+/// face,x,y,z,thickness,thinning,strain_major,strain_minor,strain_equivalent,zone,limit_distance - one row per face;
+/// x, y, z is its middle on the part. Without zones the last two columns are left out, without a forming limit curve
+/// the last one.
 /// @param number what each face is called in the first column; empty: 0, 1, 2, ...
 /// @throws InputError if fields or zones do not match the part; ExchangeError if the file cannot be written
 void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, const SheetFields& face_fields,

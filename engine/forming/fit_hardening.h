@@ -20,9 +20,9 @@ struct LawFit {
 
 /// Fits swift, hollomon, voce, ludwik, hockett_sherby and swift_voce by least squares of the stress, in this order.
 ///
-/// The stresses of a law enter linearly and are eliminated (variable projection); its one or two other numbers are found by
-/// Levenberg-Marquardt from the best point of a grid. Swift-Voce mixes the fitted Swift and the fitted Voce law: only
-/// alpha is fitted, since the products alpha K, (1 - alpha) sigma are all that a curve can tell.
+/// The stresses of a law enter linearly and are eliminated (variable projection); its one or two other numbers are
+/// found by Levenberg-Marquardt from the best point of a grid. Swift-Voce mixes the fitted Swift and the fitted Voce
+/// law: only alpha is fitted, since the products alpha K, (1 - alpha) sigma are all that a curve can tell.
 /// @param strain     plastic, logarithmic, above 0
 /// @param stress_MPa true, above 0
 /// @throws InputError if there are fewer than 8 points, or one is not as described

@@ -166,8 +166,8 @@ double uniform_strain(const Hardening& law, double at_most)
 StressCurve::StressCurve(const Hardening& law, double young_MPa, const Options& options)
     : law_(law), young_(young_MPa), trusted_(options.trusted_strain), rate_(options.continuation_rate)
 {
-    // Every law is concave, so sigma_Y(eps) - E eps falls through zero once; bisection needs no derivative at zero, where
-    // that of Hollomon, Ludwik and Hockett-Sherby is infinite.
+    // Every law is concave, so sigma_Y(eps) - E eps falls through zero once; bisection needs no derivative at zero,
+    // where that of Hollomon, Ludwik and Hockett-Sherby is infinite.
     double low = 0, high = 1;
     for (int i = 0; i < 200; ++i) {
         const double middle = 0.5 * (low + high);

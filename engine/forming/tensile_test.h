@@ -29,9 +29,9 @@ struct TensileTest {
 
 /// Turns a table of strain and stress (MPa) into the true curve over the plastic strain, up to the greatest force.
 ///
-/// Beyond the greatest force the bar necks and its strain is not uniform; those rows are left out. Young's modulus is the
-/// slope of a line through the rows between 10 and 50 % of Rp0.2 [ISO 6892-1], at least five of them on a line, and that
-/// line's foot is strain zero. The columns may be in either order if their titles name strain and stress.
+/// Beyond the greatest force the bar necks and its strain is not uniform; those rows are left out. Young's modulus is
+/// the slope of a line through the rows between 10 and 50 % of Rp0.2 [ISO 6892-1], at least five of them on a line,
+/// and that line's foot is strain zero. The columns may be in either order if their titles name strain and stress.
 /// @param name of the table, for messages
 /// @throws InputError with the line where there is one: whether the data are engineering or true is not said; another
 ///         unit than MPa; strains that fall or cannot be; too few rows; no elastic rows and no modulus given

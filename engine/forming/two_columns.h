@@ -22,7 +22,8 @@ struct TwoColumns {
 /// Reads a text with two columns of numbers.
 ///
 /// Columns are separated by ';', a tab, ',' or blanks; the decimal sign is a point, or a comma where the comma does not
-/// separate. Lines without a number may stand above the first row; what follows '#' is a comment; empty lines do not count.
+/// separate. Lines without a number may stand above the first row; what follows '#' is a comment; empty lines do not
+/// count.
 /// @throws InputError with the file and the line: no file, no text, no numbers, a row of other than two finite numbers
 TwoColumns read_two_columns(const std::filesystem::path& file);
 

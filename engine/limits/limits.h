@@ -20,8 +20,8 @@ namespace spia {
 ///   strong_thickening   it is thicker than allowed: h/h0 - 1 above max_thickening
 ///   low_strain          both principal engineering strains are smaller in size than low_strain: the place is hardly
 ///                       stretched, will be soft to the touch and spring back
-///   wrinkling_tendency  the sheet thickens (eps_1 + eps_2 < 0): the compression outweighs the tension, and where no tool holds
-///                       the sheet flat it can buckle. Whether it does, no membrane theory tells
+///   wrinkling_tendency  the sheet thickens (eps_1 + eps_2 < 0): the compression outweighs the tension, and where no
+///                       tool holds the sheet flat it can buckle. Whether it does, no membrane theory tells
 ///   safe                none of these
 /// Numbers rise with what is at stake, so the worst of several zones is the greatest.
 enum class Zone {
@@ -115,8 +115,8 @@ struct LimitsResult {
     std::vector<std::string> notes; ///< what to mind, in words
 };
 
-/// Judges a formed sheet: the curve by the options, and the zones by it. The n of Keeler-Brazier is the uniform strain of the
-/// hardening law, which for Hollomon's law is its n [Considere 1885].
+/// Judges a formed sheet: the curve by the options, and the zones by it. The n of Keeler-Brazier is the uniform
+/// strain of the hardening law, which for Hollomon's law is its n [Considere 1885].
 /// @param face  one entry per face; @param thickness mm, of the flat sheet
 /// @throws InputError  if there is no curve for the sheet, or an option is not as described
 LimitsResult forming_limits(const TriMesh& part, const SheetFields& face, const Material& material, double thickness,

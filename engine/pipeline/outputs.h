@@ -31,8 +31,8 @@ struct OutputOptions {
 };
 
 /// The files that write_outputs() would write now, in the order of `formats`: PART.iges, PART.step, PART.glb, PART.vtu,
-/// PART.dxf, PART.png, and for csv the tables fields.csv, outline.csv and faces.csv (with a name: NAME-fields.csv ...). IGES and
-/// STEP need a surface, a GLB file one of its nodes; without it they are left out.
+/// PART.dxf, PART.png, and for csv the tables fields.csv, outline.csv and faces.csv (with a name: NAME-fields.csv
+/// ...). IGES and STEP need a surface, a GLB file one of its nodes; without it they are left out.
 /// @throws InputError if a format is unknown, the name is none, or nothing is chosen of a CSV or GLB file
 std::vector<std::filesystem::path> output_files(const Session& session, const std::filesystem::path& folder,
                                                 const std::vector<std::string>& formats,

@@ -78,15 +78,15 @@ std::string zone_table(const LimitsResult& limits)
     std::string rows;
     for (const Zone zone : all_zones) {
         const ZoneShare& share = limits.zones.share[size_t(zone)];
-        rows += fmt::format(
-            "<tr><td><b style=\"color:{}\">\u25a0</b> {}</td><td style=\"text-align:left\">{}</td><td>{}</td><td>{}</td></tr>\n",
-            look(zone).colour, look(zone).words, escaped(definition(zone, limits.settings)), grouped(share.faces),
-            fixed(100 * share.share, 2));
+        rows += fmt::format("<tr><td><b style=\"color:{}\">\u25a0</b> {}</td>"
+                            "<td style=\"text-align:left\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                            look(zone).colour, look(zone).words, escaped(definition(zone, limits.settings)),
+                            grouped(share.faces), fixed(100 * share.share, 2));
     }
-    return fmt::format(
-        "<table class=\"spots\"><tr><th>Zone</th><th style=\"text-align:left\">Definition</th><th>Faces</th><th>Area, %</th></tr>\n"
-        "{}</table>\n",
-        rows);
+    return fmt::format("<table class=\"spots\"><tr><th>Zone</th>"
+                       "<th style=\"text-align:left\">Definition</th><th>Faces</th><th>Area, %</th></tr>\n"
+                       "{}</table>\n",
+                       rows);
 }
 
 std::string spot_table(const LimitsResult& limits, const PartFile& part)
