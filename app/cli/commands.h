@@ -19,7 +19,11 @@ struct RunArguments {
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's
     std::vector<std::string> glb_nodes = {"part", "blank", "quad_mesh", "surface", "control_net"};
-    std::vector<std::string> csv_tables = {"fields", "outline"};
+    std::vector<std::string> csv_tables = {"fields", "outline", "faces"};
+    std::string flc = "automatic"; ///< automatic, keeler-brazier, none, or a file of points
+    std::optional<double> flc_n;
+    std::optional<double> marginal;                ///< percent
+    double max_thinning = 25, max_thickening = 10; ///< percent
     bool strict = false, weld = false, keep_largest = false;
 };
 
@@ -38,6 +42,18 @@ int info(const InfoArguments& arguments);
 
 /// Prints the built-in grades. @returns 0
 int materials();
+
+struct FitArguments {
+    std::filesystem::path table, out;
+    std::string law = "best", name; ///< empty name: the stem of `out`
+    std::string data, strain;       ///< engineering or true; fraction or percent; empty: as the heading says
+    std::optional<double> young;    ///< MPa
+    double poisson = 0.3, density = 7850;
+    std::vector<double> r = {1, 1, 1};
+};
+
+/// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
+int fit_material(const FitArguments& arguments);
 
 /// Where the materials and sample parts lie: SPIA_ASSETS, or the folder the program was built from.
 std::filesystem::path assets();

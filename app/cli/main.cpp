@@ -54,6 +54,27 @@ int main(int count, char** values)
         ->type_name("NAME|FILE")
         ->capture_default_str();
     run_command->add_option("--thickness", run.thickness, "of the flat sheet")->type_name("MM")->capture_default_str();
+    run_command
+        ->add_option("--flc", run.flc,
+                     "forming limit curve: keeler-brazier, none, a file of minor and major strains, or automatic: "
+                     "keeler-brazier for steel, none else")
+        ->type_name("keeler-brazier|FILE.csv|none")
+        ->capture_default_str();
+    run_command->add_option("--flc-n", run.flc_n, "n of keeler-brazier (default: the uniform strain of the material)")
+        ->check(CLI::Range(1e-3, 0.99));
+    run_command
+        ->add_option("--marginal", run.marginal,
+                     "points of engineering major strain below the curve that are a risk (default 10, aluminium 8)")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PERCENT");
+    run_command->add_option("--max-thinning", run.max_thinning, "allowable thinning")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PERCENT")
+        ->capture_default_str();
+    run_command->add_option("--max-thickening", run.max_thickening, "allowable thickening")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->type_name("PERCENT")
+        ->capture_default_str();
     run_command->add_option("--direction", run.direction, "stamping direction x,y,z (default: automatic)")
         ->delimiter(',')
         ->expected(3);
@@ -107,6 +128,37 @@ int main(int count, char** values)
 
     CLI::App* materials_command = app.add_subcommand("materials", "List the built-in sheet grades");
 
+    cli::FitArguments fit;
+    CLI::App* material_command = app.add_subcommand("material", "Make a material file");
+    material_command->require_subcommand(1);
+    CLI::App* fit_command = material_command->add_subcommand(
+        "fit", "Fit the hardening laws to a tensile test: a text file of two columns, strain and stress in MPa");
+    fit_command->add_option("table", fit.table, "the test; columns separated by ';', ',', tabs or blanks")
+        ->required()
+        ->type_name("FILE.csv");
+    fit_command->add_option("--out", fit.out, "the material file")->required()->type_name("GRADE.json");
+    fit_command->add_option("--law", fit.law, "the law to take; best weighs its error and its number of parameters")
+        ->check(CLI::IsMember({"best", "swift", "hollomon", "voce", "ludwik", "hockett_sherby", "swift_voce"}))
+        ->capture_default_str();
+    fit_command->add_option("--name", fit.name, "of the grade (default: the file's)");
+    fit_command->add_option("--r", fit.r, "Lankford coefficients r0,r45,r90 (a tensile curve does not hold them)")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(CLI::Range(1e-3, 99.0))
+        ->type_name("r0,r45,r90")
+        ->capture_default_str();
+    fit_command->add_option("--data", fit.data, "stress and strain (default: as the heading says)")
+        ->check(CLI::IsMember({"engineering", "true"}));
+    fit_command->add_option("--strain", fit.strain, "unit of strain (default: by the heading, else by its size)")
+        ->check(CLI::IsMember({"fraction", "percent"}));
+    fit_command->add_option("--young", fit.young, "Young's modulus (default: the slope of the first rows)")
+        ->check(CLI::Range(1e3, 1e6))
+        ->type_name("MPA");
+    fit_command->add_option("--poisson", fit.poisson, "Poisson's ratio")
+        ->check(CLI::Range(-0.99, 0.5))
+        ->capture_default_str();
+    fit_command->add_option("--density", fit.density, "kg/m3")->check(CLI::Range(1.0, 9e4))->capture_default_str();
+
     try {
         app.parse(count, values);
     } catch (const CLI::ParseError& error) {
@@ -122,6 +174,8 @@ int main(int count, char** values)
             return cli::info(info);
         if (*materials_command)
             return cli::materials();
+        if (*fit_command)
+            return cli::fit_material(fit);
     } catch (const InputError& error) {
         return failed(bad_input, error.what());
     } catch (const SolveError& error) {

@@ -17,6 +17,26 @@
 namespace spia::cli {
 namespace {
 
+LimitsOptions limits_options(const RunArguments& arguments)
+{
+    using Source = LimitsOptions::Source;
+    LimitsOptions result;
+    if (arguments.flc == "keeler-brazier")
+        result.source = Source::keeler_brazier;
+    else if (arguments.flc == "none")
+        result.source = Source::none;
+    else if (arguments.flc != "automatic") {
+        result.source = Source::points;
+        result.curve = read_forming_limit_curve(arguments.flc);
+    }
+    result.n = arguments.flc_n;
+    if (arguments.marginal)
+        result.margin = *arguments.marginal / 100;
+    result.zones.max_thinning = arguments.max_thinning / 100;
+    result.zones.max_thickening = arguments.max_thickening / 100;
+    return result;
+}
+
 SessionOptions options(const RunArguments& arguments)
 {
     SessionOptions result;
@@ -41,6 +61,7 @@ SessionOptions options(const RunArguments& arguments)
         result.grid.columns = n;
         result.grid.rows = m;
     }
+    result.limits = limits_options(arguments);
     result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
                          : arguments.grid_method == "harmonic" ? GridMethod::harmonic
                                                                : GridMethod::automatic;
@@ -60,7 +81,8 @@ OutputOptions output_options(const RunArguments& arguments)
     result.name = arguments.name;
     result.glb = {among(nodes, "part"), among(nodes, "blank"), among(nodes, "quad_mesh"), among(nodes, "surface"),
                   among(nodes, "control_net")};
-    result.csv = {among(arguments.csv_tables, "fields"), among(arguments.csv_tables, "outline")};
+    result.csv = {among(arguments.csv_tables, "fields"), among(arguments.csv_tables, "outline"),
+                  among(arguments.csv_tables, "faces")};
     return result;
 }
 
@@ -71,6 +93,21 @@ void print_doctor(const PartFile& part)
     for (const Finding& finding : part.doctor.findings)
         fmt::print("  {}: {}{}{}\n", finding.severity == Severity::repaired ? "repaired" : "note", finding.text,
                    finding.advice.empty() ? "" : "; ", finding.advice);
+}
+
+void print_limits(const LimitsResult& limits)
+{
+    if (limits.curve)
+        fmt::print("limits    FLC0 {:.1f} %, {}\n", 100 * engineering_strain(limits.curve->at_plane_strain()),
+                   limits.curve->formula.substr(0, limits.curve->formula.find(':')));
+    else
+        fmt::print("limits    no forming limit curve\n");
+    for (const Zone zone : all_zones)
+        if (const ZoneShare& share = limits.zones.share[size_t(zone)]; share.faces > 0)
+            fmt::print("          {:<18} {:>7} faces, {:5.1f} % of the area\n", name(zone), share.faces,
+                       100 * share.share);
+    for (const std::string& note : limits.notes)
+        fmt::print("  note: {}\n", note);
 }
 
 void print_summary(const Session& session)
@@ -86,6 +123,7 @@ void print_summary(const Session& session)
     fmt::print("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
                100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
                flat.face.strain_equivalent.maxCoeff());
+    print_limits(*session.limits);
     if (!session.grid)
         return;
     const GridResult& grid = session.grid->result;

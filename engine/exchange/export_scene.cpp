@@ -12,6 +12,7 @@ void require_complete(const ExportScene& scene)
     if (!scene.part || !scene.blank || !scene.fields)
         throw InputError("there is no flattened part to show; flatten it first");
     require_blank_of(*scene.part, *scene.blank);
+    require_zones(scene.zones, *scene.part);
     require_fields(*scene.fields, scene.part->vertices(), "vertex");
     if (const QuadGrid* grid = scene.quad_mesh;
         grid &&

@@ -3,6 +3,7 @@
 
 #include "engine/coons/quad_grid.h"
 #include "engine/forming/blank.h"
+#include "engine/limits/limits.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/surface.h"
 
@@ -20,6 +21,7 @@ struct ExportScene {
     const Eigen::Matrix3Xd* surface_normal =
         nullptr; ///< its unit normals, one per vertex of surface; null: from the triangles
     const NurbsSurface* control_net = nullptr; ///< whose control points are drawn
+    const Zones* zones = nullptr;              ///< per face of the part
 };
 
 /// @throws InputError naming what is missing, does not match or is not finite

@@ -48,6 +48,18 @@ void require_finite(const NamedField& field, int count, const char* per)
             throw InputError(fmt::format("{} of {} {} is not a number; flatten the part again", field.name, per, i));
 }
 
+void require_zones(const Zones* zones, const TriMesh& part)
+{
+    if (!zones)
+        return;
+    const size_t faces = size_t(part.triangles());
+    if (zones->zone.size() != faces || (zones->distance.size() != 0 && zones->distance.size() != Eigen::Index(faces)))
+        throw InputError(fmt::format("{} zones were given for {} faces; judge the limits of this part again",
+                                     zones->zone.size(), faces));
+    if (!zones->distance.allFinite())
+        throw InputError("a distance to the forming limit curve is not a number; check the points of the curve");
+}
+
 void require_fields(const SheetFields& fields, int count, const char* per)
 {
     for (const NamedField& field : forming_fields(fields))

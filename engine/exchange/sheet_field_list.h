@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/forming/blank.h"
+#include "engine/limits/limits.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -25,6 +26,9 @@ void require_blank_of(const TriMesh& part, const Blank& blank);
 
 /// @throws InputError unless every field has count finite values; @param per what they belong to, e.g. "vertex"
 void require_fields(const SheetFields& fields, int count, const char* per);
+
+/// @throws InputError if there are zones, but not one per face of the part
+void require_zones(const Zones* zones, const TriMesh& part);
 
 /// @throws InputError naming the field and the first value that is not finite
 void require_finite(const NamedField& field, int count, const char* per);

@@ -44,6 +44,37 @@ void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, co
     write_atomically(path, content);
 }
 
+void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, const SheetFields& face_fields,
+                     const Zones* zones, const std::vector<int>& number, LengthUnit unit)
+{
+    if (!number.empty() && int(number.size()) != part.triangles())
+        throw InputError(fmt::format("{} face numbers were given for {} faces", number.size(), part.triangles()));
+    require_zones(zones, part);
+    const bool distance = zones && zones->distance.size() > 0;
+    const auto fields = forming_fields(face_fields);
+    const std::string in = suffix(unit);
+    const double mm = millimetres(unit);
+    std::string content = fmt::format("face,x{0},y{0},z{0}", in);
+    for (const NamedField& field : fields) {
+        require_finite(field, part.triangles(), "face");
+        content += "," + field.name + (is_length(field) ? in : "");
+    }
+    content += fmt::format("{}{}\n", zones ? ",zone" : "", distance ? ",limit_distance" : "");
+    auto end = std::back_inserter(content);
+    for (int f = 0; f < part.triangles(); ++f) {
+        const Eigen::Vector3d middle = part.position(Eigen::all, part.triangle.col(f)).rowwise().mean() / mm;
+        fmt::format_to(end, "{},{},{},{}", number.empty() ? f : number[size_t(f)], middle[0], middle[1], middle[2]);
+        for (const NamedField& field : fields)
+            fmt::format_to(end, ",{}", (*field.value)[f] / (is_length(field) ? mm : 1));
+        if (zones)
+            fmt::format_to(end, ",{}", name(zones->zone[size_t(f)]));
+        if (distance)
+            fmt::format_to(end, ",{}", zones->distance[f]);
+        content += '\n';
+    }
+    write_atomically(path, content);
+}
+
 void write_outline_csv(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops, LengthUnit unit)
 {
     require_outline(loops);

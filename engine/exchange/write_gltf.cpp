@@ -148,6 +148,12 @@ private:
         extras["part"] = Value(scene_.name);
         extras["units"] = Value(std::string("vertices and thickness in mm below the root node, which scales to metres; "
                                             "thinning and logarithmic strains without unit"));
+        if (scene_.zones) {
+            Value::Object names;
+            for (const Zone zone : all_zones)
+                names[std::to_string(int(zone))] = Value(std::string(name(zone)));
+            extras["zones"] = Value(names);
+        }
         model_.asset.extras = Value(extras);
         tinygltf::Node root;
         root.name = scene_.name.empty() ? "chain" : scene_.name;
@@ -198,6 +204,13 @@ private:
             std::transform(name.begin(), name.end(), name.begin(),
                            [](unsigned char c) { return char(std::toupper(c)); });
             shared[name] = buffer_.vertices(field.value->transpose().cast<float>());
+        }
+        if (scene_.zones) {
+            const auto zone = zones_at_vertices(part, scene_.zones->zone);
+            Eigen::MatrixXf number(1, count);
+            for (int v = 0; v < count; ++v)
+                number(0, v) = float(zone[size_t(v)]);
+            shared["_ZONE"] = buffer_.vertices(number);
         }
         Eigen::MatrixXf colour(3, count);
         for (int v = 0; v < count; ++v)

@@ -63,6 +63,22 @@ std::string text_array(const std::string& name, std::string_view text)
                        name, codes);
 }
 
+std::string zone_fields(const Zones& zones)
+{
+    Eigen::VectorXi number(Eigen::Index(zones.zone.size()));
+    for (Eigen::Index f = 0; f < number.size(); ++f)
+        number[f] = int(zones.zone[size_t(f)]);
+    return array("zone", number) + (zones.distance.size() ? array("limit_distance", zones.distance) : "");
+}
+
+std::string zone_names()
+{
+    std::string names;
+    for (const Zone zone : all_zones)
+        names += fmt::format("{}{} {}", names.empty() ? "" : ", ", int(zone), name(zone));
+    return text_array("zone_names", names);
+}
+
 std::string cells(const TriMesh& part)
 {
     using Eigen::Dynamic;
@@ -79,12 +95,13 @@ std::string cells(const TriMesh& part)
 
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra,
-               LengthUnit unit)
+               LengthUnit unit, const Zones* zones)
 {
     const double mm = millimetres(unit);
     require_blank_of(part, blank);
     require_fields(face_fields, part.triangles(), "face");
     require_fields(node_fields, part.vertices(), "vertex");
+    require_zones(zones, part);
     std::string point_data = sheet_fields(node_fields, mm) + blank_fields(part, blank, mm);
     for (const NamedField& field : extra) {
         require_finite(field, part.vertices(), "vertex");
@@ -100,9 +117,10 @@ void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Bla
             "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
             "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
             "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-            program_name(), name(unit), text_array("length_unit", name(unit)), part.vertices(), part.triangles(),
-            point_data, sheet_fields(face_fields, mm), array("Points", Eigen::Matrix3Xd(part.position / mm), 3),
-            cells(part)));
+            program_name(), name(unit), text_array("length_unit", name(unit)) + (zones ? zone_names() : ""),
+            part.vertices(), part.triangles(), point_data,
+            sheet_fields(face_fields, mm) + (zones ? zone_fields(*zones) : ""),
+            array("Points", Eigen::Matrix3Xd(part.position / mm), 3), cells(part)));
 }
 
 } // namespace spia

@@ -4,6 +4,7 @@
 
 #include "engine/exchange/length_unit.h"
 #include "engine/exchange/sheet_field_list.h"
+#include "engine/limits/limits.h"
 
 namespace spia {
 
@@ -11,11 +12,13 @@ namespace spia {
 /// node fields, blank_x and blank_y, displacement_to_blank ("Warp By Vector" with factor 1 shows the blank in
 /// the plane z = 0) and the extra lengths (e.g. the deviation of the surface). Cell data: the face fields. Field data:
 /// length_unit, the name of the unit of points, displacement, thickness and extra fields.
+/// With zones the cell data have their numbers, `zone`, and limit_distance where there is a forming limit curve; the
+/// field data zone_names say which is which.
 /// @param extra one length per vertex each, mm
 /// @throws InputError if the fields do not match the part or are not finite; ExchangeError if the file cannot
 /// be written
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {},
-               LengthUnit unit = LengthUnit::mm);
+               LengthUnit unit = LengthUnit::mm, const Zones* zones = nullptr);
 
 } // namespace spia

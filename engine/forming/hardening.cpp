@@ -1,10 +1,15 @@
 #include "engine/forming/hardening.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <fmt/core.h>
+#include <limits>
 
 namespace spia {
 namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 FlowStress evaluate(const Swift& law, double strain)
 {
@@ -16,7 +21,7 @@ FlowStress evaluate(const Swift& law, double strain)
 FlowStress evaluate(const Hollomon& law, double strain)
 {
     if (strain <= 0)
-        return {0, 0, 0};
+        return {0, infinite, 0};
     const double stress = law.K_MPa * std::pow(strain, law.n);
     return {stress, law.n * stress / strain, stress * strain / (law.n + 1)};
 }
@@ -26,6 +31,34 @@ FlowStress evaluate(const Voce& law, double strain)
     const double range = law.sigma_sat_MPa - law.sigma0_MPa, decay = std::exp(-law.c * strain);
     return {law.sigma_sat_MPa - range * decay, range * law.c * decay,
             law.sigma_sat_MPa * strain - range * (1 - decay) / law.c};
+}
+
+FlowStress evaluate(const Ludwik& law, double strain)
+{
+    const FlowStress power = evaluate(Hollomon{law.K_MPa, law.n}, strain);
+    return {law.sigma0_MPa + power.stress, power.slope, law.sigma0_MPa * strain + power.work};
+}
+
+/// The work has the lower incomplete gamma function: integral of exp(-c x^p) dx = gamma(1/p, c eps^p) / (p c^(1/p)).
+FlowStress evaluate(const HockettSherby& law, double strain)
+{
+    using namespace boost::math::policies;
+    using InDouble = policy<promote_double<false>>; // long double would be ten times slower for digits nobody needs
+    if (strain <= 0)
+        return {law.sigma0_MPa, law.p < 1 ? infinite : (law.sigma_sat_MPa - law.sigma0_MPa) * law.c, 0};
+    const double range = law.sigma_sat_MPa - law.sigma0_MPa, x = law.c * std::pow(strain, law.p), decay = std::exp(-x);
+    const double integral = boost::math::tgamma_lower(1 / law.p, x, InDouble()) / (law.p * std::pow(law.c, 1 / law.p));
+    return {law.sigma_sat_MPa - range * decay, range * law.p * x / strain * decay,
+            law.sigma_sat_MPa * strain - range * integral};
+}
+
+FlowStress evaluate(const SwiftVoce& law, double strain)
+{
+    const FlowStress a = evaluate(law.swift, strain), b = evaluate(law.voce, strain);
+    const auto mixed = [&](double of_swift, double of_voce) {
+        return law.alpha * of_swift + (1 - law.alpha) * of_voce;
+    };
+    return {mixed(a.stress, b.stress), mixed(a.slope, b.slope), mixed(a.work, b.work)};
 }
 
 /// Outside its points the table keeps its first and last slope.
@@ -47,6 +80,58 @@ FlowStress evaluate(const HardeningTable& table, double strain)
 }
 
 } // namespace
+
+std::string_view law_name(const Hardening& law)
+{
+    struct Name {
+        std::string_view operator()(const Swift&) const { return "swift"; }
+        std::string_view operator()(const Hollomon&) const { return "hollomon"; }
+        std::string_view operator()(const Voce&) const { return "voce"; }
+        std::string_view operator()(const HardeningTable&) const { return "table"; }
+        std::string_view operator()(const Ludwik&) const { return "ludwik"; }
+        std::string_view operator()(const HockettSherby&) const { return "hockett_sherby"; }
+        std::string_view operator()(const SwiftVoce&) const { return "swift_voce"; }
+    };
+    return std::visit(Name{}, law);
+}
+
+std::string in_words(const Hardening& law)
+{
+    struct Words {
+        std::string operator()(const Swift& s) const
+        {
+            return fmt::format("Swift: {:.5g} MPa ({:.4g} + eps)^{:.4g}", s.K_MPa, s.e0, s.n);
+        }
+        std::string operator()(const Hollomon& h) const
+        {
+            return fmt::format("Hollomon: {:.5g} MPa eps^{:.4g}", h.K_MPa, h.n);
+        }
+        std::string operator()(const Voce& v) const
+        {
+            return fmt::format("Voce: {0:.5g} MPa - ({0:.5g} - {1:.5g}) MPa exp(-{2:.4g} eps)", v.sigma_sat_MPa,
+                               v.sigma0_MPa, v.c);
+        }
+        std::string operator()(const HardeningTable& t) const
+        {
+            return fmt::format("table of {} points", t.strain.size());
+        }
+        std::string operator()(const Ludwik& l) const
+        {
+            return fmt::format("Ludwik: {:.5g} MPa + {:.5g} MPa eps^{:.4g}", l.sigma0_MPa, l.K_MPa, l.n);
+        }
+        std::string operator()(const HockettSherby& h) const
+        {
+            return fmt::format("Hockett-Sherby: {0:.5g} MPa - ({0:.5g} - {1:.5g}) MPa exp(-{2:.4g} eps^{3:.4g})",
+                               h.sigma_sat_MPa, h.sigma0_MPa, h.c, h.p);
+        }
+        std::string operator()(const SwiftVoce& m) const
+        {
+            return fmt::format("Swift-Voce: {:.4g} [{}] + {:.4g} [{}]", m.alpha, (*this)(m.swift), 1 - m.alpha,
+                               (*this)(m.voce));
+        }
+    };
+    return std::visit(Words{}, law);
+}
 
 FlowStress flow_stress(const Hardening& law, double strain)
 {
@@ -81,7 +166,8 @@ double uniform_strain(const Hardening& law, double at_most)
 StressCurve::StressCurve(const Hardening& law, double young_MPa, const Options& options)
     : law_(law), young_(young_MPa), trusted_(options.trusted_strain), rate_(options.continuation_rate)
 {
-    // sigma_Y(eps) - E eps falls through zero once: bisection needs no derivative at zero (Hollomon's is infinite).
+    // Every law is concave, so sigma_Y(eps) - E eps falls through zero once; bisection needs no derivative at zero,
+    // where that of Hollomon, Ludwik and Hockett-Sherby is infinite.
     double low = 0, high = 1;
     for (int i = 0; i < 200; ++i) {
         const double middle = 0.5 * (low + high);

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -17,16 +19,37 @@ struct Voce {
     double sigma0_MPa, sigma_sat_MPa, c; ///< sigma_sat - (sigma_sat - sigma0) exp(-c eps)
     friend bool operator==(const Voce&, const Voce&) = default;
 };
+struct Ludwik {
+    double sigma0_MPa, K_MPa, n; ///< sigma0 + K eps^n; the slope at strain 0 is infinite  [Ludwik 1909]
+    friend bool operator==(const Ludwik&, const Ludwik&) = default;
+};
+struct HockettSherby {
+    double sigma0_MPa, sigma_sat_MPa, c,
+        p; ///< sigma_sat - (sigma_sat - sigma0) exp(-c eps^p)  [Hockett and Sherby 1975]
+    friend bool operator==(const HockettSherby&, const HockettSherby&) = default;
+};
+struct SwiftVoce {
+    double alpha; ///< alpha Swift + (1 - alpha) Voce, 0 < alpha < 1
+    Swift swift;
+    Voce voce;
+    friend bool operator==(const SwiftVoce&, const SwiftVoce&) = default;
+};
 struct HardeningTable {
     std::vector<double> strain, stress_MPa; ///< strictly increasing strain from >= 0; linear between the points
     friend bool operator==(const HardeningTable&, const HardeningTable&) = default;
 };
-using Hardening = std::variant<Swift, Hollomon, Voce, HardeningTable>;
+using Hardening = std::variant<Swift, Hollomon, Voce, HardeningTable, Ludwik, HockettSherby, SwiftVoce>;
+
+/// The name of a law in material files: swift, hollomon, voce, table, ludwik, hockett_sherby, swift_voce.
+std::string_view law_name(const Hardening& law);
+
+/// A law with its numbers, for people: "Ludwik: 150 MPa + 420 MPa eps^0.45".
+std::string in_words(const Hardening& law);
 
 /// Flow stress of a law, its slope, and its integral from strain zero.
 struct FlowStress {
     double stress; ///< MPa
-    double slope;  ///< MPa per unit strain
+    double slope;  ///< MPa per unit strain; infinite at strain 0 for laws with a power below 1 of the strain
     double work;   ///< MPa: the area under the curve
 };
 FlowStress flow_stress(const Hardening& law, double strain);

@@ -102,20 +102,38 @@ Hardening read_hardening(const Reader& in)
 {
     constexpr double huge_MPa = 1e5;
     const std::string law = in.text("law");
-    if (law == "swift")
+    const auto swift = [&] {
         return Swift{in.number("K_MPa", 0, huge_MPa), in.number("e0", 0, 1), in.number("n", 0, 1)};
+    };
+    const auto rising_to = [&](double sigma0) { // the stress of saturation
+        const double sigma_sat = in.number("sigma_sat_MPa", 0, huge_MPa);
+        if (sigma_sat < sigma0)
+            in.fail("sigma_sat_MPa", "is below sigma0_MPa");
+        return sigma_sat;
+    };
+    const auto voce = [&] {
+        const double sigma0 = in.number("sigma0_MPa", 0, huge_MPa);
+        return Voce{sigma0, rising_to(sigma0), in.number("c", 0, 1e3)};
+    };
+    if (law == "swift")
+        return swift();
     if (law == "hollomon")
         return Hollomon{in.number("K_MPa", 0, huge_MPa), in.number("n", 0, 1)};
-    if (law == "voce") {
-        const Voce voce{in.number("sigma0_MPa", 0, huge_MPa), in.number("sigma_sat_MPa", 0, huge_MPa),
-                        in.number("c", 0, 1e3)};
-        if (voce.sigma_sat_MPa < voce.sigma0_MPa)
-            in.fail("sigma_sat_MPa", "is below sigma0_MPa");
-        return voce;
+    if (law == "voce")
+        return voce();
+    if (law == "ludwik")
+        return Ludwik{in.number("sigma0_MPa", 0, huge_MPa), in.number("K_MPa", 0, huge_MPa), in.number("n", 0, 1)};
+    if (law == "hockett_sherby") {
+        const double sigma0 = in.number("sigma0_MPa", 0, huge_MPa);
+        constexpr double barely = 1e-12; // p = 1, Voce's law, is allowed
+        return HockettSherby{sigma0, rising_to(sigma0), in.number("c", 0, 1e3), in.number("p", 0.05, 1 + barely)};
     }
+    if (law == "swift_voce")
+        return SwiftVoce{in.number("alpha", 0, 1), swift(), voce()};
     if (law == "table")
         return read_table(in);
-    in.fail("law", fmt::format("is \"{}\"; known are swift, hollomon, voce, table", law));
+    in.fail("law",
+            fmt::format("is \"{}\"; known are swift, hollomon, voce, ludwik, hockett_sherby, swift_voce, table", law));
 }
 
 /// A flow stress above Hooke's line at every strain would never yield.

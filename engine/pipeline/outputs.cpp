@@ -47,14 +47,16 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
         options.name == "..")
         throw InputError(fmt::format("\"{}\" is no name of a file; leave out folders", options.name));
     if (format == "csv") {
-        if (!options.csv.fields && !options.csv.outline)
-            throw InputError("nothing is chosen of the CSV tables; take fields, outline or both");
+        if (options.csv == CsvTables{false, false, false})
+            throw InputError("nothing is chosen of the CSV tables; take fields, outline or faces");
         const std::string first = options.name.empty() ? "" : options.name + "-";
         std::vector<std::string> names;
         if (options.csv.fields)
             names.push_back(first + "fields.csv");
         if (options.csv.outline)
             names.push_back(first + "outline.csv");
+        if (options.csv.faces)
+            names.push_back(first + "faces.csv");
         return names;
     }
     if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
@@ -128,6 +130,8 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     scene.part = &part;
     scene.blank = &flat.blank;
     scene.fields = &flat.node;
+    const Zones* zones = session.limits ? &session.limits->zones : nullptr;
+    scene.zones = zones;
     if (session.lifted)
         scene.quad_mesh = &session.lifted->lifted;
     Tessellation tessellation;
@@ -163,14 +167,17 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
                 deviation = session.surface->deviation.at_vertex.head(part.vertices());
                 extra.push_back({"deviation", &deviation});
             }
-            write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit);
+            write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit, zones);
         } else if (format == "dxf")
             write_dxf(path, blank_outline(part, flat.blank), unit);
         else if (format == "csv") {
+            size_t table = first;
             if (options.csv.fields)
-                write_fields_csv(path, part, flat.blank, flat.node, session.part->source_vertex, unit);
+                write_fields_csv(files[table++], part, flat.blank, flat.node, session.part->source_vertex, unit);
             if (options.csv.outline)
-                write_outline_csv(files.back(), blank_outline(part, flat.blank), unit);
+                write_outline_csv(files[table++], blank_outline(part, flat.blank), unit);
+            if (options.csv.faces)
+                write_faces_csv(files[table], part, flat.face, zones, session.part->source_face, unit);
         } else
             write_picture(path, scene);
     }

@@ -15,7 +15,7 @@ const std::vector<std::string>& output_formats();
 
 /// What a CSV export consists of; each is a file of its own.
 struct CsvTables {
-    bool fields = true, outline = true;
+    bool fields = true, outline = true, faces = true;
 
     friend bool operator==(const CsvTables&, const CsvTables&) = default;
 };
@@ -31,8 +31,8 @@ struct OutputOptions {
 };
 
 /// The files that write_outputs() would write now, in the order of `formats`: PART.iges, PART.step, PART.glb, PART.vtu,
-/// PART.dxf, PART.png, and for csv the two tables fields.csv and outline.csv (with a name: NAME-fields.csv ...). IGES and
-/// STEP need a surface, a GLB file one of its nodes; without it they are left out.
+/// PART.dxf, PART.png, and for csv the tables fields.csv, outline.csv and faces.csv (with a name: NAME-fields.csv
+/// ...). IGES and STEP need a surface, a GLB file one of its nodes; without it they are left out.
 /// @throws InputError if a format is unknown, the name is none, or nothing is chosen of a CSV or GLB file
 std::vector<std::filesystem::path> output_files(const Session& session, const std::filesystem::path& folder,
                                                 const std::vector<std::string>& formats,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/coons/cell_quality.h"
+#include "engine/forming/material_text.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -130,6 +131,61 @@ std::array<int, 2> worst_cell(const QuadGrid& planar)
     return {cell % planar.columns, cell / planar.columns};
 }
 
+Json zones_json(const LimitsResult& limits)
+{
+    Json json = Json::object();
+    for (const Zone zone : all_zones) {
+        const ZoneShare& share = limits.zones.share[size_t(zone)];
+        json[std::string(name(zone))] = {{"number", int(zone)},
+                                         {"definition", definition(zone, limits.settings)},
+                                         {"faces", share.faces},
+                                         {"area_mm2", share.area_mm2},
+                                         {"area_share", share.share}};
+    }
+    return json;
+}
+
+Json spots_json(const LimitsResult& limits, const PartFile& part)
+{
+    Json list = Json::array();
+    for (const WorstSpot& spot : limits.zones.spots)
+        list.push_back({{"zone", name(spot.zone)},
+                        {"value", spot.value},
+                        {"face", part.source_face[size_t(spot.face)]},
+                        {"position_mm", {spot.position[0], spot.position[1], spot.position[2]}},
+                        {"strain_major", spot.strain_major},
+                        {"strain_minor", spot.strain_minor},
+                        {"thinning", spot.thinning},
+                        {"region_faces", spot.region_faces},
+                        {"region_area_mm2", spot.region_area_mm2}});
+    return list;
+}
+
+Json curve_json(const FormingLimitCurve& curve)
+{
+    Json points = Json::array();
+    for (size_t i = 0; i < curve.minor.size(); ++i)
+        points.push_back({curve.minor[i], curve.major[i]});
+    return {{"formula", curve.formula},
+            {"flc0", engineering_strain(curve.at_plane_strain())},
+            {"minor_major_logarithmic", points}};
+}
+
+Json limits_json(const LimitsResult& limits, const PartFile& part)
+{
+    const ZoneOptions& settings = limits.settings;
+    return {{"curve", limits.curve ? curve_json(*limits.curve) : Json(nullptr)},
+            {"settings",
+             {{"margin", settings.margin},
+              {"max_thinning", settings.max_thinning},
+              {"max_thickening", settings.max_thickening},
+              {"low_strain", settings.low_strain}}},
+            {"zones", zones_json(limits)},
+            {"worst_spots", spots_json(limits, part)},
+            {"faces_beyond_curve", limits.beyond_curve},
+            {"notes", limits.notes}};
+}
+
 Json grid_json(const Session& session)
 {
     const GridResult& grid = session.grid->result;
@@ -207,10 +263,13 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
     if (session.blank) {
         const Distortion d = distortion(session.part->mesh, session.blank->blank.position);
         json["material"] = session.options.flatten.material.name;
+        json["hardening"] = Json::parse(hardening_text(session.options.flatten.material.hardening));
         json["sheet_thickness_mm"] = session.options.flatten.thickness;
         json["solve"] = solve_json(session.blank->report, session.blank->stamping);
         json["blank"] = blank_json(session.part->mesh, *session.blank);
         json["result"] = result_json(*session.blank);
+        if (session.limits)
+            json["limits"] = limits_json(*session.limits, *session.part);
         json["distortion"] = {
             {"angular_rms", d.angular_rms}, {"area_rms", d.area_rms}, {"definition", distortion_definition}};
     }

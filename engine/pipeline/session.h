@@ -10,6 +10,7 @@
 #include "engine/coons/lift.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
+#include "engine/limits/limits.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/interpolate.h"
 
@@ -23,6 +24,7 @@ std::string_view name(Stage stage);
 struct SessionOptions {
     ReadOptions read;
     FlattenOptions flatten;
+    LimitsOptions limits;
     std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if not given
     GridOptions grid;
     InterpolateOptions interpolate;
@@ -47,6 +49,7 @@ struct Session {
 
     std::shared_ptr<const PartFile> part;
     std::shared_ptr<const FlattenResult> blank;
+    std::shared_ptr<const LimitsResult> limits; ///< of the blank; made together with it
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;
     std::shared_ptr<const SurfaceStage> surface;
@@ -57,6 +60,10 @@ struct Session {
 /// Finds out what would end a later stage, as soon as the part is read.
 /// @throws InputError if there is no part, or a corner that was asked for is no vertex of its boundary
 void require_possible(const Session& session);
+
+/// Judges the solved sheet anew by the options' limits, on a copy of the session: quick, no other result changes.
+/// @throws InputError if the part is not solved; else what forming_limits() throws
+Session judge_limits(Session session);
 
 /// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are dropped.
 /// @throws InputError  if an earlier stage has not run; else what the stage throws

@@ -105,6 +105,15 @@ void require_possible(const Session& session)
     }
 }
 
+Session judge_limits(Session session)
+{
+    require(session.blank != nullptr, "solve for the blank");
+    const FlattenOptions& sheet = session.options.flatten;
+    session.limits = std::make_shared<LimitsResult>(forming_limits(
+        session.part->mesh, session.blank->face, sheet.material, sheet.thickness, session.options.limits));
+    return session;
+}
+
 Session run_stage(Stage stage, Session session, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
@@ -114,8 +123,10 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
         session.lifted = nullptr;
     if (stage <= Stage::grid)
         session.grid = nullptr;
-    if (stage <= Stage::solve)
+    if (stage <= Stage::solve) {
         session.blank = nullptr;
+        session.limits = nullptr;
+    }
     if (stage <= Stage::read)
         session.part = nullptr;
     for (const Stage later : chain)
@@ -127,6 +138,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
     case Stage::solve:
         require(session.part != nullptr, "read a part");
         solve(session, progress);
+        session = judge_limits(std::move(session));
         break;
     case Stage::grid:
         require(session.blank != nullptr, "solve for the blank");

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/html_text.h"
+#include "app/viewer/model/report_limits.h"
 #include "app/viewer/model/report_tables.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
@@ -70,7 +71,7 @@ void write_html_report(const std::filesystem::path& file, const Session& session
     if (wanted.key_figures)
         html += key_figures(session, figures);
     if (wanted.worst_spots)
-        html += thinnest_places(session);
+        html += thinnest_places(session) + limits_section(session);
     if (wanted.assumptions)
         html += assumptions(session);
     if (wanted.solver)

@@ -37,8 +37,8 @@ inline constexpr auto members_of<GltfNodes> =
                member("control_net", &GltfNodes::control_net)};
 
 template <>
-inline constexpr auto members_of<CsvTables> =
-    std::tuple{member("fields", &CsvTables::fields), member("outline", &CsvTables::outline)};
+inline constexpr auto members_of<CsvTables> = std::tuple{
+    member("fields", &CsvTables::fields), member("outline", &CsvTables::outline), member("faces", &CsvTables::faces)};
 
 template <>
 inline constexpr auto members_of<OutputOptions> =

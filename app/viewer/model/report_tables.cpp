@@ -38,6 +38,22 @@ std::string law(const Hardening& hardening)
         {
             return fmt::format("table of {} points", t.strain.size());
         }
+        std::string operator()(const Ludwik& l) const
+        {
+            return fmt::format("Ludwik, \u03c3 = {:.5g} MPa + {:.5g} MPa \u00b7 \u03b5<sup>{:.4g}</sup>", l.sigma0_MPa,
+                               l.K_MPa, l.n);
+        }
+        std::string operator()(const HockettSherby& h) const
+        {
+            return fmt::format("Hockett-Sherby, \u03c3 = {0:.5g} \u2212 ({0:.5g} \u2212 {1:.5g}) "
+                               "exp(\u2212{2:.4g} \u03b5<sup>{3:.4g}</sup>) MPa",
+                               h.sigma_sat_MPa, h.sigma0_MPa, h.c, h.p);
+        }
+        std::string operator()(const SwiftVoce& m) const
+        {
+            return fmt::format("Swift-Voce, {:.4g} of {} and {:.4g} of {}", m.alpha, (*this)(m.swift), 1 - m.alpha,
+                               (*this)(m.voce));
+        }
     };
     return std::visit(Words{}, hardening);
 }

@@ -98,14 +98,17 @@ std::string line(const std::vector<Eigen::Vector2d>& points, const Curve& curve,
 {
     std::string list, dots;
     for (const Eigen::Vector2d& p : points) {
-        list += fmt::format("{:.2f},{:.2f} ", x(p[0]), y(p[1]));
+        if (curve.joined)
+            list += fmt::format("{:.2f},{:.2f} ", x(p[0]), y(p[1]));
         if (curve.dots)
-            dots += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"2\" fill=\"{}\"/>", x(p[0]), y(p[1]),
-                                curve.colour);
+            dots += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\"/>", x(p[0]), y(p[1]),
+                                curve.joined ? "2" : "1.1", curve.colour);
     }
+    if (!curve.joined)
+        return dots + "\n";
     return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" "
-                       "stroke-linejoin=\"round\"/>{}\n",
-                       list, curve.colour, dots);
+                       "stroke-linejoin=\"round\"{}/>{}\n",
+                       list, curve.colour, curve.dashed ? " stroke-dasharray=\"4 3\"" : "", dots);
 }
 
 std::string mark_line(const ChartMark& mark, const Axis& x)

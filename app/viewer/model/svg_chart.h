@@ -10,7 +10,9 @@ struct Curve {
     std::string label;  ///< beside its line in the key; empty: none
     std::string colour; ///< of CSS
     std::vector<Eigen::Vector2d> points;
-    bool dots = false; ///< one at every point
+    bool dots = false;   ///< one at every point
+    bool joined = true;  ///< by a line
+    bool dashed = false; ///< the line
 };
 
 /// A value on the horizontal axis that is worth a line.

@@ -111,7 +111,8 @@ void formats_column(Frame& frame, ExportChoices& choices)
     format_box(formats, "dxf", "DXF  outline of the blank");
     if (format_box(formats, "csv", "CSV  tables")) {
         ImGui::Indent(indent);
-        boxes(frame, std::array{std::pair{"Fields per vertex", &csv.fields}, std::pair{"Outline", &csv.outline}});
+        boxes(frame, std::array{std::pair{"Fields per vertex", &csv.fields}, std::pair{"Outline", &csv.outline},
+                                std::pair{"Zones per face", &csv.faces}});
         ImGui::Unindent(indent);
     }
     format_box(formats, "png", "PNG  one picture of the whole chain");

@@ -92,6 +92,30 @@ TEST_P(Gltf, FieldsOnPartAndBlankAreTheNodeFieldsInFloat)
     }
 }
 
+TEST_P(Gltf, VerticesCarryTheWorstZoneAroundThem)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const FormingLimitCurve curve = curve_through({-0.5, 0.1}, {0.15, 0.15}, false, "sample");
+    Zones judged = zones(chain.part, chain.face, &curve);
+    ExportScene scene = chain.scene();
+    scene.zones = &judged;
+    write_gltf(folder / GetParam(), scene);
+    const tinygltf::Model model = read(folder / GetParam());
+    for (const char* name : {"part", "blank"}) {
+        const Eigen::MatrixXf number = attribute(model, name, "_ZONE");
+        Eigen::MatrixXf expected = Eigen::MatrixXf::Zero(1, chain.part.vertices());
+        for (int f = 0; f < chain.part.triangles(); ++f)
+            for (const int v : chain.part.triangle.col(f))
+                expected(0, v) = std::max(expected(0, v), float(judged.zone[size_t(f)]));
+        EXPECT_EQ(number, expected);
+        EXPECT_LT(number.minCoeff(), number.maxCoeff());
+    }
+    EXPECT_EQ(model.asset.extras.Get("zones").Get("6").Get<std::string>(), "crack");
+    judged.zone.pop_back();
+    EXPECT_THROW(write_gltf(folder / GetParam(), scene), InputError);
+}
+
 TEST_P(Gltf, HoldsOnlyTheNodesThatAreWanted)
 {
     const ScratchFolder folder;

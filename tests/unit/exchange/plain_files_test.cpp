@@ -148,6 +148,13 @@ std::vector<Polyline> polylines(const std::vector<DxfPair>& pairs)
     return result;
 }
 
+/// The zones of the sample by a flat curve through its strains, so that several occur.
+Zones zones_of(const samples::Chain& chain)
+{
+    const FormingLimitCurve curve = curve_through({-0.5, 0.1}, {0.15, 0.15}, false, "sample");
+    return zones(chain.part, chain.face, &curve, {.margin = 0.05, .max_thickening = 0.01});
+}
+
 /// Each writer of this file on the sample, by name.
 std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>> all_writers(
     const samples::Chain& chain)
@@ -186,6 +193,70 @@ TEST(Vtu, EveryNumberComesBackBitForBit)
     EXPECT_EQ(types, std::vector<uint8_t>(offsets.size(), 5)); // 5 is VTK's triangle
     EXPECT_NE(file.find("NumberOfPoints=\"" + std::to_string(chain.part.vertices()) + "\""), std::string::npos);
     EXPECT_NE(file.find("NumberOfCells=\"" + std::to_string(chain.part.triangles()) + "\""), std::string::npos);
+}
+
+TEST(Vtu, EveryFaceHasItsZoneAndItsDistanceToTheCurve)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    Zones judged = zones_of(chain);
+    write_vtu(folder / "x.vtu", chain.part, chain.blank, chain.face, chain.node, {}, LengthUnit::inch, &judged);
+    const std::string file = content_of(folder / "x.vtu");
+    const auto cell = arrays_of(file, "CellData");
+    Eigen::VectorXi number(chain.part.triangles());
+    for (int f = 0; f < number.size(); ++f)
+        number[f] = int(judged.zone[size_t(f)]);
+    EXPECT_LT(number.minCoeff(), number.maxCoeff());
+    expect_array(cell, "zone", number);
+    expect_array(cell, "limit_distance", judged.distance); // a strain, whatever the unit
+    std::string codes;
+    for (const char c : std::string("6 crack, 5 risk"))
+        codes += std::to_string(int(c)) + " ";
+    EXPECT_NE(file.find("Name=\"zone_names\" NumberOfTuples=\"1\" format=\"ascii\">" + codes), std::string::npos);
+    judged.distance.resize(0); // without a curve
+    write_vtu(folder / "y.vtu", chain.part, chain.blank, chain.face, chain.node, {}, LengthUnit::mm, &judged);
+    EXPECT_EQ(arrays_of(content_of(folder / "y.vtu"), "CellData").count("limit_distance"), 0u);
+    judged.zone.pop_back();
+    EXPECT_THROW(
+        write_vtu(folder / "z.vtu", chain.part, chain.blank, chain.face, chain.node, {}, LengthUnit::mm, &judged),
+        InputError);
+}
+
+TEST(FacesCsv, RowsFollowTheFacesWithTheirZones)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    Zones judged = zones_of(chain);
+    std::vector<int> number;
+    for (int f = 0; f < chain.part.triangles(); ++f)
+        number.push_back(2 * f + 5);
+    write_faces_csv(folder / "x.csv", chain.part, chain.face, &judged, number);
+    auto rows = split(content_of(folder / "x.csv"), '\n');
+    EXPECT_EQ(rows[0], "face,x,y,z,thickness,thinning,strain_major,strain_minor,strain_equivalent,zone,limit_distance");
+    ASSERT_EQ(rows.size(), size_t(chain.part.triangles()) + 1);
+    for (int f = 0; f < chain.part.triangles(); ++f) {
+        const auto cell = split(rows[size_t(f) + 1], ',');
+        ASSERT_EQ(cell.size(), 11u);
+        EXPECT_EQ(std::stoi(cell[0]), 2 * f + 5);
+        const Eigen::Vector3d middle = chain.part.position(Eigen::all, chain.part.triangle.col(f)).rowwise().mean();
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(std::stod(cell[size_t(1 + k)]), middle[k], 1e-9);
+        EXPECT_EQ(std::stod(cell[4]), chain.face.thickness[f]);
+        EXPECT_EQ(std::stod(cell[7]), chain.face.strain_minor[f]);
+        EXPECT_EQ(cell[9], name(judged.zone[size_t(f)]));
+        EXPECT_EQ(std::stod(cell[10]), judged.distance[f]);
+    }
+    write_faces_csv(folder / "y.csv", chain.part, chain.face, nullptr, {}, LengthUnit::inch);
+    rows = split(content_of(folder / "y.csv"), '\n');
+    EXPECT_EQ(rows[0], "face,x_inch,y_inch,z_inch,thickness_inch,thinning,strain_major,strain_minor,strain_equivalent");
+    EXPECT_NEAR(std::stod(split(rows[1], ',')[4]), chain.face.thickness[0] / 25.4, 1e-12);
+    judged.distance.resize(0);
+    write_faces_csv(folder / "z.csv", chain.part, chain.face, &judged);
+    EXPECT_TRUE(split(content_of(folder / "z.csv"), '\n')[0].ends_with(",zone"));
+    EXPECT_THROW(write_faces_csv(folder / "w.csv", chain.part, chain.node, &judged), InputError);
+    EXPECT_THROW(write_faces_csv(folder / "w.csv", chain.part, chain.face, &judged, {1, 2}), InputError);
+    judged.zone.pop_back();
+    EXPECT_THROW(write_faces_csv(folder / "w.csv", chain.part, chain.face, &judged), InputError);
 }
 
 TEST(Vtu, WarpingByTheDisplacementGivesTheBlank)

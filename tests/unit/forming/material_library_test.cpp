@@ -356,6 +356,17 @@ TEST(MaterialLibrary, AMalformedFileIsRefusedByFileAndKey)
     expect_refusals_of_numbers(other, "hardening", bad_values);
     other["hardening"]["sigma_sat_MPa"] = 99;
     expect_refusal(other, "sigma_sat_MPa");
+    other["hardening"] = {{"law", "ludwik"}, {"sigma0_MPa", 100}, {"K_MPa", 300}, {"n", 0.4}};
+    expect_refusals_of_numbers(other, "hardening", bad_values);
+    other["hardening"] = {{"law", "hockett_sherby"}, {"sigma0_MPa", 100}, {"sigma_sat_MPa", 300}, {"c", 5}, {"p", 0.7}};
+    expect_refusals_of_numbers(other, "hardening", bad_values);
+    other["hardening"]["p"] = 0.01;
+    expect_refusal(other, "p");
+    other["hardening"] = {{"law", "swift_voce"}, {"alpha", 0.5},         {"K_MPa", 500}, {"e0", 0.01}, {"n", 0.2},
+                          {"sigma0_MPa", 100},   {"sigma_sat_MPa", 300}, {"c", 10}};
+    expect_refusals_of_numbers(other, "hardening", bad_values);
+    other["hardening"]["sigma_sat_MPa"] = 99;
+    expect_refusal(other, "sigma_sat_MPa");
 
     for (const Json& bad : {Json(nullptr), Json(3), Json(""), Json(Json::array())}) {
         other = swift;
@@ -373,7 +384,7 @@ TEST(MaterialLibrary, AMalformedFileIsRefusedByFileAndKey)
         other.erase(key);
         expect_refusal(other, key);
     }
-    for (const char* law : {"ludwik", "Swift", "swift "}) {
+    for (const char* law : {"Ludwik", "Swift", "swift "}) {
         other = swift;
         other["hardening"]["law"] = law;
         expect_refusal(other, "law");

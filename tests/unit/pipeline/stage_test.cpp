@@ -76,6 +76,63 @@ TEST(Chain, CornersAreNamedByTheNumbersOfTheFile)
     EXPECT_THROW(run_stage(Stage::grid, session), InputError);
 }
 
+TEST(Chain, LimitsAreJudgedWithTheBlankAndAnewWithoutSolving)
+{
+    Session session = sample("square-cup.obj");
+    EXPECT_THROW(judge_limits(session), InputError);
+    for (const Stage stage : {Stage::read, Stage::solve})
+        session = run_stage(stage, std::move(session));
+    ASSERT_TRUE(session.limits);
+    const LimitsResult direct =
+        forming_limits(session.part->mesh, session.blank->face, session.options.flatten.material, 1);
+    EXPECT_EQ(session.limits->zones.zone, direct.zones.zone);
+    EXPECT_EQ(session.limits->zones.distance, direct.zones.distance);
+
+    Session stricter = session;
+    stricter.options.limits.zones.max_thickening = 0.001;
+    stricter = judge_limits(stricter);
+    EXPECT_EQ(stricter.blank, session.blank); // the same object
+    const auto faces = [](const Session& s, Zone zone) { return s.limits->zones.share[size_t(zone)].faces; };
+    EXPECT_GT(faces(stricter, Zone::strong_thickening), faces(session, Zone::strong_thickening));
+    EXPECT_EQ(run_stage(Stage::read, stricter).limits, nullptr);
+    EXPECT_EQ(run_stage(Stage::grid, stricter).limits, stricter.limits);
+}
+
+TEST(Report, HasTheLimitsAsTheSheetWasJudged)
+{
+    Session session = sample("square-cup.obj");
+    session.options.limits.margin = 0.2;
+    for (const Stage stage : {Stage::read, Stage::solve})
+        session = run_stage(stage, std::move(session));
+    const auto json = nlohmann::json::parse(report_json(session, {}, 0));
+    const auto& limits = json["limits"];
+    EXPECT_EQ(json["hardening"]["law"], "swift");
+    EXPECT_EQ(limits["settings"]["margin"], 0.2);
+    EXPECT_NEAR(limits["curve"]["flc0"].get<double>(), 0.3743, 1e-9); // t = 1 mm, n above 0.21
+    EXPECT_EQ(limits["notes"].size(), 1u);
+    int faces = 0;
+    double share = 0;
+    for (const Zone zone : all_zones) {
+        const auto& entry = limits["zones"][std::string(name(zone))];
+        EXPECT_EQ(entry["number"], int(zone));
+        EXPECT_EQ(entry["faces"], session.limits->zones.share[size_t(zone)].faces);
+        EXPECT_FALSE(entry["definition"].get<std::string>().empty());
+        faces += entry["faces"].get<int>();
+        share += entry["area_share"].get<double>();
+    }
+    EXPECT_EQ(faces, session.part->mesh.triangles());
+    EXPECT_NEAR(share, 1, 1e-12);
+    ASSERT_FALSE(limits["worst_spots"].empty());
+    const WorstSpot& worst = session.limits->zones.spots[0];
+    EXPECT_EQ(limits["worst_spots"][0]["zone"], name(worst.zone));
+    EXPECT_EQ(limits["worst_spots"][0]["face"], session.part->source_face[size_t(worst.face)]);
+    EXPECT_EQ(limits["worst_spots"][0]["position_mm"][2], worst.position[2]);
+
+    session.options.limits.source = LimitsOptions::Source::none;
+    session = judge_limits(session);
+    EXPECT_TRUE(nlohmann::json::parse(report_json(session, {}, 0))["limits"]["curve"].is_null());
+}
+
 TEST(Report, HasTheKeysOfTheContractAndTheFiguresOfTheResult)
 {
     const Session session = finished("dome.obj");
@@ -238,6 +295,7 @@ TEST(Outputs, OptionsSayWhatIsWrittenUnderWhichName)
     options.name = "door v2";
     options.unit = LengthUnit::inch;
     options.csv.outline = false;
+    options.csv.faces = false;
     const std::vector<std::string> formats = {"iges", "step", "glb", "csv"};
     const auto expected = output_files(session, folder / "out", formats, options);
     const auto written = write_outputs(session, folder / "out", formats, options);
@@ -290,7 +348,7 @@ TEST(Outputs, WhatHasNoSurfaceYetIsWrittenWithoutIt)
     const ScratchFolder folder;
     Session session = finished("dome.obj");
     const auto all = write_outputs(session, folder / "whole", output_formats());
-    EXPECT_EQ(all.size(), output_formats().size() + 1); // csv: two tables
+    EXPECT_EQ(all.size(), output_formats().size() + 2); // csv: three tables
     session.grid.reset();
     session.lifted.reset();
     session.surface.reset();
@@ -299,8 +357,8 @@ TEST(Outputs, WhatHasNoSurfaceYetIsWrittenWithoutIt)
         EXPECT_GT(std::filesystem::file_size(file), 100u) << file;
         names.insert(file.filename().string());
     }
-    EXPECT_EQ(names,
-              (std::set<std::string>{"dome.glb", "dome.vtu", "dome.dxf", "fields.csv", "outline.csv", "dome.png"}));
+    EXPECT_EQ(names, (std::set<std::string>{"dome.glb", "dome.vtu", "dome.dxf", "fields.csv", "outline.csv",
+                                            "faces.csv", "dome.png"}));
     const auto json = nlohmann::json::parse(report_json(session, {}, 0, Failure{Stage::grid, "no corner"}));
     EXPECT_EQ(json["failure"]["stage"], "grid");
     EXPECT_EQ(json["failure"]["message"], "no corner");

@@ -78,6 +78,29 @@ TEST(HtmlReport, IsOneWholeFileWithTheFiguresOfTheSession)
     EXPECT_EQ(html.find("class=\"note\""), std::string::npos); // nothing to mind
 }
 
+TEST(HtmlReport, ShowsTheFormingLimitsWithTheStrainDiagram)
+{
+    const ScratchFolder folder;
+    Session session = viewer::document_of(dome, Stage::solve).session;
+    ASSERT_TRUE(session.limits);
+    std::string html = report(folder / "r.html", session);
+    EXPECT_EQ(unbalanced(html), "");
+    const size_t at = html.find("<h2>Forming limits</h2>");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_NE(html.find("Major strain, logarithmic", at), std::string::npos);
+    EXPECT_NE(html.find("stroke-dasharray=\"4 3\"", at), std::string::npos); // the margin
+    EXPECT_NE(html.find("<circle", at), std::string::npos);
+    EXPECT_NE(html.find("Keeler-Brazier: FLC0", at), std::string::npos);
+    EXPECT_NE(html.find(definition(Zone::risk, session.limits->settings), at), std::string::npos);
+    session.options.limits.source = LimitsOptions::Source::none;
+    session = judge_limits(session);
+    html = report(folder / "r.html", session);
+    EXPECT_NE(html.find("No forming limit curve"), std::string::npos);
+    EXPECT_EQ(html.find("stroke-dasharray=\"4 3\""), std::string::npos);
+    session.limits = nullptr;
+    EXPECT_EQ(report(folder / "r.html", session).find("Forming limits"), std::string::npos);
+}
+
 TEST(HtmlReport, CarriesPicturesByteForByte)
 {
     const ScratchFolder folder;

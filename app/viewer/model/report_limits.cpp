@@ -1,0 +1,131 @@
+#include "app/viewer/model/report_limits.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/html_text.h"
+#include "app/viewer/model/svg_chart.h"
+#include "engine/exchange/text_encoding.h"
+
+namespace spia::viewer {
+namespace {
+
+/// What stands for a zone in print.
+struct Look {
+    const char *words, *colour;
+};
+
+Look look(Zone zone)
+{
+    switch (zone) {
+    case Zone::crack: return {"Crack", "#c0261c"};
+    case Zone::risk: return {"Risk", "#e07b00"};
+    case Zone::excessive_thinning: return {"Excessive thinning", "#a8871f"};
+    case Zone::strong_thickening: return {"Strong thickening", "#6a3fa0"};
+    case Zone::wrinkling_tendency: return {"Wrinkling tendency", "#2f6fc4"};
+    case Zone::low_strain: return {"Low strain", "#8a93a0"};
+    case Zone::safe: return {"Safe", "#3f9142"};
+    }
+    return {"", ""};
+}
+
+/// The curve over the strains of the part, and a little further.
+Curve limit_curve(const FormingLimitCurve& curve, double from, double to, double margin)
+{
+    Curve drawn{margin > 0 ? "margin" : "forming limit", "#c0261c", {}};
+    drawn.dashed = margin > 0;
+    constexpr int pieces = 120;
+    for (int i = 0; i <= pieces; ++i) {
+        const double minor = from + (to - from) * i / pieces;
+        drawn.points.emplace_back(minor, logarithmic_strain(engineering_strain(curve(minor)) - margin));
+    }
+    return drawn;
+}
+
+/// One dot per face; of the many that lie over each other in safe zones a few thousand are enough.
+std::vector<Curve> dots(const LimitsResult& limits, const SheetFields& face)
+{
+    constexpr int most_per_zone = 1200;
+    std::vector<Curve> drawn;
+    for (auto zone = std::rbegin(all_zones); zone != std::rend(all_zones); ++zone) { // the worst on top
+        Curve curve{"", look(*zone).colour, {}, true, false};
+        const int faces = limits.zones.share[size_t(*zone)].faces, stride = 1 + (faces - 1) / most_per_zone;
+        int seen = 0;
+        for (size_t f = 0; f < limits.zones.zone.size(); ++f)
+            if (limits.zones.zone[f] == *zone && seen++ % stride == 0)
+                curve.points.emplace_back(face.strain_minor[Eigen::Index(f)], face.strain_major[Eigen::Index(f)]);
+        drawn.push_back(std::move(curve));
+    }
+    return drawn;
+}
+
+std::string strain_diagram(const LimitsResult& limits, const SheetFields& face)
+{
+    std::vector<Curve> curves = dots(limits, face);
+    if (limits.curve) {
+        const double least = 0.1;
+        const double from = std::min(face.strain_minor.minCoeff(), -least),
+                     to = std::max(face.strain_minor.maxCoeff(), least);
+        curves.push_back(limit_curve(*limits.curve, from, to, 0));
+        if (limits.settings.margin > 0)
+            curves.push_back(limit_curve(*limits.curve, from, to, limits.settings.margin));
+    }
+    return svg({"minor strain, logarithmic", "Major strain, logarithmic", false, true, curves});
+}
+
+std::string zone_table(const LimitsResult& limits)
+{
+    std::string rows;
+    for (const Zone zone : all_zones) {
+        const ZoneShare& share = limits.zones.share[size_t(zone)];
+        rows += fmt::format("<tr><td><b style=\"color:{}\">\u25a0</b> {}</td>"
+                            "<td style=\"text-align:left\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                            look(zone).colour, look(zone).words, escaped(definition(zone, limits.settings)),
+                            grouped(share.faces), fixed(100 * share.share, 2));
+    }
+    return fmt::format("<table class=\"spots\"><tr><th>Zone</th>"
+                       "<th style=\"text-align:left\">Definition</th><th>Faces</th><th>Area, %</th></tr>\n"
+                       "{}</table>\n",
+                       rows);
+}
+
+std::string spot_table(const LimitsResult& limits, const PartFile& part)
+{
+    constexpr size_t most = 10;
+    const auto& spots = limits.zones.spots;
+    std::string rows;
+    for (size_t i = 0; i < std::min(spots.size(), most); ++i) {
+        const WorstSpot& spot = spots[i];
+        rows +=
+            fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}, {}, {}</td>"
+                        "<td>{}</td></tr>\n",
+                        look(spot.zone).words, fixed(100 * spot.value, 1), fixed(spot.strain_major, 3),
+                        fixed(spot.strain_minor, 3), fixed(100 * spot.thinning, 1), fixed(spot.position[0], 1),
+                        fixed(spot.position[1], 1), fixed(spot.position[2], 1), part.source_face[size_t(spot.face)]);
+    }
+    if (rows.empty())
+        return "";
+    return fmt::format(
+        "<table class=\"spots\"><tr><th>Worst spot</th><th>Value, %</th><th>Major strain</th>"
+        "<th>Minor strain</th><th>Thinning, %</th><th>At x, y, z, mm</th><th>Face of the file</th></tr>\n"
+        "{}</table>\n<p>Value: for crack and risk the points of engineering major strain that are left "
+        "up to the curve, below 0 beyond it; else the thinning or thickening.</p>\n",
+        rows);
+}
+
+} // namespace
+
+std::string limits_section(const Session& session)
+{
+    if (!session.limits)
+        return "";
+    const LimitsResult& limits = *session.limits;
+    std::string text =
+        "<section class=\"whole\"><h2>Forming limits</h2>\n" + strain_diagram(limits, session.blank->face);
+    text += fmt::format("<p>{}.</p>\n", limits.curve ? escaped(limits.curve->formula) : "No forming limit curve");
+    for (const std::string& note : limits.notes)
+        text += fmt::format("<p class=\"note plain\">{}</p>\n", escaped(note));
+    return text + zone_table(limits) + spot_table(limits, *session.part) + "</section>\n";
+}
+
+} // namespace spia::viewer

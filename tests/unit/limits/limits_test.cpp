@@ -1,0 +1,231 @@
+#include "engine/limits/limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "engine/core/error.h"
+
+namespace spia {
+namespace {
+
+using testing::HasSubstr;
+
+/// Triangles in a row, each sharing an edge with the next: vertices 0 2 4 ... below, 1 3 5 ... above, 1 mm apart.
+TriMesh row_of(int triangles)
+{
+    TriMesh mesh;
+    mesh.position.resize(3, triangles + 2);
+    for (int v = 0; v < triangles + 2; ++v)
+        mesh.position.col(v) = Eigen::Vector3d(v / 2, v % 2, 0);
+    mesh.triangle.resize(3, triangles);
+    for (int f = 0; f < triangles; ++f)
+        mesh.triangle.col(f) = Eigen::Vector3i(f, f % 2 ? f + 1 : f + 2, f % 2 ? f + 2 : f + 1);
+    return mesh;
+}
+
+/// Fields of given logarithmic strains; the thickness follows from the volume.
+SheetFields fields_of(const std::vector<std::pair<double, double>>& major_minor)
+{
+    SheetFields face;
+    const auto n = Eigen::Index(major_minor.size());
+    face.strain_major.resize(n);
+    face.strain_minor.resize(n);
+    for (Eigen::Index f = 0; f < n; ++f)
+        std::tie(face.strain_major[f], face.strain_minor[f]) = major_minor[size_t(f)];
+    face.thinning = 1 - (-face.strain_major - face.strain_minor).array().exp();
+    return face;
+}
+
+const FormingLimitCurve curve = keeler_brazier(1, 0.21); // FLC0 37.43 %, ln 0.31794
+
+Zone zone_at(double engineering_major, double engineering_minor, const ZoneOptions& options = {})
+{
+    const SheetFields face = fields_of({{std::log1p(engineering_major), std::log1p(engineering_minor)}});
+    return zones(row_of(1), face, &curve, options).zone[0];
+}
+
+Material steel() { return {"steel", 206000, 0.3, 7850, Hollomon{530, 0.2}, 1, 1, 1, ""}; }
+
+} // namespace
+
+TEST(Zones, EveryOneIsReachedAsItIsWritten)
+{
+    EXPECT_EQ(zone_at(0.40, 0), Zone::crack);
+    EXPECT_EQ(zone_at(0.3744, 0), Zone::crack); // 37.43 %
+    EXPECT_EQ(zone_at(0.3742, 0), Zone::risk);
+    EXPECT_EQ(zone_at(0.2744, 0), Zone::risk); // 10 points below
+    EXPECT_NE(zone_at(0.2742, 0), Zone::risk);
+    EXPECT_EQ(zone_at(0.2742, 0), Zone::safe); // thinning 21.5 %
+    EXPECT_EQ(zone_at(0.2742, 0, {.max_thinning = 0.2}), Zone::excessive_thinning);
+    EXPECT_EQ(zone_at(0.30, 0.15), Zone::excessive_thinning);  // curve at 46.4 %, thinning 33 %
+    EXPECT_EQ(zone_at(0.10, -0.20), Zone::strong_thickening);  // 1 / 0.88: 13.6 % thicker
+    EXPECT_EQ(zone_at(0.10, -0.15), Zone::wrinkling_tendency); // 1 / 0.935: 7 %
+    EXPECT_EQ(zone_at(0.10, -0.15, {.max_thickening = 0.05}), Zone::strong_thickening);
+    EXPECT_EQ(zone_at(0.10, -0.0909), Zone::safe);               // 1.1 * 0.9091 = 1.00001: thins a hair
+    EXPECT_EQ(zone_at(0.10, -0.0910), Zone::wrinkling_tendency); // and thickens a hair
+    EXPECT_EQ(zone_at(0.019, 0), Zone::low_strain);
+    EXPECT_EQ(zone_at(0.019, -0.019), Zone::low_strain);
+    EXPECT_EQ(zone_at(0.021, 0), Zone::safe);
+    EXPECT_EQ(zone_at(0.010, -0.021), Zone::wrinkling_tendency);
+    EXPECT_EQ(zone_at(0.021, 0, {.low_strain = 0.03}), Zone::low_strain);
+    EXPECT_EQ(zone_at(0.15, 0), Zone::safe);
+}
+
+TEST(Zones, TheMarginIsInPointsOfEngineeringStrainOnBothBranches)
+{
+    for (const double e2 : {-0.15, 0.0, 0.1}) {
+        const double limit = engineering_strain(curve(std::log1p(e2)));
+        for (const double margin : {0.05, 0.08, 0.2}) {
+            const ZoneOptions options{.margin = margin, .max_thinning = 0.9};
+            EXPECT_EQ(zone_at(limit - margin + 1e-6, e2, options), Zone::risk) << e2;
+            EXPECT_EQ(zone_at(limit - margin - 1e-6, e2, options), Zone::safe) << e2;
+        }
+        EXPECT_EQ(zone_at(limit - 1e-6, e2, {.margin = 0, .max_thinning = 0.9}), Zone::safe); // no band
+    }
+}
+
+TEST(Zones, DistanceIsWhatIsLeftOfTheMajorStrain)
+{
+    const SheetFields face = fields_of({{std::log(1.3), 0}, {std::log(1.5), 0}, {std::log(1.6), std::log(0.8)}});
+    const Zones found = zones(row_of(3), face, &curve);
+    EXPECT_NEAR(found.distance[0], 0.0743, 1e-12);
+    EXPECT_NEAR(found.distance[1], -0.1257, 1e-12);
+    EXPECT_NEAR(found.distance[2], 0.717875 - 0.6, 1e-12);
+    const Zones without = zones(row_of(3), face, nullptr);
+    EXPECT_EQ(without.distance.size(), 0);
+    EXPECT_EQ(without.share[size_t(Zone::crack)].faces + without.share[size_t(Zone::risk)].faces, 0);
+    EXPECT_EQ(without.zone[1], Zone::excessive_thinning);
+}
+
+TEST(Zones, CountsAndAreasAddUpToThePart)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> of_minor(-0.4, 0.3), further(0, 0.6);
+    std::vector<std::pair<double, double>> strains;
+    for (int f = 0; f < 4000; ++f) {
+        const double minor = f % 5 ? of_minor(random) : 0.03 * of_minor(random);
+        strains.emplace_back(minor + (f % 5 ? further(random) : 0), minor);
+    }
+    const SheetFields face = fields_of(strains);
+    const Zones found = zones(row_of(4000), face, &curve);
+    int faces = 0;
+    double area = 0, share = 0;
+    for (const Zone zone : all_zones) {
+        const ZoneShare& s = found.share[size_t(zone)];
+        EXPECT_EQ(s.faces, std::count(found.zone.begin(), found.zone.end(), zone));
+        EXPECT_GT(s.faces, 0) << name(zone);
+        EXPECT_NEAR(s.area_mm2, 0.5 * s.faces, 1e-9);
+        faces += s.faces;
+        area += s.area_mm2;
+        share += s.share;
+    }
+    EXPECT_EQ(faces, 4000);
+    EXPECT_NEAR(area, 2000, 1e-9);
+    EXPECT_NEAR(share, 1, 1e-12);
+}
+
+TEST(Zones, WorstSpotsAreTheWorstFacesOfConnectedRegionsInOrder)
+{
+    const double l = std::log(1.15); // safe
+    // crack at 2..4 (worst 3), crack at 7, risk at 9..10 (worst 9), thinner than allowed at 12
+    std::vector<std::pair<double, double>> strains(15, {l, 0});
+    for (const auto& [f, major] : {std::pair{2, 1.40}, {3, 1.50}, {4, 1.45}, {7, 1.60}, {9, 1.36}, {10, 1.30}})
+        strains[size_t(f)].first = std::log(major);
+    strains[12] = {std::log(1.3), std::log(1.15)};
+    const TriMesh part = row_of(15);
+    const SheetFields face = fields_of(strains);
+    const Zones found = zones(part, face, &curve);
+    ASSERT_EQ(found.spots.size(), 4u);
+    const auto expect = [&](size_t i, Zone zone, int f, int region, double value) {
+        EXPECT_EQ(found.spots[i].zone, zone);
+        EXPECT_EQ(found.spots[i].face, f);
+        EXPECT_EQ(found.spots[i].region_faces, region);
+        EXPECT_NEAR(found.spots[i].region_area_mm2, 0.5 * region, 1e-12);
+        EXPECT_NEAR(found.spots[i].value, value, 1e-12);
+        EXPECT_EQ(found.spots[i].strain_major, face.strain_major[f]);
+        const Eigen::Vector3d middle = part.position(Eigen::all, part.triangle.col(f)).rowwise().mean();
+        EXPECT_EQ(found.spots[i].position, middle);
+    };
+    expect(0, Zone::crack, 7, 1, 0.3743 - 0.60);
+    expect(1, Zone::crack, 3, 3, 0.3743 - 0.50);
+    expect(2, Zone::risk, 9, 2, 0.3743 - 0.36);
+    expect(3, Zone::excessive_thinning, 12, 1, 1 - 1 / (1.3 * 1.15));
+    EXPECT_EQ(zones(part, face, &curve, {.most_spots = 2}).spots.size(), 2u);
+}
+
+TEST(Zones, AVertexHasTheWorstZoneAroundIt)
+{
+    std::vector<std::pair<double, double>> strains(6, {std::log(1.15), 0});
+    strains[2].first = std::log(1.5);
+    const TriMesh part = row_of(6);
+    const auto at = zones_at_vertices(part, zones(part, fields_of(strains), &curve).zone);
+    for (int v = 0; v < part.vertices(); ++v)
+        EXPECT_EQ(at[size_t(v)], v >= 2 && v <= 4 ? Zone::crack : Zone::safe) << v;
+}
+
+TEST(Zones, NamesDiffer)
+{
+    std::set<std::string_view> names;
+    std::set<std::string> texts;
+    for (const Zone zone : all_zones) {
+        names.insert(name(zone));
+        texts.insert(definition(zone, {}));
+    }
+    EXPECT_EQ(names.size(), size_t(zone_count));
+    EXPECT_EQ(texts.size(), size_t(zone_count));
+    EXPECT_THAT(definition(Zone::risk, {.margin = 0.08}), HasSubstr("8 percentage points"));
+}
+
+TEST(Zones, WhatDoesNotBelongTogetherIsRefused)
+{
+    SheetFields face = fields_of({{0.1, 0}, {0.2, 0}});
+    EXPECT_THROW(zones(row_of(3), face, &curve), InputError);
+    EXPECT_THROW(zones(row_of(2), face, &curve, {.margin = -0.1}), InputError);
+    EXPECT_THROW(zones(row_of(2), face, &curve, {.max_thinning = 1.5}), InputError);
+    EXPECT_THROW(zones(row_of(2), face, &curve, {.max_thickening = std::nan("")}), InputError);
+    face.strain_minor[1] = std::nan("");
+    EXPECT_THROW(zones(row_of(2), face, &curve), InputError);
+}
+
+TEST(FormingLimits, TheSheetChoosesCurveAndMargin)
+{
+    const TriMesh part = row_of(1);
+    const SheetFields face = fields_of({{0.1, 0}});
+    const LimitsResult of_steel = forming_limits(part, face, steel(), 1);
+    ASSERT_TRUE(of_steel.curve);
+    EXPECT_EQ(of_steel.settings.margin, 0.10);
+    EXPECT_NEAR(engineering_strain(of_steel.curve->at_plane_strain()), 0.3743 * 0.2 / 0.21, 1e-9); // Hollomon: its n
+    EXPECT_TRUE(of_steel.notes.empty());
+    LimitsOptions options;
+    options.n = 0.1;
+    EXPECT_NEAR(engineering_strain(forming_limits(part, face, steel(), 1, options).curve->at_plane_strain()),
+                0.3743 * 0.1 / 0.21, 1e-9);
+
+    const Material aluminium{"alu", 70000, 0.33, 2700, Hollomon{400, 0.2}, 1, 1, 1, ""};
+    const LimitsResult of_aluminium = forming_limits(part, face, aluminium, 1);
+    EXPECT_FALSE(of_aluminium.curve);
+    EXPECT_EQ(of_aluminium.settings.margin, 0.08);
+    EXPECT_THAT(of_aluminium.notes, testing::ElementsAre(HasSubstr("alu")));
+    options = {};
+    options.source = LimitsOptions::Source::keeler_brazier;
+    const LimitsResult asked = forming_limits(part, face, aluminium, 1, options);
+    EXPECT_TRUE(asked.curve);
+    EXPECT_THAT(asked.notes, testing::ElementsAre(HasSubstr("guess")));
+    options.source = LimitsOptions::Source::none;
+    EXPECT_FALSE(forming_limits(part, face, steel(), 1, options).curve);
+    options.source = LimitsOptions::Source::points;
+    options.curve = curve_through({-0.1, 0.1}, {0.3, 0.3}, false, "mine");
+    options.margin = 0.05;
+    const LimitsResult mine = forming_limits(part, face, steel(), 1, options);
+    EXPECT_EQ(*mine.curve, options.curve);
+    EXPECT_EQ(mine.settings.margin, 0.05);
+    EXPECT_EQ(mine.beyond_curve, 0);
+    EXPECT_EQ(forming_limits(part, fields_of({{0.1, -0.2}}), steel(), 1, options).beyond_curve, 1);
+}
+
+} // namespace spia
