@@ -55,9 +55,9 @@ Eigen::Matrix3Xd wanted_angles(const TriMesh& part, const std::vector<char>& inn
 /// One Newton iteration after the other on angles and multipliers.
 class Solver {
 public:
-    Solver(const TriMesh& part, AbfAngles& state)
-        : part_(part), state_(state), inner_(inner_vertices(part)), matrix_(part.triangle, part.vertices()),
-          cholesky_(matrix_), element_(size_t(part.triangles())), error_(2, part.vertices())
+    Solver(const TriMesh& part, AbfAngles& state, BlockMatrix& matrix, Cholesky& cholesky)
+        : part_(part), state_(state), inner_(inner_vertices(part)), matrix_(matrix), cholesky_(cholesky),
+          element_(size_t(part.triangles())), error_(2, part.vertices())
     {
         state.wanted = wanted_angles(part, inner_);
         constexpr double least = pi / 180; // a valid start; the wanted ones may be beyond
@@ -189,8 +189,8 @@ private:
     const TriMesh& part_;
     AbfAngles& state_;
     std::vector<char> inner_;
-    BlockMatrix matrix_;
-    Cholesky cholesky_;
+    BlockMatrix& matrix_;
+    Cholesky& cholesky_;
     std::vector<Matrix6d> element_;
     Eigen::Matrix2Xd error_;
 };
@@ -222,37 +222,45 @@ double misfit(const TriMesh& part, const Eigen::Matrix2Xd& flat, const Eigen::Ma
     return std::sqrt(sum / (3.0 * part.triangles()));
 }
 
+AbfAngles solve(const TriMesh& part, const AbfOptions& options, BlockMatrix& matrix, Cholesky& cholesky,
+                const Progress& progress)
+{
+    AbfAngles result;
+    Solver solver(part, result, matrix, cholesky);
+    solver.measure();
+    const auto error = [&] { return std::max(result.constraint_error, result.gradient_error); };
+    const double first = std::max(error(), 1e-3);
+    for (; result.iterations < options.most_steps && error() > options.tolerance; ++result.iterations) {
+        const double gained = std::log(first / error()) / std::log(first / options.tolerance);
+        progress.checkpoint(gained, fmt::format("ABF++ step {}, error {:.1e}", result.iterations + 1, error()));
+        solver.step();
+        solver.measure();
+    }
+    result.converged = error() <= options.tolerance;
+    return result;
+}
+
 } // namespace
 
 AbfAngles abf_angles(const TriMesh& part, const AbfOptions& options, const Progress& progress)
 {
     require_sheet(part);
     progress.checkpoint(0, "ordering the equations of ABF++");
-    AbfAngles result;
-    Solver solver(part, result);
-    solver.measure();
-    const double first_error = std::max(result.constraint_error, result.gradient_error);
-    for (; result.iterations < options.most_steps; ++result.iterations) {
-        const double error = std::max(result.constraint_error, result.gradient_error);
-        if (result.constraint_error <= options.tolerance && result.gradient_error <= options.tolerance) {
-            result.converged = true;
-            break;
-        }
-        // Newton's method: judged by the digits gained, half of the way is about ten steps.
-        const double gained = std::log10(std::max(first_error, 1e-3) / error) / 14;
-        progress.checkpoint(std::clamp(gained, 0.05, 1.0),
-                            fmt::format("ABF++ step {}, error {:.1e}", result.iterations + 1, error));
-        solver.step();
-        solver.measure();
-    }
-    return result;
+    BlockMatrix matrix(part.triangle, part.vertices());
+    Cholesky cholesky(matrix);
+    return solve(part, options, matrix, cholesky, progress);
 }
 
 FlatMap abf(const TriMesh& part, const AbfOptions& options, const Progress& progress)
 {
-    const AbfAngles angles = abf_angles(part, options, progress.part(0, 0.8));
+    require_sheet(part);
+    progress.checkpoint(0, "ordering the equations of ABF++");
+    BlockMatrix matrix(part.triangle, part.vertices());
+    Cholesky cholesky(matrix);
+    const AbfAngles angles = solve(part, options, matrix, cholesky, progress.part(0.1, 0.8));
     FlatMap map;
-    map.position = conformal_layout(part, shapes_of(part, angles.angle), far_pins(part), progress.part(0.8, 1));
+    map.position =
+        conformal_layout(part, shapes_of(part, angles.angle), far_pins(part), matrix, cholesky, progress.part(0.8, 1));
     scale_to_area_of(part, map.position);
     map.iterations = angles.iterations;
     map.ended =

@@ -19,6 +19,7 @@ namespace {
 /// This solver's blank: scaled to the part's area by the measures alone, like the other maps.
 FlatMap forming(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
 {
+    require_sheet(part);
     FlattenResult result = flatten(part, options, progress);
     FlatMap map;
     map.position = std::move(result.blank.position);

@@ -49,7 +49,7 @@ private:
 /// thinkable value, or when that is below `nothing` of the part's area.
 struct IsometricOptions {
     int most_steps = 500;
-    double decrease = 1e-4;
+    double decrease = 1e-5;
     double nothing = 1e-14;
 };
 

@@ -2,15 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <complex>
 #include <fmt/core.h>
 #include <queue>
 
 #include "engine/core/error.h"
-#include "engine/core/parallel.h"
 #include "engine/mesh/topology.h"
-#include "engine/sparse/block_matrix.h"
-#include "engine/sparse/cholesky.h"
 
 namespace spia {
 namespace {
@@ -96,9 +92,9 @@ std::array<int, 2> far_pins(const TriMesh& part)
 }
 
 Eigen::Matrix2Xd conformal_layout(const TriMesh& part, const FlatShapes& shapes, const std::array<int, 2>& pins,
-                                  const Progress& progress)
+                                  BlockMatrix& matrix, Cholesky& cholesky, const Progress& progress)
 {
-    progress.checkpoint(0, "ordering the conformal equations");
+    progress.checkpoint(0, "factoring the conformal equations");
     const std::vector<Equation> equation = equations(shapes);
     const auto held = [&](int v) { return v == pins[0] || v == pins[1]; };
     std::vector<Matrix6d> element(equation.size(), Matrix6d::Zero());
@@ -110,8 +106,6 @@ Eigen::Matrix2Xd conformal_layout(const TriMesh& part, const FlatShapes& shapes,
                 const Complex z = std::conj(equation[f].weight[size_t(a)]) * equation[f].weight[size_t(b)];
                 element[f].block<2, 2>(2 * a, 2 * b) << z.real(), -z.imag(), z.imag(), z.real();
             }
-    BlockMatrix matrix(part.triangle, part.vertices());
-    Cholesky cholesky(matrix);
     const auto factored = [&](double shift) {
         matrix.assemble(element);
         for (int pin : pins)
@@ -120,7 +114,6 @@ Eigen::Matrix2Xd conformal_layout(const TriMesh& part, const FlatShapes& shapes,
             matrix.add_to_diagonal(i, shift);
         return cholesky.factor(matrix);
     };
-    progress.checkpoint(0.4, "factoring the conformal equations");
     // The shift spoils nothing: the refinement below solves the equations without it.
     constexpr double first_shift = 1e-14, largest_shift = 1e-8;
     for (double shift = 0; !factored(shift); shift = shift > 0 ? 100 * shift : first_shift)
@@ -128,11 +121,11 @@ Eigen::Matrix2Xd conformal_layout(const TriMesh& part, const FlatShapes& shapes,
             throw SolveError("the conformal equations are singular; there are triangles too thin for the arithmetic");
 
     Eigen::Matrix2Xd u = Eigen::Matrix2Xd::Zero(2, part.vertices());
-    u(0, pins[1]) = (part.position.col(pins[1]) - part.position.col(pins[0])).norm();
+    u(0, pins[1]) = bounding_diagonal(part); // any length: the map has no size yet
     constexpr int most_refinements = 6;
     constexpr double settled = 1e-13;
     for (int step = 0; step <= most_refinements; ++step) {
-        progress.checkpoint(0.7 + 0.05 * step, "solving the conformal equations");
+        progress.checkpoint(0.5 + 0.07 * step, "solving the conformal equations");
         Eigen::Matrix2Xd right = Eigen::Matrix2Xd::Zero(2, part.vertices());
         for (int f = 0; f < part.triangles(); ++f) {
             const Complex r = equation[size_t(f)].residual(u, part.triangle.col(f));
@@ -161,8 +154,11 @@ FlatMap lscm(const TriMesh& part, const LscmOptions& options, const Progress& pr
         if (pin < 0 || pin >= part.vertices() || pins[0] == pins[1])
             throw InputError(fmt::format("hold two different vertices from 0 to {}, not {} and {}", part.vertices() - 1,
                                          pins[0], pins[1]));
+    progress.checkpoint(0, "ordering the conformal equations");
+    BlockMatrix matrix(part.triangle, part.vertices());
+    Cholesky cholesky(matrix);
     FlatMap map;
-    map.position = conformal_layout(part, formed_shapes(part), pins, progress);
+    map.position = conformal_layout(part, formed_shapes(part), pins, matrix, cholesky, progress.part(0.4, 1));
     scale_to_area_of(part, map.position);
     map.iterations = 1;
     map.ended = fmt::format("one linear system, vertices {} and {} held", pins[0], pins[1]);

@@ -1,9 +1,12 @@
 #pragma once
 #include <array>
+#include <complex>
 #include <optional>
 
 #include "engine/compare/flat_map.h"
 #include "engine/core/progress.h"
+#include "engine/sparse/block_matrix.h"
+#include "engine/sparse/cholesky.h"
 
 namespace spia {
 
@@ -28,8 +31,9 @@ using FlatShapes = std::vector<std::array<std::complex<double>, 2>>;
 /// The same least squares for triangles of any shape: with shapes that fit together, their layout.
 /// Solved through the normal equations and refined with the residual of the factored form, which is as exact as an
 /// orthogonal factorisation [Bjorck 1987].
+/// @param matrix, cholesky  work space with the pattern of the mesh, and its analysis
 Eigen::Matrix2Xd conformal_layout(const TriMesh& part, const FlatShapes& shapes, const std::array<int, 2>& pins,
-                                  const Progress& progress);
+                                  BlockMatrix& matrix, Cholesky& cholesky, const Progress& progress);
 
 /// Two vertices of the outer boundary, far apart: the one farthest along edges from vertex 0 of the loop, and the one
 /// farthest from it.
