@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <new>
@@ -45,7 +46,9 @@ ComparisonRow row(FlatMethod method, const TriMesh& part, const CompareOptions& 
     ComparisonRow result{method};
     const PeakMemory memory;
     const auto clock = std::chrono::steady_clock::now();
+    const std::clock_t processor = std::clock();
     const auto stop = [&] {
+        result.cpu_seconds = double(std::clock() - processor) / CLOCKS_PER_SEC;
         result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
         result.peak_mb = memory.most_mb();
         result.added_mb = memory.added_mb();

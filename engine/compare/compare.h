@@ -29,9 +29,10 @@ struct CompareOptions {
 /// One method on one part.
 struct ComparisonRow {
     FlatMethod method;
-    std::string failure = {};            ///< why there is no map; empty: there is one
-    double seconds = 0;                  ///< wall clock, from the mesh in memory to the map, its start included
-    std::optional<double> peak_mb = {};  ///< of the whole program meanwhile
+    std::string failure = {};           ///< why there is no map; empty: there is one
+    double seconds = 0;                 ///< wall clock, from the mesh in memory to the map, its start included
+    double cpu_seconds = 0;             ///< of the processor, all threads together: on a busy machine the fairer figure
+    std::optional<double> peak_mb = {}; ///< of the whole program meanwhile
     std::optional<double> added_mb = {}; ///< of that, what the method took
     int iterations = 0;
     std::string ended = {}; ///< how the method ended, in words

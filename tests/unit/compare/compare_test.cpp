@@ -29,6 +29,7 @@ TEST(Compare, EveryMethodFlattensADevelopablePartWithoutDistortion)
         EXPECT_EQ(rows[i].method, flat_methods[i]);
         EXPECT_EQ(rows[i].failure, "");
         EXPECT_GT(rows[i].seconds, 0);
+        EXPECT_GT(rows[i].cpu_seconds, 0);
         EXPECT_LT(rows[i].quality.angular_rms, 1e-5) << title(rows[i].method);
         EXPECT_LT(rows[i].quality.area_rms, 1e-5) << title(rows[i].method);
     }
@@ -96,6 +97,7 @@ TEST(ComparisonReport, HasARowPerMethodAndNullForInfinity)
 {
     ComparisonRow good{FlatMethod::slim}, flipped{FlatMethod::arap}, failed{FlatMethod::lscm};
     good.seconds = 1.25;
+    good.cpu_seconds = 1.5;
     good.added_mb = 12;
     good.quality = {0.0123456, 0.2, 1.5, 4.25, 0, 0};
     good.ended = "converged";
@@ -103,9 +105,10 @@ TEST(ComparisonReport, HasARowPerMethodAndNullForInfinity)
     failed.failure = "the part is closed";
     const std::vector<ComparisonRow> rows = {good, flipped, failed};
     const std::string markdown = comparison_table(rows, TableStyle::markdown);
-    EXPECT_NE(markdown.find("| SLIM | 1.25 | 12 | 0.01235 | 0.20000 | 1.5000 | 4.2500 | 0 | 0 | 0 |\n"),
+    EXPECT_NE(markdown.find("| SLIM | 1.25 | 1.50 | 12 | 0.01235 | 0.20000 | 1.5000 | 4.2500 | 0 | 0 | 0 |\n"),
               std::string::npos);
-    EXPECT_NE(markdown.find("| ARAP | 0.00 | - | 0.10000 | 0.20000 | inf | inf | 3 | 2 | 0 |\n"), std::string::npos);
+    EXPECT_NE(markdown.find("| ARAP | 0.00 | 0.00 | - | 0.10000 | 0.20000 | inf | inf | 3 | 2 | 0 |\n"),
+              std::string::npos);
     EXPECT_NE(markdown.find("| LSCM | - | - |"), std::string::npos);
     EXPECT_NE(markdown.find("- LSCM: no map: the part is closed\n"), std::string::npos);
     const std::string text = comparison_table(rows, TableStyle::text);
