@@ -51,11 +51,6 @@ constexpr const char* units =
     "memory MB: the most "
     "the program held meanwhile, less what it held before (1024^2 bytes).\n";
 
-nlohmann::ordered_json finite(double value)
-{
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 } // namespace
 
 std::string comparison_table(const std::vector<ComparisonRow>& rows, TableStyle style)
@@ -123,10 +118,10 @@ std::string comparison_json(const std::filesystem::path& file, const TriMesh& pa
             const MapQuality& q = row.quality;
             entry.update({{"iterations", row.iterations},
                           {"ended", row.ended},
-                          {"angular_rms", finite(q.angular_rms)},
-                          {"area_rms", finite(q.area_rms)},
-                          {"l2_stretch", finite(q.l2_stretch)},
-                          {"symmetric_dirichlet", finite(q.symmetric_dirichlet)},
+                          {"angular_rms", q.angular_rms},
+                          {"area_rms", q.area_rms},
+                          {"l2_stretch", q.l2_stretch},
+                          {"symmetric_dirichlet", q.symmetric_dirichlet},
                           {"flips", q.flips},
                           {"outline_overlaps", q.crossings}});
         }

@@ -30,9 +30,7 @@ Eigen::Matrix2Xd IsometricSteps::start(const Progress& progress)
 {
     StampingDirection direction = stamping_direction(part_);
     direction.height_field = false; // so it is not projected
-    Eigen::Matrix2Xd flat = initial_guess(part_, element_, direction, matrix_, cholesky_, progress).position;
-    scale_to_area_of(part_, flat);
-    return flat;
+    return initial_guess(part_, element_, direction, matrix_, cholesky_, progress).position;
 }
 
 Eigen::Matrix2d IsometricSteps::gradient(const Eigen::Matrix2Xd& flat, int face) const

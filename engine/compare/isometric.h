@@ -15,8 +15,8 @@ public:
     /// @throws InputError as require_sheet()
     IsometricSteps(const TriMesh& part, const Progress& progress);
 
-    /// The conformal start of the forming solver (harmonic where that has flips), scaled to the part's area. No
-    /// projection: it starts steep walls from slivers.
+    /// The conformal start of the forming solver (harmonic where that has flips). No projection: it starts
+    /// steep walls from slivers.
     /// @throws SolveError if there is none without flipped triangles
     Eigen::Matrix2Xd start(const Progress& progress);
 

@@ -5,7 +5,7 @@
 namespace spia {
 
 /// Its steps are dear and soon within a few percent of what there is to gain.
-inline constexpr IsometricOptions slim_options{.most_steps = 200, .decrease = 1e-3};
+inline constexpr IsometricOptions slim_options{.most_steps = 200, .decrease = 3e-4};
 
 /// Scalable locally injective map [Rabinovich, Poranne, Panozzo, Sorkine-Hornung 2017] for the symmetric Dirichlet energy, the
 /// sum of A (|J|^2 + |J^-1|^2): in each step a quadratic |W (J - R)|^2 per face with the energy's own derivative, a factor of
