@@ -57,13 +57,13 @@ Eigen::Matrix2Xd far_start(const TriMesh& part)
     return X;
 }
 
-/// A start without flips that is wound up around the middle: full steps from it overshoot.
-Eigen::Matrix2Xd swirl(const TriMesh& part)
+/// A start without flips whose middle columns are crushed to a hundredth: full steps from it turn triangles over.
+Eigen::Matrix2Xd crushed(const TriMesh& part)
 {
     Eigen::Matrix2Xd X = part.position.topRows<2>();
     X.colwise() -= X.rowwise().mean().eval();
-    for (auto x : X.colwise())
-        x = (Eigen::Rotation2Dd(0.06 * x.norm()) * x).eval();
+    X.row(0) = X.row(0).array() * (0.001 + X.row(0).array().square());
+    X.row(0) *= 30 / X.row(0).maxCoeff();
     return X;
 }
 
@@ -115,7 +115,7 @@ TEST(Arap, EndsWhereItsEnergyHasNoSlope)
 TEST(Slim, NeverFlipsAndLowersItsEnergyInEveryStep)
 {
     const TriMesh part = bumpy(shapes::rectangle(60, 45, 32, 24), 6);
-    const Eigen::Matrix2Xd start = swirl(part);
+    const Eigen::Matrix2Xd start = crushed(part);
     ASSERT_EQ(flipped_triangles(part.triangle, start), 0);
     IsometricOptions options = slim_options;
     for (options.most_steps = 1; options.most_steps <= 12; ++options.most_steps)
