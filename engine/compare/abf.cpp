@@ -171,8 +171,8 @@ private:
         return result;
     }
 
-    /// Second derivatives of the Lagrangian, kept positive where an extreme multiplier would turn them over: the step is
-    /// then no longer Newton's, but its fixed points are the same.
+    /// Second derivatives of the Lagrangian, kept positive where an extreme multiplier would turn them over: the step
+    /// is then no longer Newton's, but its fixed points are the same.
     Eigen::Vector3d hessian(int f) const
     {
         Eigen::Vector3d result;

@@ -22,17 +22,17 @@ struct AbfAngles {
 };
 
 /// Angle based flattening, ABF++ [Sheffer, Levy, Mogilnitsky, Bogomyakov 2005]: the angles a of least
-/// sum (a - f)^2 / f^2 (f the wanted ones) whose sums are pi in each triangle and 2 pi around each inner vertex, and with
-/// which the ring of triangles around each inner vertex closes: sum of ln sin(a_next) - ln sin(a_previous) = 0, the
-/// logarithm of their product [as Zayer, Levy, Seidel 2007]. With the logarithm the Hessian of the Lagrangian is diagonal
-/// and complete, so their elimination of the angles and of the triangles gives Newton's method itself, with a 2 x 2 block
-/// per vertex on the graph of the mesh.
+/// sum (a - f)^2 / f^2 (f the wanted ones) whose sums are pi in each triangle and 2 pi around each inner vertex, and
+/// with which the ring of triangles around each inner vertex closes: sum of ln sin(a_next) - ln sin(a_previous) = 0,
+/// the logarithm of their product [as Zayer, Levy, Seidel 2007]. With the logarithm the Hessian of the Lagrangian is
+/// diagonal and complete, so their elimination of the angles and of the triangles gives Newton's method itself, with a
+/// 2 x 2 block per vertex on the graph of the mesh.
 /// @throws InputError as require_sheet(); @throws SolveError if the reduced system cannot be factored
 AbfAngles abf_angles(const TriMesh& part, const AbfOptions& options = {}, const Progress& progress = {});
 
-/// The map with these angles, laid out by least squares (conformal_layout()) and scaled to the part's area. On a disk the
-/// layout has the angles to rounding. Around a hole the method asks for no closing: the angles of a part with
-/// holes may not fit together there, and the layout is the nearest one; `ended` says how far it is from the angles.
+/// The map with these angles, laid out by least squares (conformal_layout()) and scaled to the part's area. On a disk
+/// the layout has the angles to rounding. Around a hole the method asks for no closing: the angles of a part with holes
+/// may not fit together there, and the layout is the nearest one; `ended` says how far it is from the angles.
 FlatMap abf(const TriMesh& part, const AbfOptions& options = {}, const Progress& progress = {});
 
 } // namespace spia

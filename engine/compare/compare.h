@@ -39,8 +39,8 @@ struct ComparisonRow {
     MapQuality quality = {};
 };
 
-/// Runs the methods one after the other on the same mesh and measures their maps with the same ruler (the paper's Table 3).
-/// A method that cannot do the part gets a row that says why.
+/// Runs the methods one after the other on the same mesh and measures their maps with the same ruler (the paper's Table
+/// 3). A method that cannot do the part gets a row that says why.
 /// @throws Cancelled at the next checkpoint of a method after a request to stop
 std::vector<ComparisonRow> compare(const TriMesh& part, const CompareOptions& options, const Progress& progress = {});
 

@@ -47,9 +47,9 @@ std::string remarks(const std::vector<ComparisonRow>& rows, const char* bullet)
 }
 
 constexpr const char* units =
-    "time s: wall clock from the mesh in memory to the map, start included; CPU s: of the processor, all threads together. "
-    "memory MB: the most "
-    "the program held meanwhile, less what it held before (1024^2 bytes).\n";
+    "time s: wall clock from the mesh in memory to the map, start included; CPU s: of the processor, all threads "
+    "together.\n"
+    "memory MB: the most the program held meanwhile, less what it held before (1024^2 bytes).\n";
 
 } // namespace
 

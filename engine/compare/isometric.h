@@ -31,7 +31,8 @@ public:
     /// @throws SolveError if K is not positive definite to rounding
     void factor(const std::vector<Eigen::Matrix2d>& metric);
 
-    /// -K^-1 times the sum over the faces of A stress g_a: the step that the metric makes of a derivative of the energy.
+    /// -K^-1 times the sum over the faces of A stress g_a: the step that the metric makes of a derivative of the
+    /// energy.
     Eigen::Matrix2Xd step(const std::vector<Eigen::Matrix2d>& stress) const;
 
     double part_area() const { return part_area_; }

@@ -14,14 +14,14 @@ namespace spia {
 
 std::string_view quality_definitions()
 {
-    return "A: area of a triangle on the part, s1 >= s2: singular values of the map from it to the plane, sums over all F "
-           "triangles; every map is first scaled to the area of the part.\n"
-           "angular rms: sqrt(sum over corners of (a - f)^2 / f^2 / (3 F)), a the flat angle, f the angle on the part, at "
-           "inner vertices scaled so that their sum is 2 pi [Sheffer et al. 2005, per corner and with its root taken].\n"
+    return "A: area of a triangle on the part, s1 >= s2: singular values of the map from it to the plane, sums over "
+           "all F triangles; every map is first scaled to the area of the part.\n"
+           "angular rms: sqrt(sum over corners of (a - f)^2 / f^2 / (3 F)), a the flat angle, f the angle on the part, "
+           "at inner vertices scaled so that their sum is 2 pi [Sheffer et al. 2005, per corner, with its root taken].\n"
            "area rms: sqrt(sum A (q - 1)^2 / sum A), q = s1 s2 after the scaling.\n"
            "L2 stretch: sqrt(sum A (1/s1^2 + 1/s2^2) / 2 / sum A), best 1, infinite with flips [Sander et al. 2001].\n"
-           "symmetric Dirichlet: the least sum A (s1^2 + s2^2 + 1/s1^2 + 1/s2^2) / sum A over all uniform scales of the map, "
-           "best 4, infinite with flips [Smith and Schaefer 2015].\n"
+           "symmetric Dirichlet: the least sum A (s1^2 + s2^2 + 1/s1^2 + 1/s2^2) / sum A over all uniform scales of "
+           "the map, best 4, infinite with flips [Smith and Schaefer 2015].\n"
            "flips: triangles without positive area in the plane.\n"
            "outline overlaps: pairs of boundary edges, neighbours apart, that cross or touch in the plane.";
 }

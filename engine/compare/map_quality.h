@@ -5,8 +5,8 @@
 
 namespace spia {
 
-/// How well a flat map keeps the part's angles, areas and lengths, whatever method made it. None of the measures depends on
-/// where the map lies, how it is turned and how large it is.
+/// How well a flat map keeps the part's angles, areas and lengths, whatever method made it. None of the measures
+/// depends on where the map lies, how it is turned and how large it is.
 struct MapQuality {
     double angular_rms = 0;         ///< best 0
     double area_rms = 0;            ///< best 0

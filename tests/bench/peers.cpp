@@ -1,6 +1,7 @@
-// Our LSCM and ARAP beside those of CGAL's Surface_mesh_parameterization [Saboret, Alliez, Levy, Rouxel-Labbe, Fabri] on the same
-// mesh in the same run, judged by the same ruler; times are those of the processor, all threads together. CGAL has no ABF++ (5.5).
-// Usage: spia-peers [PART] [LARGEST]; without a part the inner panel at several sizes up to LARGEST triangles.
+// Our LSCM and ARAP beside those of CGAL's Surface_mesh_parameterization [Saboret, Alliez, Levy, Rouxel-Labbe, Fabri]
+// on the same mesh in the same run, judged by the same ruler; times are those of the processor, all threads together.
+// CGAL has no ABF++ (5.5). Usage: spia-peers [PART] [LARGEST]; without a part the inner panel at several sizes up to
+// LARGEST triangles.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>

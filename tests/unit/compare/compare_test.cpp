@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <oneapi/tbb/global_control.h>
 
+#include "engine/compare/abf.h"
+#include "engine/compare/arap.h"
 #include "engine/compare/comparison_report.h"
+#include "engine/compare/lscm.h"
 #include "engine/compare/peak_memory.h"
+#include "engine/compare/slim.h"
 #include "engine/core/error.h"
 #include "tests/support/developable.h"
 #include "tests/unit/compare/layouts.h"
@@ -79,6 +84,19 @@ TEST(Compare, ReportsProgressThatNeverFalls)
     compare(bumpy_plate(), options, progress);
     EXPECT_GT(reports, 30);
     EXPECT_GT(last, 0.75);
+}
+
+TEST(Compare, GivesTheSameBitsOnOneThreadAndOnMore)
+{
+    const TriMesh part = bumpy_plate();
+    const auto maps = [&] {
+        return std::vector{abf(part).position, arap(part).position, lscm(part).position, slim(part).position};
+    };
+    const auto many = maps();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const auto one = maps();
+    for (size_t i = 0; i < one.size(); ++i)
+        EXPECT_TRUE((one[i].array() == many[i].array()).all()) << i;
 }
 
 TEST(Compare, KnowsItsMethodsByName)
