@@ -40,6 +40,18 @@ struct InfoArguments {
 /// Prints what the mesh doctor says. @returns 0, or 2 if the part would be refused
 int info(const InfoArguments& arguments);
 
+struct CompareArguments {
+    std::filesystem::path part, json;
+    std::string material = "mild_steel", unit;
+    double thickness = 1;
+    std::vector<std::string> methods;
+    bool markdown = false, weld = false, keep_largest = false;
+};
+
+/// Unfolds a part by several methods and prints how their maps compare.
+/// @returns 0, or 3 if no method had a result
+int compare(const CompareArguments& arguments);
+
 /// Prints the built-in grades. @returns 0
 int materials();
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "engine/compare/compare.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
 
@@ -126,6 +127,37 @@ int main(int count, char** values)
                            "leave out all but the largest piece, and ribs on edges of three faces");
     info_command->add_option("--json", info.json, "write the findings")->type_name("FILE");
 
+    cli::CompareArguments comparison;
+    for (const FlatMethod method : flat_methods)
+        comparison.methods.emplace_back(name(method));
+    CLI::App* compare_command = app.add_subcommand(
+        "compare", "Unfold a part by this solver, ABF++, ARAP, LSCM and SLIM; compare time, memory and distortion");
+    compare_command->add_option("part", comparison.part, "STL, OBJ, PLY, OFF, glTF or GLB file")
+        ->required()
+        ->type_name("PART");
+    compare_command->add_option("--methods", comparison.methods, "which, in this order")
+        ->delimiter(',')
+        ->check(CLI::IsMember(comparison.methods))
+        ->type_name("LIST")
+        ->capture_default_str();
+    compare_command->add_flag("--markdown", comparison.markdown, "print the table as Markdown");
+    compare_command->add_option("--json", comparison.json, "write the figures, with their definitions")
+        ->type_name("FILE");
+    compare_command->add_option("--material", comparison.material, "for this solver: a grade, or a material file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    compare_command->add_option("--thickness", comparison.thickness, "for this solver: of the flat sheet")
+        ->type_name("MM")
+        ->capture_default_str();
+    compare_command->add_option("--unit", comparison.unit, "length unit of the file")
+        ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
+    compare_command->add_flag("--weld", comparison.weld, "join vertices at one place (always done for STL and glTF)");
+    compare_command->add_flag("--keep-largest", comparison.keep_largest,
+                              "leave out all but the largest piece, and ribs on edges of three faces");
+    compare_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+
     CLI::App* materials_command = app.add_subcommand("materials", "List the built-in sheet grades");
 
     cli::FitArguments fit;
@@ -172,6 +204,8 @@ int main(int count, char** values)
             return cli::run(run);
         if (*info_command)
             return cli::info(info);
+        if (*compare_command)
+            return cli::compare(comparison);
         if (*materials_command)
             return cli::materials();
         if (*fit_command)
