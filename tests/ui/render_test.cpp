@@ -340,8 +340,11 @@ TEST_F(Render, MarkedFacesStandOutOnEveryColourOfEveryMap)
         for (int i = 0; i <= 20; ++i)
             for (const uint8_t bit : {FaceMarks::hovered, FaceMarks::selected}) {
                 SceneLayer shown = layer(mesh);
-                shown.field = field_on(*mesh, [&](const Eigen::Vector3f&) { return i / 20.0; });
                 shown.scale.map = map;
+                shown.scale.least = map == ColourMap::diverging ? -1 : 0; // its middle is at zero
+                shown.scale.greatest = 1;
+                const double value = shown.scale.least + (1 - shown.scale.least) * i / 20.0;
+                shown.field = field_on(*mesh, [&](const Eigen::Vector3f&) { return value; });
                 auto marks = std::make_shared<FaceMarks>();
                 marks->mark = {0, bit};
                 shown.marks = marks;

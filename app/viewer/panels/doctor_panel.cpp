@@ -19,7 +19,7 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
     const std::string label = here ? "Shown" : "Show";
     const float width = ImGui::CalcTextSize("Shown").x + 2 * ImGui::GetStyle().FramePadding.x;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 2 * frame.ui.scale});
     if (ImGui::Button(label.c_str(), {width, 0}))
         frame.actions.push(here ? Action{HideFault{}} : Action{ShowFault{number, 0}});
     ImGui::PopStyleVar();
@@ -30,12 +30,13 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
         return;
     ImGui::SameLine(0, 8 * frame.ui.scale);
     const auto go = [&](int by) { frame.actions.push(ShowFault{number, (shown->entry + by + places) % places}); };
-    if (ImGui::SmallButton("<"))
+    if (small_button(frame, "<"))
         go(-1);
     ImGui::SameLine(0, 4 * frame.ui.scale);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 2 * frame.ui.scale); // on the line of the buttons' texts
     ImGui::TextUnformatted(fmt::format("{} of {}", shown->entry + 1, places).c_str());
     ImGui::SameLine(0, 4 * frame.ui.scale);
-    if (ImGui::SmallButton(">"))
+    if (small_button(frame, ">"))
         go(1);
 }
 
@@ -51,9 +52,9 @@ void fix_button(Frame& frame, const Finding& finding)
     if (!finding.place.empty())
         ImGui::SameLine();
     ImGui::BeginDisabled(frame.model.busy());
-    if (cut && ImGui::SmallButton("Keep the largest piece"))
+    if (cut && small_button(frame, "Keep the largest piece"))
         frame.actions.push(SetReading{read.weld, true});
-    if (apart && ImGui::SmallButton("Join them"))
+    if (apart && small_button(frame, "Join them"))
         frame.actions.push(SetReading{true, read.doctor.keep_largest});
     ImGui::EndDisabled();
     tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
@@ -83,7 +84,7 @@ void file_notes(Frame& frame, const PartFile& part)
     const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
     if (!unit || frame.model.busy())
         return;
-    if (ImGui::SmallButton(fmt::format("Read it in {}", name(*unit)).c_str()))
+    if (small_button(frame, fmt::format("Read it in {}", name(*unit)).c_str()))
         frame.actions.push(SetUnit{std::string(name(*unit))});
     tooltip("Reads the part again in this unit. Undo brings the other one back.");
 }

@@ -192,7 +192,7 @@ void probes_section(Frame& frame)
             frame.actions.push(RemoveProbe{int(k)});
         ImGui::PopID();
     }
-    if (ImGui::SmallButton("Remove all"))
+    if (small_button(frame, "Remove all"))
         frame.actions.push(ClearProbes{});
 }
 
@@ -285,7 +285,7 @@ void vertices_section(Frame& frame)
     ImGui::PopFont();
     vertex_distance(frame);
     vertices_as_corners(frame);
-    if (vertices.size() > 1 && ImGui::SmallButton("Remove all"))
+    if (vertices.size() > 1 && small_button(frame, "Remove all"))
         frame.actions.push(SelectVertices{});
 }
 

@@ -99,7 +99,7 @@ void section_plot(Frame& frame)
             }
         }
     }
-    if (ImGui::SmallButton("Remove section"))
+    if (small_button(frame, "Remove section"))
         frame.actions.push(ClearSection{});
 }
 

@@ -2,6 +2,14 @@
 
 namespace spia::viewer {
 
+bool small_button(const Frame& frame, const char* label)
+{
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 2 * frame.ui.scale});
+    const bool pressed = ImGui::Button(label);
+    ImGui::PopStyleVar();
+    return pressed;
+}
+
 bool primary_button(const Frame& frame, const char* label, bool enabled)
 {
     const ImVec4 accent = palette_of(frame.state.view.dark).accent;

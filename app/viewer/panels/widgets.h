@@ -6,6 +6,9 @@
 
 namespace spia::viewer {
 
+/// A button that is hardly higher than a line of text; letters keep room below it.
+bool small_button(const Frame& frame, const char* label);
+
 /// The one obvious next step: a wide button in the accent colour.
 bool primary_button(const Frame& frame, const char* label, bool enabled = true);
 
