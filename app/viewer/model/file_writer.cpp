@@ -6,11 +6,11 @@ std::vector<FileWriter::Ended> FileWriter::take_ended()
 {
     std::vector<Ended> ended;
     while (!pending_.empty() && pending_.front().written.ready()) {
-        Ended& last = ended.emplace_back(std::move(pending_.front().file));
+        ended.push_back({std::move(pending_.front().file), {}});
         try {
             pending_.front().written.get();
         } catch (const std::exception& error) {
-            last.error = error.what();
+            ended.back().error = error.what();
         }
         pending_.erase(pending_.begin());
     }
