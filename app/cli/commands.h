@@ -9,7 +9,7 @@
 namespace spia::cli {
 
 struct RunArguments {
-    std::filesystem::path part, folder = "spia-out", json;
+    std::filesystem::path part, folder = "spia-out", json, process;
     std::string material = "mild_steel", unit;
     double thickness = 1;
     std::string grid; ///< NxM; empty: automatic

@@ -76,6 +76,10 @@ int main(int count, char** values)
         ->check(CLI::Range(0.0, 1000.0))
         ->type_name("PERCENT")
         ->capture_default_str();
+    run_command
+        ->add_option("--process", run.process,
+                     "binder, friction, drawbeads, pilots, tailored pieces, rolling direction (JSON)")
+        ->type_name("FILE");
     run_command->add_option("--direction", run.direction, "stamping direction x,y,z (default: automatic)")
         ->delimiter(',')
         ->expected(3);

@@ -12,6 +12,7 @@
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
 
 namespace spia::cli {
@@ -161,6 +162,10 @@ int run(const RunArguments& arguments)
             break;
         }
         display.done(session.seconds.at(stage));
+        if (stage == Stage::read && !arguments.process.empty())
+            session.options.flatten.process =
+                read_process(arguments.process, *session.part, session.options.flatten.material,
+                             session.options.flatten.thickness, assets() / "materials");
         if (stage == Stage::read) {
             print_doctor(*session.part);
             require_possible(session);

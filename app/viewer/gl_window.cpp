@@ -116,6 +116,8 @@ void GlWindow::place_mouse()
         ImGui::GetIO().MousePos = {float(at->x), float(at->y)};
 }
 
+std::vector<glm::dvec2> GlWindow::take_path() { return mouse().take_path(); }
+
 void GlWindow::call(const std::string& title)
 {
     if (title != title_)

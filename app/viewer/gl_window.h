@@ -1,4 +1,5 @@
 #pragma once
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ public:
     static std::vector<KeyPress>& keys();
     /// Between the backend's part of a frame and ImGui's: the mouse is where it was pressed or let go since the last frame.
     static void place_mouse();
+    /// Where the mouse went with a button down since the last call.
+    static std::vector<glm::dvec2> take_path();
     void call(const std::string& title);
     /// Whether anything has happened since this was last set to false.
     static bool& news();

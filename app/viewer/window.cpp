@@ -205,6 +205,7 @@ private:
                                                  model_.state().view.camera[size_t(view)], w, h, look())));
                   }};
         ui_.keys = std::exchange(GlWindow::keys(), {});
+        ui_.path = GlWindow::take_path();
         if (!pictures_.empty()) // a picture shows what hides its labels, however busy the machine is
             model_.pickers().picker(model_.state().document.session, View::part);
         const ViewSettings seen = model_.state().view;

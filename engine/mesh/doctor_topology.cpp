@@ -1,5 +1,6 @@
 #include "engine/mesh/doctor_checks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <fmt/core.h>
 #include <numeric>
@@ -12,9 +13,13 @@ namespace {
 
 void count_pieces(const MendedSurface& s, DoctorReport& report)
 {
-    std::vector<int> size(size_t(report.components), 0);
-    for (const int piece : s.piece)
-        ++size[size_t(piece)];
+    std::vector<std::pair<double, int>> size(size_t(report.components), {0, 0}); // area and triangles
+    for (size_t f = 0; f < s.piece.size(); ++f) {
+        const auto corner = [&](int k) { return s.soup.position[size_t(s.home[size_t(s.triangle[f][k])])]; };
+        auto& [area, triangles] = size[size_t(s.piece[f])];
+        area += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+        ++triangles;
+    }
     const int largest = int(std::max_element(size.begin(), size.end()) - size.begin());
     std::vector<char> seen(size.size(), 0);
     seen[size_t(largest)] = 1;
@@ -22,21 +27,22 @@ void count_pieces(const MendedSurface& s, DoctorReport& report)
     for (size_t f = 0; f < s.piece.size(); ++f)
         if (!std::exchange(seen[size_t(s.piece[f])], char(1)))
             others.add(s.number[f]);
-    std::erase(size, 0);
+    std::erase_if(size, [](const auto& piece) { return piece.second == 0; });
     report.components = int(size.size());
     if (report.components < 2)
         return;
     others.count = report.components;
-    std::sort(size.rbegin(), size.rend());
+    std::stable_sort(size.begin(), size.end(), std::greater());
     std::string sizes;
     for (size_t i = 0; i < std::min<size_t>(size.size(), 5); ++i)
-        sizes += fmt::format("{}{}", i > 0 ? ", " : "", size[i]);
+        sizes += fmt::format("{}{}", i > 0 ? ", " : "", size[i].second);
     const Finding* coincident = report.find(Fault::coincident_vertex);
     const bool unjoined = coincident && coincident->severity == Severity::note;
     report.add(
         Fault::several_components, Severity::fatal, others,
-        fmt::format("there are {} separate pieces, of {}{} triangles (first face outside the largest: {})",
-                    report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
+        fmt::format(
+            "there are {} separate pieces, the largest by area first: of {}{} triangles (first face outside it: {})",
+            report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
         unjoined
             ? "join vertices at one place (--weld) if the pieces touch; otherwise keep the largest (--keep-largest), or "
               "save each as a file of its own"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/json_file.h"
+#include "engine/core/json_file.h"
 
 /// The program itself, run by a test in a folder of its own.
 namespace spia::viewer {
@@ -42,7 +42,7 @@ public:
     Json move(double x, double y); ///< of the window; waits until the program has seen it there
     /// Presses the left button, moves and lets go, all faster than a frame.
     void fling(double x, double y, double to_x, double to_y);
-    Json press(int button);        ///< 1 left, 2 middle, 3 right; waits until it is seen
+    Json press(int button); ///< 1 left, 2 middle, 3 right; waits until it is seen
     Json release(int button);
     Json click(double x, double y);
     void double_click(int between); ///< milliseconds between the clicks

@@ -184,7 +184,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
     corners[size_t(action.corner)] = in_file;
     session.options.corners = corners;
     model.dragging_ = action.dragging;
-    model.run_to(action.dragging ? Stage::grid : Stage::fit, "Making the grid");
+    model.run_to(action.dragging ? Stage::lift : Stage::fit, "Making the grid");
 }
 
 void ViewerModel::Apply::operator()(const ProposeCorners&)

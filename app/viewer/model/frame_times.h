@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "app/viewer/model/json_file.h"
+#include "engine/core/json_file.h"
 
 namespace spia::viewer {
 

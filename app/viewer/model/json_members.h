@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "app/viewer/model/field.h"
-#include "app/viewer/model/json_file.h"
 #include "app/viewer/model/names.h"
+#include "engine/core/json_file.h"
 
 /// Structs to and from JSON by a list of their members, once for scripts, projects and reports:
 ///

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "app/viewer/model/json_file.h"
+#include "engine/core/json_file.h"
 #include "engine/pipeline/session.h"
 
 /// The tables of a report on a part that is unfolded at least, as HTML; empty if there is nothing to say. Lengths in mm.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/viewer/model/actions.h"
-#include "app/viewer/model/json_file.h"
+#include "engine/core/json_file.h"
 
 /// Scripts: what a user could do, as a file.
 ///

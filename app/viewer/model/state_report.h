@@ -1,6 +1,6 @@
 #pragma once
-#include "app/viewer/model/json_file.h"
 #include "app/viewer/model/state.h"
+#include "engine/core/json_file.h"
 
 namespace spia::viewer {
 

@@ -112,10 +112,18 @@ void field_section(Frame& frame)
         frame.actions.push(SetDisplay{display});
 }
 
+/// Says when what it lists are means of the faces around the vertices, which peaks of single faces exceed.
+std::string heading(const Frame& frame, const std::string& title)
+{
+    const FieldDisplay& display = frame.state.document.display;
+    return title + (display.per_face || display.field == Field::deviation ? "" : ", smoothed") + "###" + title;
+}
+
 void histogram_section(Frame& frame)
 {
     const Figures& now = figures(frame);
-    if (now.value.size() == 0 || !ImGui::CollapsingHeader("Histogram", ImGuiTreeNodeFlags_DefaultOpen))
+    if (now.value.size() == 0 ||
+        !ImGui::CollapsingHeader(heading(frame, "Histogram").c_str(), ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const Histogram& h = now.histogram;
     const ColourScale scale =
@@ -149,7 +157,8 @@ void histogram_section(Frame& frame)
 void worst_section(Frame& frame)
 {
     const Figures& now = figures(frame);
-    if (now.worst.empty() || !ImGui::CollapsingHeader("Worst spots", ImGuiTreeNodeFlags_DefaultOpen))
+    if (now.worst.empty() ||
+        !ImGui::CollapsingHeader(heading(frame, "Worst spots").c_str(), ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const TriMesh& part = frame.state.document.session.part->mesh;
     for (size_t k = 0; k < now.worst.size(); ++k) {

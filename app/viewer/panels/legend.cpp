@@ -11,12 +11,12 @@ namespace spia::viewer {
 std::optional<PixelBox> draw_legend(const Frame& frame, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw)
 {
     const float s = frame.ui.scale;
-    if (!scene.legend || size.y < 180 * s || size.x < 200 * s)
+    if (!scene.legend || size.y < 110 * s || size.x < 170 * s)
         return std::nullopt;
     const SceneLegend& legend = *scene.legend;
     const ColourScale& scale = legend.scale;
     const std::string title = legend.title + (legend.unit.empty() ? "" : ", " + legend.unit);
-    const float height = std::min(200 * s, size.y - 110 * s), width = 13 * s;
+    const float height = std::min(200 * s, size.y - (size.y < 180 * s ? 66 : 110) * s), width = 13 * s;
     const ImVec2 low{from.x + 14 * s, from.y + size.y - 18 * s}, high{low.x + width, low.y - height};
     const bool dark = frame.state.view.dark;
     const ImU32 text = dark ? IM_COL32(235, 238, 242, 255) : IM_COL32(24, 28, 34, 255);

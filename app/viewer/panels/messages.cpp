@@ -101,25 +101,22 @@ void add_first_steps(Frame& frame, std::vector<Message>& shown)
 MessageStrip message_strip(Frame& frame, float width)
 {
     MessageStrip strip;
-    strip.shown = current(frame);
-    add_first_steps(frame, strip.shown);
-    constexpr size_t most = 3;
-    strip.more = strip.shown.size() > most ? strip.shown.size() - most : 0;
-    strip.shown.resize(strip.shown.size() - strip.more);
     const ImGuiStyle& style = ImGui::GetStyle();
-    const float wrap = width - buttons_width(frame, strip.more) - dot * frame.ui.scale - 2 * style.WindowPadding.x;
-    float height = 0;
-    for (const Message& message : strip.shown)
-        height +=
-            ImGui::CalcTextSize(message.text.c_str(), nullptr, false, std::max(wrap, 60.f)).y + style.ItemSpacing.y;
-    if (height > 0)
-        height = std::max(height - style.ItemSpacing.y, ImGui::GetTextLineHeight()) + 2 * style.WindowPadding.y +
-                 4 * frame.ui.scale;
-    height = std::min(height, 0.3f * ImGui::GetIO().DisplaySize.y);
-    // What is being dragged does not move away under the mouse.
-    const bool hold = !frame.ui.aside && (frame.ui.busy || frame.ui.dragged_corner);
-    strip.height = hold ? frame.ui.message_height : height;
-    frame.ui.message_height = strip.height;
+    // Always there and of one height: the views keep their places while messages come and go.
+    const float line = ImGui::GetTextLineHeight(), room = 2 * line + style.ItemSpacing.y;
+    strip.height = room + 2 * style.WindowPadding.y;
+    std::vector<Message> all = current(frame);
+    add_first_steps(frame, all);
+    float left = room;
+    for (Message& message : all) {
+        const float wrap = width - buttons_width(frame, all.size()) - dot * frame.ui.scale - 2 * style.WindowPadding.x;
+        left -= ImGui::CalcTextSize(message.text.c_str(), nullptr, false, std::max(wrap, 60.f)).y;
+        if (!strip.shown.empty() && left < 0)
+            break;
+        left -= style.ItemSpacing.y;
+        strip.shown.push_back(std::move(message));
+    }
+    strip.more = all.size() - strip.shown.size();
     return strip;
 }
 

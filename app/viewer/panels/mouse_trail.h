@@ -1,17 +1,27 @@
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace spia::viewer {
 
 /// Where the mouse was when its buttons went down and up. A frame notices a press late: a fast hand is farther along
-/// by then, and what begins there (a box, a section, a corner that is taken) has lost its start.
+/// by then, and what begins there (a box, a section, a corner that is taken) has lost its start. Nor does one place a
+/// frame tell the way it went (a lasso, a brush).
 class MouseTrail {
 public:
-    void moved(glm::dvec2 to) { at_ = to; }
+    void moved(glm::dvec2 to)
+    {
+        at_ = to;
+        if (down_ && path_.size() < most)
+            path_.push_back(to);
+    }
     void button(bool down)
     {
+        if (down && !down_)
+            path_.clear();
+        down_ = down;
         if (at_)
             events_.push_back({down, *at_});
     }
@@ -33,13 +43,19 @@ public:
         return place;
     }
 
+    /// Where it was with a button down since the last call, in order.
+    std::vector<glm::dvec2> take_path() { return std::exchange(path_, {}); }
+
 private:
+    static constexpr size_t most = 10'000; ///< places of one frame
     struct Event {
         bool down;
         glm::dvec2 at;
     };
     std::optional<glm::dvec2> at_; ///< not before it has moved
     std::vector<Event> events_;
+    std::vector<glm::dvec2> path_;
+    bool down_ = false;
 };
 
 } // namespace spia::viewer

@@ -95,6 +95,7 @@ void picture_dialog(Frame& frame)
         ImGui::TextUnformatted(label);
         ImGui::TableNextColumn();
     };
+    old_results_banner(frame);
     bool choose = false;
     if (ImGui::BeginTable("choices", 2)) {
         ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, 90 * frame.ui.scale);

@@ -118,7 +118,10 @@ void direction_control(Frame& frame)
 void unfold_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    step_heading(frame, 3, "Unfold", status(frame, Stage::solve, session.blank != nullptr));
+    Status solved = status(frame, Stage::solve, session.blank != nullptr);
+    if (solved == Status::done && session.blank->report.system != SolvedSystem::strict)
+        solved = Status::poor;
+    step_heading(frame, 3, "Unfold", solved);
     const auto stale = first_stale(frame.state.document);
     ImGui::BeginDisabled(!session.part || !stale || *stale > Stage::solve || frame.state.job.running);
     if (ImGui::Button("Unfold"))

@@ -46,7 +46,6 @@ struct Ui {
     bool show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since;                                 ///< seconds; by number
-    float message_height = 0;                                            ///< pixels, in the frame before
     double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     std::vector<KeyPress> keys;      ///< pressed since the last frame
@@ -60,6 +59,7 @@ struct Ui {
     glm::dvec2 corner_taken_at{0}; ///< pixels of the view
     bool corner_moved = false;     ///< since it was taken
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
+    std::vector<glm::dvec2> path;  ///< where the mouse went since the last frame, a button down, pixels of the window
     std::array<ImVec2, 4> view_from{}, view_size{};
     std::array<LabelPlaces, 4> labels;
 

@@ -113,6 +113,16 @@ void drag_corners(Frame& frame, const Mouse& mouse)
     ui.corner_moved = false;
 }
 
+/// Where the mouse went in a view, up to where it is.
+std::vector<glm::dvec2> way_since_last_frame(const Ui& ui, const Mouse& mouse, ImVec2 from)
+{
+    std::vector<glm::dvec2> way;
+    for (const glm::dvec2& place : ui.path)
+        way.push_back(place - vec(from));
+    way.push_back(mouse.pixel);
+    return way;
+}
+
 void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
 {
     Ui& ui = frame.ui;
@@ -151,18 +161,33 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                                           PickVertex{}.reach * ui.scale});
         return;
     case Tool::brush:
-        if (clicked)
+        if (clicked) {
             ui.busy = view;
+            ui.trail.clear();
+        }
         if (mouse.inside)
             draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
                             float(settings.brush_radius), ink(p.accent), 32, 1.5f);
         if (ui.busy == view && !ui.turning && !ui.panning) {
-            if (ImGui::IsMouseDown(0))
-                frame.actions.push(PickBrush{view, mouse.pixel, settings.brush_radius, mouse.size,
-                                             mode() == PickMode::replace && !clicked ? PickMode::add : mode(),
+            const auto touch = [&](glm::dvec2 place) {
+                const bool first = ui.trail.empty();
+                frame.actions.push(PickBrush{view, place, settings.brush_radius, mouse.size,
+                                             mode() == PickMode::replace && !first ? PickMode::add : mode(),
                                              settings.through});
-            else
+                ui.trail = {place};
+            };
+            if (ui.trail.empty())
+                touch(mouse.pixel);
+            for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from)) {
+                const glm::dvec2 way = place - ui.trail[0], begin = ui.trail[0];
+                const int touches = int(glm::length(way) / (0.5 * settings.brush_radius));
+                for (int k = 1; k <= touches; ++k)
+                    touch(begin + way * (double(k) / touches));
+            }
+            if (!ImGui::IsMouseDown(0)) {
+                ui.trail.clear();
                 ui.busy.reset();
+            }
         }
         return;
     case Tool::section:
@@ -192,8 +217,10 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
         if (settings.tool == Tool::box) {
             const glm::dvec2 a = ui.trail[0], b = mouse.pixel;
             ui.trail = {a, {b.x, a.y}, b, {a.x, b.y}};
-        } else if (glm::length(ui.trail.back() - mouse.pixel) > 3)
-            ui.trail.push_back(mouse.pixel);
+        } else
+            for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from))
+                if (glm::length(ui.trail.back() - place) > 3)
+                    ui.trail.push_back(place);
         {
             std::vector<ImVec2> shown;
             for (const glm::dvec2& point : ui.trail)

@@ -34,10 +34,10 @@ void step_heading(const Frame& frame, int number, const char* title, Status stat
     ImGui::Dummy({0, 3 * frame.ui.scale});
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    const ImVec4 colour = status == Status::done     ? p.good
-                          : status == Status::stale  ? p.warning
-                          : status == Status::failed ? p.error
-                                                     : p.line;
+    const ImVec4 colour = status == Status::done                              ? p.good
+                          : status == Status::stale || status == Status::poor ? p.warning
+                          : status == Status::failed                          ? p.error
+                                                                              : p.line;
     draw->AddCircleFilled({at.x + r, at.y + r}, r, ink(colour), 24);
     const std::string digit = std::to_string(number);
     const ImVec2 size = ImGui::CalcTextSize(digit.c_str());

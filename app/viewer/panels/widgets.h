@@ -12,7 +12,7 @@ bool small_button(const Frame& frame, const char* label);
 /// The one obvious next step: a wide button in the accent colour.
 bool primary_button(const Frame& frame, const char* label, bool enabled = true);
 
-enum class Status { nothing, done, stale, failed };
+enum class Status { nothing, done, poor, stale, failed };
 
 /// Heading of a step with its number and a mark of how it stands.
 void step_heading(const Frame& frame, int number, const char* title, Status status);

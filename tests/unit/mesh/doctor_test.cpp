@@ -220,7 +220,25 @@ TEST(Doctor, SeveralPiecesAreCountedWithTheirSizes)
     EXPECT_EQ(e.report.components, 2);
     EXPECT_EQ(e.report.boundary_loops, 2);
     EXPECT_EQ(first(e, Fault::several_components), 0); // the second piece is the larger one
-    expect_refused(e, "2 separate pieces, of 8, 6 triangles");
+    expect_refused(e, "2 separate pieces, the largest by area first: of 8, 6 triangles");
+}
+
+TEST(Doctor, TheLargestPieceIsTheOneWithTheMostSheetNotTheMostTriangles)
+{
+    PolygonSoup soup = quads(2, 2);
+    const int offset = soup.vertices();
+    const PolygonSoup other = quads(1, 1); // two triangles, and a hundred times as large
+    for (const Vector3d& p : other.position)
+        soup.position.push_back(20 * p + Vector3d(0, 0, 5));
+    for (int p = 0; p < other.polygons(); ++p) {
+        std::vector<int> corners;
+        for (const int v : other.polygon(p))
+            corners.push_back(v + offset);
+        soup.add_polygon(corners);
+    }
+    const Examination e = examine(soup);
+    EXPECT_EQ(first(e, Fault::several_components), 0); // what "keep the largest" would leave out
+    expect_refused(e, "of 2, 8 triangles");
 }
 
 TEST(Doctor, ThirdFaceAtAnEdgeIsFatalAndNamed)

@@ -40,4 +40,22 @@ TEST(MouseTrail, OfTwoClicksInOneFrameTheLastCounts)
     EXPECT_EQ(mouse.next(), std::nullopt);
 }
 
+TEST(MouseTrail, TheWayIsWhatLiesBetweenPressAndRelease)
+{
+    MouseTrail mouse;
+    mouse.moved({1, 1});
+    mouse.button(true);
+    mouse.moved({5, 1});
+    mouse.moved({5, 9});
+    EXPECT_EQ(mouse.take_path(), (std::vector<glm::dvec2>{{5, 1}, {5, 9}}));
+    EXPECT_TRUE(mouse.take_path().empty());
+    mouse.moved({0, 9});
+    mouse.button(false);
+    mouse.moved({70, 70});
+    EXPECT_EQ(mouse.take_path(), (std::vector<glm::dvec2>{{0, 9}}));
+    mouse.moved({80, 70});
+    mouse.button(true); // another drag
+    EXPECT_TRUE(mouse.take_path().empty());
+}
+
 } // namespace spia::viewer

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "app/viewer/model/json_file.h"
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/core/error.h"
+#include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"

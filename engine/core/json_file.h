@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace spia::viewer {
+namespace spia {
 
 /// Members keep the order in which they were written.
 using Json = nlohmann::ordered_json;
@@ -40,4 +40,4 @@ private:
     long entry_ = -1;
 };
 
-} // namespace spia::viewer
+} // namespace spia

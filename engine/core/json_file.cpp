@@ -1,4 +1,4 @@
-#include "app/viewer/model/json_file.h"
+#include "engine/core/json_file.h"
 
 #include <fmt/core.h>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 
-namespace spia::viewer {
+namespace spia {
 namespace {
 
 /// Without the library's "[json.exception.parse_error.101] ".
@@ -69,4 +69,4 @@ std::string Place::text() const
 
 void Place::fail(std::string_view what) const { throw InputError(fmt::format("{} {}", text(), what)); }
 
-} // namespace spia::viewer
+} // namespace spia

@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+
+#include "engine/exchange/read_part.h"
+#include "engine/forming/process.h"
+
+namespace spia {
+
+/// Reads process conditions (JSON; the form is documented in engine/pipeline/README.md). Faces are given by their numbers
+/// in the part's file or by a box that holds their middles; lengths in mm.
+/// @param material, thickness of the sheet: for the force of a bead given by its shape, and where a tailored piece has no grade
+/// @param materials folder of the built-in grades
+/// @throws InputError naming file, place and fault: no JSON, an unknown member, a value out of its bounds, a face that the
+///                    part does not have, a choice that picks no face
+ProcessConditions read_process(const std::filesystem::path& file, const PartFile& part, const Material& material,
+                               double thickness, const std::filesystem::path& materials);
+
+} // namespace spia

@@ -1,0 +1,98 @@
+#include "engine/pipeline/process_file.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/error.h"
+#include "engine/forming/drawbead.h"
+#include "engine/forming/material_library.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+const std::filesystem::path materials = SPIA_SOURCE_DIR "/assets/materials";
+
+/// A sheet of 50 x 40 mm whose faces are numbered from 100 on in the file, two triangles each.
+PartFile part()
+{
+    PartFile result;
+    result.mesh = shapes::rectangle(50, 40, 5, 4);
+    for (int f = 0; f < result.mesh.triangles(); ++f)
+        result.source_face.push_back(100 + f / 2);
+    return result;
+}
+
+ProcessConditions process_of(const std::string& text)
+{
+    const ScratchFolder folder;
+    put(folder / "p.json", text);
+    return read_process(folder / "p.json", part(), find_material("mild_steel", materials), 0.8, materials);
+}
+
+std::string refusal(const std::string& text)
+{
+    try {
+        process_of(text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "taken";
+}
+
+} // namespace
+
+TEST(ProcessFile, HoldsEveryCondition)
+{
+    const ProcessConditions p = process_of(R"({
+      "contact": [{"name": "binder", "faces": [101, 103], "force_N": 2e4, "friction": 0.12},
+                  {"box": [[0, 0, -1], [10, 40, 1]], "pressure_MPa": 0.5, "friction": 0.1, "sides": 1}],
+      "drawbeads": [{"line": [[20, 5, 0], [20, 35, 0]], "force_N_mm": 90},
+                    {"name": "b", "line": [[30, 5, 0], [30, 35, 0]],
+                     "shape": {"radius": 5, "shoulder_radius": 3, "depth": 4, "friction": 0.2}}],
+      "edge_restraint": 0.1, "pilots": [{"line": [[0, 0, 0]]}],
+      "tailored": [{"box": [[25, 0, -1], [50, 40, 1]], "material": "dp600", "thickness": 1.4}],
+      "rolling": [0, 1, 0] })");
+    ASSERT_EQ(p.contact.size(), 2u);
+    EXPECT_EQ(p.contact[0].faces, (std::vector<int>{2, 3, 6, 7}));
+    EXPECT_EQ(p.contact[0].force_N, 2e4);
+    EXPECT_EQ(p.contact[0].sides, 2);
+    EXPECT_EQ(p.contact[1].name, "contact 2");
+    EXPECT_EQ(p.contact[1].faces.size(), 8u); // the first of five columns
+    EXPECT_EQ(p.contact[1].sides, 1);
+    ASSERT_EQ(p.drawbeads.size(), 2u);
+    EXPECT_EQ(p.drawbeads[0].force_N_mm, 90);
+    EXPECT_EQ(p.drawbeads[1].force_N_mm, drawbead_force({5, 3, 4, 0.2}, find_material("mild_steel", materials), 0.8));
+    EXPECT_EQ(p.edge_restraint, 0.1);
+    EXPECT_EQ(p.pilots[0].line.size(), 1u);
+    EXPECT_EQ(p.tailored[0].material.name, find_material("dp600", materials).name);
+    EXPECT_EQ(p.tailored[0].faces.size(), 20u); // two columns, and of the next the triangles whose middle is inside
+    EXPECT_EQ(p.rolling, Eigen::Vector3d(0, 1, 0));
+    EXPECT_EQ(process_of("{}"), ProcessConditions{});
+}
+
+TEST(ProcessFile, WhatIsWrongIsNamedWithItsPlace)
+{
+    const auto says = [](const std::string& text, const std::string& words) {
+        EXPECT_NE(refusal(text).find(words), std::string::npos) << refusal(text);
+    };
+    says("", "p.json");
+    says("[]", "must be an object");
+    says(R"({"binder": 1})", "has no member \"binder\"; there are: contact, drawbeads");
+    says(R"({"contact": [{"faces": [101], "force_N": 1, "pressure_MPa": 1, "friction": 0.1}]})",
+         "/contact/0 needs either the member");
+    says(R"({"contact": [{"faces": [99], "force_N": 1, "friction": 0.1}]})", "/contact/0/faces/0 is 99");
+    says(R"({"contact": [{"faces": [101.5], "force_N": 1, "friction": 0.1}]})", "/contact/0/faces/0");
+    says(R"({"contact": [{"box": [[90, 0, 0], [99, 9, 9]], "force_N": 1, "friction": 0.1}]})", "picks no face");
+    says(R"({"contact": [{"force_N": 1, "friction": 0.1}]})", "needs the member \"faces\" or \"box\"");
+    says(R"({"contact": [{"faces": [101], "force_N": 1}]})", "needs the member \"friction\"");
+    says(R"({"contact": [{"faces": [101], "force_N": 1, "friction": -1}]})", "/contact/0/friction is -1");
+    says(R"({"contact": [{"faces": [101], "force_N": 1, "friction": 0.1, "sides": 1.5}]})", "sides must be 1 or 2");
+    says(R"({"drawbeads": [{"line": [[1, 2]], "force_N_mm": 1}]})", "/drawbeads/0/line/0 must be three numbers");
+    says(R"({"drawbeads": [{"line": [[1, 2, 3]]}]})", "needs either the member \"force_N_mm\" or \"shape\"");
+    says(R"({"edge_restraint": 2})", "/edge_restraint is 2");
+    says(R"({"tailored": [{"faces": [101], "material": "gold", "thickness": 1}]})", "gold");
+    says(R"({"rolling": [1, 0]})", "/rolling must be three numbers");
+}
+
+} // namespace spia
