@@ -103,7 +103,7 @@ MessageStrip message_strip(Frame& frame, float width)
     MessageStrip strip;
     const ImGuiStyle& style = ImGui::GetStyle();
     // Always there and of one height: the views keep their places while messages come and go.
-    const float line = ImGui::GetTextLineHeight(), room = 2 * line + style.ItemSpacing.y;
+    const float room = 3 * ImGui::GetTextLineHeight();
     strip.height = room + 2 * style.WindowPadding.y;
     std::vector<Message> all = current(frame);
     add_first_steps(frame, all);
