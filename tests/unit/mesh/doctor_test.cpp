@@ -203,19 +203,28 @@ TEST(Doctor, TorusIsClosedAndAPuncturedTorusKeepsItsHandle)
     expect_refused(punctured, "handle");
 }
 
-TEST(Doctor, SeveralPiecesAreCountedWithTheirSizes)
+namespace {
+
+/// Another sheet 5 above, not connected.
+void add_above(PolygonSoup& soup, const PolygonSoup& other, double scale)
 {
-    PolygonSoup soup = quads(3, 1);
     const int offset = soup.vertices();
-    const PolygonSoup other = quads(2, 2);
     for (const Vector3d& p : other.position)
-        soup.position.push_back(p + Vector3d(0, 0, 5));
+        soup.position.push_back(scale * p + Vector3d(0, 0, 5));
     for (int p = 0; p < other.polygons(); ++p) {
         std::vector<int> corners;
         for (const int v : other.polygon(p))
             corners.push_back(v + offset);
         soup.add_polygon(corners);
     }
+}
+
+} // namespace
+
+TEST(Doctor, SeveralPiecesAreCountedWithTheirSizes)
+{
+    PolygonSoup soup = quads(3, 1);
+    add_above(soup, quads(2, 2), 1);
     const Examination e = examine(soup);
     EXPECT_EQ(e.report.components, 2);
     EXPECT_EQ(e.report.boundary_loops, 2);
@@ -226,16 +235,7 @@ TEST(Doctor, SeveralPiecesAreCountedWithTheirSizes)
 TEST(Doctor, TheLargestPieceIsTheOneWithTheMostSheetNotTheMostTriangles)
 {
     PolygonSoup soup = quads(2, 2);
-    const int offset = soup.vertices();
-    const PolygonSoup other = quads(1, 1); // two triangles, and a hundred times as large
-    for (const Vector3d& p : other.position)
-        soup.position.push_back(20 * p + Vector3d(0, 0, 5));
-    for (int p = 0; p < other.polygons(); ++p) {
-        std::vector<int> corners;
-        for (const int v : other.polygon(p))
-            corners.push_back(v + offset);
-        soup.add_polygon(corners);
-    }
+    add_above(soup, quads(1, 1), 20); // two triangles, and a hundred times as large
     const Examination e = examine(soup);
     EXPECT_EQ(first(e, Fault::several_components), 0); // what "keep the largest" would leave out
     expect_refused(e, "of 2, 8 triangles");
