@@ -32,12 +32,10 @@ int main(int count, char** values)
         ->type_name("FILE");
     app.add_flag("--exit", options.exit, "quit when all this is done");
     app.add_flag("--light", options.light, "begin with the light theme");
-    app.add_option("--width", options.width, "of the window, pixels")
-        ->check(CLI::Range(320, 16384))
-        ->capture_default_str();
-    app.add_option("--height", options.height, "of the window, pixels")
-        ->check(CLI::Range(240, 16384))
-        ->capture_default_str();
+    app.add_option("--width", options.width, "of the window, pixels; without it up to 1440, as the screen has room")
+        ->check(CLI::Range(320, 16384));
+    app.add_option("--height", options.height, "of the window, pixels; without it up to 900")
+        ->check(CLI::Range(240, 16384));
     try {
         app.parse(count, values);
     } catch (const CLI::ParseError& error) {

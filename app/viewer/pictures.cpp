@@ -195,7 +195,6 @@ std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& mode
     constexpr int width = 1200, height = 800;
     constexpr float larger = 1.3f;                                                    // on paper they are small
     const PictureContent content{.ground = !options.standard_look, .larger = larger}; // white paper
-    constexpr const char* titles[] = {"Part", "Blank", "Quad mesh", "NURBS surface"};
     constexpr const char* standard_titles[] = {"Part: thinning, smooth (each vertex the mean of its faces)",
                                                "Blank: the same, with the corners of the grid",
                                                "Quad mesh on the part: scaled Jacobian of the cells in the plane",
@@ -211,7 +210,7 @@ std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& mode
         Camera& camera = shown.view.camera[size_t(view)];
         if (options.standard_look)
             camera = fitted(camera, session, view, {width, height}, larger * picture_scale(width, height));
-        pictures.push_back({(options.standard_look ? standard_titles : titles)[size_t(view)],
+        pictures.push_back({options.standard_look ? standard_titles[size_t(view)] : title(view),
                             picture_of_view(renderer, model, shown, cache, view, width, height, content)});
     }
     return pictures;

@@ -8,6 +8,17 @@ namespace spia::viewer {
 std::string_view name(View view) { return name_in_table(view); }
 View view_by_name(std::string_view name) { return value_by_name<View>(name); }
 
+const char* title(View view)
+{
+    switch (view) {
+    case View::part: return "Part";
+    case View::blank: return "Blank";
+    case View::quads: return "Quad mesh";
+    case View::surface: return "NURBS surface";
+    }
+    return "";
+}
+
 std::string_view name(Tool tool) { return name_in_table(tool); }
 Tool tool_by_name(std::string_view name) { return value_by_name<Tool>(name); }
 

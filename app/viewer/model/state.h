@@ -101,6 +101,9 @@ LaterResults surface_shown(const ViewerState& state);
 /// Whether a view shows results of other options than are wanted now.
 bool is_old(const ViewerState& state, View view);
 
+/// Of a view, for people.
+const char* title(View view);
+
 /// Of the project, else of the part; with a star where something is not saved.
 std::string window_title(const ViewerState& state);
 

@@ -15,4 +15,11 @@ std::string in_viewer_words(std::string text)
     return text;
 }
 
+std::string as_sentence(std::string text)
+{
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+        text[0] = char(text[0] - 'a' + 'A');
+    return text;
+}
+
 } // namespace spia::viewer

@@ -59,9 +59,13 @@ void replaced_note(const Frame& frame, const std::filesystem::path& file)
         muted(frame, "A new file.");
 }
 
+float answer_buttons_height(const Frame& frame)
+{
+    return 2 * frame.ui.scale + ImGui::GetStyle().ItemSpacing.y + ImGui::GetFrameHeight() * 1.15f;
+}
+
 Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const ImVec4& colour)
 {
-    const auto shade = [&](float f) { return ImVec4(colour.x * f, colour.y * f, colour.z * f, 1); };
     const float gap = 8 * frame.ui.scale, height = ImGui::GetFrameHeight() * 1.15f;
     const ImFont* bold = frame.ui.fonts.bold;
     const auto width = [&](const char* label) {
@@ -76,15 +80,8 @@ Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const I
         answer = Answer::cancel;
     ImGui::SameLine(0, gap);
     ImGui::BeginDisabled(!enabled);
-    ImGui::PushStyleColor(ImGuiCol_Button, shade(0.9f));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(1));
-    ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(0.8f));
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 1, 1, 1));
-    ImGui::PushFont(frame.ui.fonts.bold);
-    if (ImGui::Button(yes, {width(yes), height}))
+    if (coloured_button(frame, yes, {width(yes), height}, colour))
         answer = Answer::yes;
-    ImGui::PopFont();
-    ImGui::PopStyleColor(4);
     ImGui::EndDisabled();
     return answer;
 }

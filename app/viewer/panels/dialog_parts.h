@@ -27,6 +27,7 @@ void replaced_note(const Frame& frame, const std::filesystem::path& file);
 
 /// Two buttons at the lower right: the one that does it, in a colour, and Cancel.
 enum class Answer { none, yes, cancel };
+float answer_buttons_height(const Frame& frame); ///< pixels
 Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const ImVec4& colour);
 
 /// A file in the folder where the user works, see model/suggested_files.h.

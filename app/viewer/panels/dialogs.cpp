@@ -99,6 +99,9 @@ void recovery_dialog(Frame& frame)
     ImGui::TextUnformatted(left->text.c_str());
     ImGui::PopTextWrapPos();
     figure(frame, "Last kept", left->saved);
+    const std::filesystem::path& now = frame.state.document.session.file;
+    if (!now.empty() && !frame.ui.sample)
+        muted(frame, fmt::format("To recover it closes {}.", now.filename().string()));
     ImGui::Dummy({0, 2 * frame.ui.scale});
     const auto answer = [&](LeftWork::Answer given) {
         left->answer = given;

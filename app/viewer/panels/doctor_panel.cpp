@@ -79,9 +79,12 @@ std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
 /// What reading the file left to say, and the unit if it looks wrong.
 void file_notes(Frame& frame, const PartFile& part)
 {
-    for (const std::string& note : part.notes)
-        muted(frame, in_viewer_words(note));
     const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
+    for (const std::string& note : part.notes)
+        if (unit)
+            coloured(palette_of(frame.state.view.dark).warning, as_sentence(in_viewer_words(note)));
+        else
+            muted(frame, as_sentence(in_viewer_words(note)));
     if (!unit || frame.model.busy())
         return;
     if (small_button(frame, fmt::format("Read it in {}", name(*unit)).c_str()))
@@ -127,12 +130,12 @@ void doctor_panel(Frame& frame)
             ImGui::PushID(i);
             ImGui::PushTextWrapPos(0);
             if (finding.severity == spia::Severity::fatal)
-                ImGui::TextColored(p.error, "%s", finding.text.c_str());
+                ImGui::TextColored(p.error, "%s", as_sentence(finding.text).c_str());
             else
-                ImGui::TextUnformatted(finding.text.c_str());
+                ImGui::TextUnformatted(as_sentence(finding.text).c_str());
             ImGui::PopTextWrapPos();
             if (!finding.advice.empty())
-                muted(frame, in_viewer_words(finding.advice));
+                muted(frame, as_sentence(in_viewer_words(finding.advice)));
             show_buttons(frame, i, finding);
             fix_button(frame, finding);
             ImGui::Dummy({0, 2 * frame.ui.scale});

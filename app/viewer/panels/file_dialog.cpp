@@ -82,6 +82,7 @@ void FileDialog::open(Purpose purpose, const fs::path& suggestion)
     purpose_ = purpose;
     open_ = appearing_ = true;
     confirm_ = false;
+    new_folder_.reset();
     problem_.clear();
     std::error_code ignored;
     fs::path folder = suggestion;
@@ -211,6 +212,29 @@ std::optional<fs::path> FileDialog::take()
     return path.lexically_normal();
 }
 
+void FileDialog::new_folder_row(bool enter)
+{
+    const float create = ImGui::CalcTextSize("Create").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(-create - ImGui::GetStyle().ItemSpacing.x);
+    if (new_folder_->empty() && !ImGui::IsAnyItemActive())
+        ImGui::SetKeyboardFocusHere();
+    text_input("##newfolder", *new_folder_, false, "Name of the new folder");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(new_folder_->empty());
+    const bool pressed = ImGui::Button("Create");
+    ImGui::EndDisabled();
+    if (new_folder_->empty() || !(pressed || enter))
+        return;
+    const fs::path folder = folder_ / *new_folder_;
+    std::error_code failed;
+    fs::create_directory(folder, failed);
+    new_folder_.reset();
+    if (failed)
+        problem_ = fmt::format("{} cannot be made: {}", folder.string(), failed.message());
+    else
+        go_to(folder);
+}
+
 std::optional<fs::path> FileDialog::show(const Frame& frame)
 {
     if (!open_)
@@ -241,14 +265,16 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
             move_cursor(rows);
             focus_name = true;
         }
-        taken_ |= enter;
+        taken_ |= enter && !new_folder_;
     }
     if (ImGui::ArrowButton("up", ImGuiDir_Up))
         go_to(folder_.parent_path());
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("To the folder above");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
+    const bool makes_folders = words.saves || words.folders;
+    const float button_width = ImGui::CalcTextSize("New folder").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(makes_folders ? -button_width - ImGui::GetStyle().ItemSpacing.x : -1);
     text_input("##path", path_text_);
     if (std::exchange(path_active_, ImGui::IsItemActive()) && enter) {
         const fs::path wanted = typed(path_text_);
@@ -257,14 +283,26 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         if (problem_.empty() && !words.folders && fs::is_regular_file(wanted, ignored))
             name_ = wanted.filename().string();
     }
+    if (makes_folders) {
+        ImGui::SameLine();
+        if (ImGui::Button("New folder"))
+            new_folder_ = "";
+    }
+    const bool names_folder = new_folder_.has_value();
+    if (names_folder)
+        new_folder_row(enter);
 
-    list(frame, ImGui::GetFrameHeightWithSpacing() * (words.folders ? 1 : 2) + ImGui::GetTextLineHeightWithSpacing());
+    const float gap = ImGui::GetStyle().ItemSpacing.y;
+    list(frame, ImGui::GetTextLineHeightWithSpacing() + (words.folders ? 0 : ImGui::GetFrameHeightWithSpacing()) +
+                    answer_buttons_height(frame) + gap);
     if (!problem_.empty())
         ImGui::TextColored(palette_of(frame.state.view.dark).error, "%s", problem_.c_str());
     else if (confirm_)
         ImGui::TextColored(palette_of(frame.state.view.dark).warning, "This file exists already.");
     else if (entries_.empty())
-        ImGui::TextDisabled("Nothing here to choose%s", words.folders ? "; you may take this folder" : "");
+        ImGui::TextDisabled(words.folders ? "No folders in here; this one may be taken"
+                            : words.saves ? "No such files here yet"
+                                          : "No files of this kind here");
     else {
         const auto files = std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.folder; });
         ImGui::TextDisabled("%d %s", int(files), files == 1 ? "file" : "files");
@@ -284,12 +322,14 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
                               : words.folders && folder_chosen ? "Choose the selected folder"
                               : folder_chosen                  ? "Open the folder"
                                                                : words.button;
-    ImGui::BeginDisabled(!words.folders && !folder_chosen && name_.empty());
-    const bool button = ImGui::Button(label.c_str());
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel") || pressed(frame, GLFW_KEY_ESCAPE))
-        stay = false;
+    const Palette p = palette_of(frame.state.view.dark);
+    const Answer answer = answer_buttons(frame, label.c_str(), words.folders || folder_chosen || !name_.empty(),
+                                         confirm_ ? p.warning : p.accent);
+    const bool button = answer == Answer::yes;
+    if (answer == Answer::cancel) {
+        stay = names_folder; // Escape leaves the name of the folder first
+        new_folder_.reset();
+    }
     std::optional<fs::path> chosen;
     if (stay && (button || taken_)) {
         taken_ &= folder_chosen; // Return and a double click enter a folder, the button takes it

@@ -39,6 +39,7 @@ private:
     void go_to(const std::filesystem::path& folder);
     void move_cursor(int rows);
     void list(const Frame& frame, float below);
+    void new_folder_row(bool enter);
     /// What is chosen now: a folder is entered, a file returned if it can be.
     std::optional<std::filesystem::path> take();
 
@@ -47,11 +48,12 @@ private:
     std::filesystem::path folder_;
     std::string name_, path_text_, problem_;
     std::vector<Entry> entries_;
-    int cursor_ = -1;          ///< entry that is chosen; -1: what is typed counts
-    bool moved_ = false;       ///< the cursor, by a key: it is to be seen
-    bool taken_ = false;       ///< by Return or a double click
-    bool path_active_ = false; ///< whether the folder is being typed
-    bool confirm_ = false;     ///< the file exists already
+    std::optional<std::string> new_folder_; ///< its name, while it is being typed
+    int cursor_ = -1;                       ///< entry that is chosen; -1: what is typed counts
+    bool moved_ = false;                    ///< the cursor, by a key: it is to be seen
+    bool taken_ = false;                    ///< by Return or a double click
+    bool path_active_ = false;              ///< whether the folder is being typed
+    bool confirm_ = false;                  ///< the file exists already
 };
 
 } // namespace spia::viewer

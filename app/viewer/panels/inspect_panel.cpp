@@ -171,7 +171,7 @@ void worst_section(Frame& frame)
                               here))
             frame.actions.push(FlyTo{f});
         tooltip("Click to look at it in every view");
-        const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g}", at[0] + 0., at[1] + 0., at[2] + 0.);
+        const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} mm", at[0] + 0., at[1] + 0., at[2] + 0.);
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x);
         ImGui::TextDisabled("%s", place.c_str());
     }
@@ -298,28 +298,14 @@ void vertices_section(Frame& frame)
         frame.actions.push(SelectVertices{});
 }
 
-/// Residual over steps, logarithmic.
-void residual_section(Frame& frame)
+void old_figures_note(Frame& frame)
 {
-    const auto& residual = frame.state.job.residual;
-    if (residual.size() < 2)
+    if (!is_old(frame.state, View::part))
         return;
-    ImGui::PushFont(frame.ui.fonts.bold);
-    ImGui::TextUnformatted("Residual");
-    ImGui::PopFont();
-    const Palette p = palette_of(frame.state.view.dark);
-    const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 90 * frame.ui.scale};
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddRect(at, {at.x + size.x, at.y + size.y}, ink(p.line));
-    const auto height = [&](double r) { // 1e1 on top, 1e-10 below
-        return at.y + size.y * float(std::clamp((1 - std::log10(std::max(r, 1e-10))) / 11, 0., 1.));
-    };
-    for (size_t k = 1; k < residual.size(); ++k)
-        draw->AddLine({at.x + size.x * float(k - 1) / float(residual.size() - 1), height(residual[k - 1])},
-                      {at.x + size.x * float(k) / float(residual.size() - 1), height(residual[k])}, ink(p.accent),
-                      1.6f);
-    ImGui::Dummy(size);
-    figure(frame, fmt::format("step {}", residual.size()).c_str(), fmt::format("{:.1e}", residual.back()));
+    coloured(palette_of(frame.state.view.dark).warning,
+             frame.state.job.running ? "These figures are of the blank before; a new one is being made."
+                                     : "These figures are of other options than are set now: Update all  (F5).");
+    ImGui::Dummy({0, 2 * frame.ui.scale});
 }
 
 void looks_section(Frame& frame)
@@ -350,12 +336,13 @@ const Figures& figures(Frame& frame)
 
 void inspect_panel(Frame& frame)
 {
-    ImGui::BeginChild("inspect");
-    if (frame.state.job.running)
-        residual_section(frame);
+    begin_scrolled(frame, "inspect", 0);
+    if (frame.state.job.running && !frame.ui.panels.shown(SidePanels::steps, false))
+        residual_plot(frame);
     if (!frame.state.document.session.part) {
         muted(frame, "Open a part to inspect it: thinning, strains, stresses, deviation.");
     } else {
+        old_figures_note(frame);
         field_section(frame);
         vertices_section(frame);
         histogram_section(frame);

@@ -132,7 +132,7 @@ void draw_labels(Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec
     for (const IsolineLabel& value : places.values)
         haloed(draw, at(value.box.least), IM_COL32(12, 14, 20, 255), IM_COL32(255, 255, 255, 200), value.text.c_str());
     ImGui::PopFont();
-    constexpr float pale = 0.45f;
+    constexpr float pale = 0.6f;
     for (size_t i = 0; i < places.placed.size(); ++i) {
         const PlacedLabel& placed = places.placed[i];
         const SceneLabel& label = scene.labels[placed.wish];
@@ -141,7 +141,11 @@ void draw_labels(Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec
         if (placed.pushed)
             leader(draw, from, placed.box, glm::dvec2(pixel_of(camera, label.place, pixels)), colour, halo,
                    frame.ui.scale);
-        haloed(draw, at(placed.box.least), colour, halo, label.text.c_str());
+        const float pad = 2 * frame.ui.scale;
+        const ImVec2 least = at(placed.box.least), greatest = at(placed.box.greatest);
+        draw->AddRectFilled({least.x - 2 * pad, least.y - pad}, {greatest.x + 2 * pad, greatest.y + pad}, halo,
+                            2 * pad);
+        draw->AddText(least, colour, label.text.c_str());
     }
 }
 

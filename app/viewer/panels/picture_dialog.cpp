@@ -12,18 +12,7 @@ namespace {
 using Size = PictureChoices::Size;
 constexpr int longest = 16384; // pixels
 
-const char* title(const std::optional<View>& view)
-{
-    if (!view)
-        return "The window";
-    switch (*view) {
-    case View::part: return "Part";
-    case View::blank: return "Blank";
-    case View::quads: return "Quad mesh";
-    case View::surface: return "NURBS surface";
-    }
-    return "";
-}
+const char* title_of(const std::optional<View>& view) { return view ? title(*view) : "The window"; }
 
 ImVec2 pixels(const Frame& frame, const PictureChoices& choices)
 {
@@ -102,11 +91,11 @@ void picture_dialog(Frame& frame)
         ImGui::TableSetupColumn("choice", ImGuiTableColumnFlags_WidthStretch);
         labelled("Shows");
         ImGui::SetNextItemWidth(-1);
-        if (ImGui::BeginCombo("##view", title(choices.view))) {
+        if (ImGui::BeginCombo("##view", title_of(choices.view))) {
             for (const std::optional<View> each :
                  {std::optional(View::part), std::optional(View::blank), std::optional(View::quads),
                   std::optional(View::surface), std::optional<View>()})
-                if (ImGui::Selectable(title(each), each == choices.view))
+                if (ImGui::Selectable(title_of(each), each == choices.view))
                     choices.view = each;
             ImGui::EndCombo();
         }

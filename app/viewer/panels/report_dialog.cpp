@@ -20,15 +20,13 @@ void heading(const Frame& frame, const char* text)
 void pictures_column(const Frame& frame, ReportOptions& options)
 {
     const Session& session = frame.state.document.session;
-    const std::pair<View, const char*> views[] = {
-        {View::part, "Part"}, {View::blank, "Blank"}, {View::quads, "Quad mesh"}, {View::surface, "NURBS surface"}};
     heading(frame, "Pictures");
     auto& chosen = options.pictures;
-    for (const auto& [view, label] : views) {
+    for (const View view : all_views) {
         const bool there = (view != View::quads || session.lifted) && (view != View::surface || session.surface);
         bool on = std::find(chosen.begin(), chosen.end(), view) != chosen.end();
         ImGui::BeginDisabled(!there);
-        if (ImGui::Checkbox(label, &on)) {
+        if (ImGui::Checkbox(title(view), &on)) {
             std::erase(chosen, view);
             if (on)
                 chosen.push_back(view);

@@ -56,21 +56,27 @@ void section_plot(Frame& frame)
             length = std::max(length, piece.to_arc);
         }
         const RoundRange y = round_range(low, high, 0, false);
-        const float s = frame.ui.scale, left = 44 * s, bottom = 30 * s;
+        const float s = frame.ui.scale, left = 44 * s, bottom = 22 * s, head = ImGui::GetTextLineHeight();
         const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 150 * s};
-        const ImVec2 from{at.x + left, at.y + 6 * s}, to{at.x + size.x - 4 * s, at.y + size.y - bottom};
+        const ImVec2 from{at.x + left, at.y + head + 6 * s}, to{at.x + size.x - 4 * s, at.y + size.y - bottom};
         const auto place = [&](double arc, double value) {
             return ImVec2(from.x + float(length > 0 ? arc / length : 0) * (to.x - from.x),
                           to.y - float((value - y.least) / (y.greatest - y.least)) * (to.y - from.y));
         };
         ImDrawList* draw = ImGui::GetWindowDrawList();
         ImGui::PushFont(frame.ui.fonts.small);
+        const std::string what(field.unit.empty() ? std::string(field.label)
+                                                  : fmt::format("{}, {}", field.label, field.unit));
+        draw->AddText(at, ink(p.muted), what.c_str());
         for (int k = 0; k <= y.intervals; ++k) {
             const double value = y.least + (y.greatest - y.least) * k / y.intervals;
             const ImVec2 line = place(0, value);
             draw->AddLine(line, {to.x, line.y}, ink(p.line));
-            if (k % ((y.intervals + 3) / 4) == 0) {
-                const std::string text = fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0 : value);
+            const bool zero = std::abs(value) < 1e-9 * (y.greatest - y.least);
+            if (zero)
+                draw->AddLine(line, {to.x, line.y}, ink(p.muted));
+            if (k % ((y.intervals + 3) / 4) == 0 || zero) {
+                const std::string text = fmt::format("{:.4g}", zero ? 0 : value);
                 draw->AddText(
                     {line.x - 5 * s - ImGui::CalcTextSize(text.c_str()).x, line.y - ImGui::GetTextLineHeight() / 2},
                     ink(p.muted), text.c_str());

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
@@ -144,7 +145,7 @@ void unfold_step(Frame& frame)
                        : flat.report.converged ? "converged, relaxed"
                                                : "not converged");
     if (!fine)
-        coloured(p.warning, flat.report.reason + ". " + advice(flat.report.system));
+        coloured(p.warning, as_sentence(flat.report.reason) + ". " + advice(flat.report.system));
     direction_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
     figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", sheet.size[0], sheet.size[1]));
@@ -161,10 +162,18 @@ void unfold_step(Frame& frame)
         fmt::format("{} + {} in {:.2g} s", flat.report.energy.size(), flat.report.newton.size(), flat.report.seconds));
 }
 
+/// Of a cell that isogeometric analysis can still live with; below it the map is nearly singular.
+constexpr double least_jacobian = 0.1;
+
 void grid_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    step_heading(frame, 4, "Corners and grid", status(frame, Stage::grid, session.grid != nullptr));
+    Status made = status(frame, Stage::grid, session.grid != nullptr);
+    const GridFigures* quality = session.grid ? &grid_figures(frame) : nullptr;
+    const bool sliver = quality && quality->scaled_jacobian < least_jacobian && quality->scaled_jacobian > 0;
+    if (made == Status::done && (sliver || session.grid->result.quality.folded_cells > 0))
+        made = Status::poor;
+    step_heading(frame, 4, "Corners and grid", made);
     if (!session.blank) {
         muted(frame, "Comes after the blank.");
         return;
@@ -225,8 +234,11 @@ void grid_step(Frame& frame)
                               result.quality.folded_cells ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
         figure(frame, "Folded cells", fmt::format("{}", result.quality.folded_cells));
         ImGui::PopStyleColor();
-        const GridFigures& figures = grid_figures(frame);
+        const GridFigures& figures = *quality;
+        ImGui::PushStyleColor(ImGuiCol_Text, sliver ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
         figure(frame, "Worst scaled Jacobian", fmt::format("{:.3f}", figures.scaled_jacobian));
+        ImGui::PopStyleColor();
+        tooltip("1 in a rectangle, 0 where a cell folds");
         figure(frame, "in column, row", fmt::format("{}, {}", figures.column, figures.row));
         tooltip(
             "Of this cell, counted from 0: column along the side from corner 1 to 2, row from corner 1 to 4. It has a ring "
@@ -235,6 +247,12 @@ void grid_step(Frame& frame)
         for (const double length : figures.side)
             lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", length);
         figure(frame, "Sides", lengths + " mm");
+        if (sliver)
+            coloured(
+                p.warning,
+                fmt::format("A cell is nearly folded: analysis will suffer there. Drag the corners to sharp turns of "
+                            "the blank, or choose {}.",
+                            result.route >= GridRoute::harmonic ? "more cells" : "the harmonic method"));
     }
 }
 
@@ -363,8 +381,10 @@ void regions_section(Frame& frame)
 
 void steps_panel(Frame& frame)
 {
-    const float footer = ImGui::GetFrameHeight() * 1.15f + 2 * ImGui::GetStyle().ItemSpacing.y;
-    ImGui::BeginChild("steps", {0, -footer});
+    const bool running = frame.state.job.running;
+    const float footer = ImGui::GetFrameHeight() * 1.15f + 2 * ImGui::GetStyle().ItemSpacing.y +
+                         (running ? residual_plot_height(frame) : 0);
+    begin_scrolled(frame, "steps", -footer);
     part_step(frame);
     sheet_step(frame);
     unfold_step(frame);
@@ -375,7 +395,8 @@ void steps_panel(Frame& frame)
     ImGui::EndChild();
     const Document& document = frame.state.document;
     ImGui::Dummy({0, 1});
-    if (frame.state.job.running) {
+    if (running) {
+        residual_plot(frame);
         if (primary_button(frame, frame.state.job.cancelling ? "Stopping..." : "Cancel", !frame.state.job.cancelling))
             frame.actions.push(CancelJob{});
     } else if (!document.session.part) {

@@ -103,12 +103,6 @@ void draw_cloud(Frame& frame, const SheetFields& face, const Axes& axes, ImDrawL
     }
 }
 
-PickMode mode()
-{
-    const ImGuiIO& io = ImGui::GetIO();
-    return io.KeyShift ? PickMode::add : io.KeyCtrl ? PickMode::remove : PickMode::replace;
-}
-
 /// At the end of a click or a drag.
 void choose(Frame& frame, const SheetFields& face, const Axes& axes, ImVec2 from, ImVec2 to)
 {
@@ -116,13 +110,13 @@ void choose(Frame& frame, const SheetFields& face, const Axes& axes, ImVec2 from
     const Eigen::Vector2d a = axes.strains(from), b = axes.strains(to);
     if (std::hypot(to.x - from.x, to.y - from.y) >= 4 * s) {
         const Eigen::AlignedBox2d box(a.cwiseMin(b), a.cwiseMax(b));
-        frame.actions.push(SelectFaces{points_within(face.strain_minor, face.strain_major, box), mode()});
+        frame.actions.push(SelectFaces{points_within(face.strain_minor, face.strain_major, box), pick_mode()});
         return;
     }
     constexpr float near = 8; // pixels at content scale 1
     const Eigen::Vector2d reach = (axes.strains({to.x + near * s, to.y - near * s}) - b).cwiseAbs();
     if (const auto point = nearest_point(face.strain_minor, face.strain_major, b, reach))
-        frame.actions.push(SelectFaces{{*point}, mode()});
+        frame.actions.push(SelectFaces{{*point}, pick_mode()});
 }
 
 } // namespace

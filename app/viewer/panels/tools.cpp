@@ -185,8 +185,14 @@ void shortcuts(Frame& frame)
             else
                 frame.actions.push(SaveProject{});
         }
-        if (pressed(GLFW_KEY_E) && session.blank)
-            frame.ui.show_export = true;
+        if (pressed(GLFW_KEY_E)) {
+            if (session.blank)
+                frame.ui.show_export = true;
+            else
+                frame.model.say(Severity::hint, frame.state.job.running
+                                                    ? "There is nothing to export yet: the blank is being made."
+                                                    : "There is nothing to export yet: unfold the part first  (F6).");
+        }
         if (pressed(GLFW_KEY_Q))
             frame.actions.push(Quit{});
         return;

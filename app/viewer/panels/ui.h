@@ -104,6 +104,9 @@ void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);
 /// What the mesh doctor found, where, and what can be done about it.
 void doctor_panel(Frame& frame);
+/// Residual of the running job over its steps, logarithmic; nothing before there are two.
+void residual_plot(Frame& frame);
+float residual_plot_height(const Frame& frame); ///< pixels
 void inspect_panel(Frame& frame);
 void view_area(Frame& frame);
 void tool_bar(Frame& frame);

@@ -2,29 +2,12 @@
 #include <cmath>
 
 #include "app/viewer/panels/labels.h"
+#include "app/viewer/panels/view_tools.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/views.h"
 
 namespace spia::viewer {
 namespace {
-
-const char* title(View view)
-{
-    switch (view) {
-    case View::part: return "Part";
-    case View::blank: return "Blank";
-    case View::quads: return "Quad mesh";
-    case View::surface: return "NURBS surface";
-    }
-    return "";
-}
-
-glm::dvec2 vec(ImVec2 v) { return {v.x, v.y}; }
-
-struct Mouse {
-    glm::dvec2 pixel, size;
-    bool inside;
-};
 
 /// All cameras that turn together with this one.
 void take_camera(ViewSettings& settings, View view, const Camera& camera)
@@ -72,217 +55,6 @@ void navigate(Frame& frame, View view, const Mouse& mouse)
         take_camera(settings, view, camera);
         frame.actions.push(SetViewSettings{settings});
     }
-}
-
-PickMode mode()
-{
-    const ImGuiIO& io = ImGui::GetIO();
-    return io.KeyShift ? PickMode::add : io.KeyCtrl ? PickMode::remove : PickMode::replace;
-}
-
-/// The corners of the blank follow the mouse along the outline.
-void drag_corners(Frame& frame, const Mouse& mouse)
-{
-    const Session& session = frame.state.document.session;
-    Ui& ui = frame.ui;
-    if (!session.blank || !session.grid)
-        return;
-    const Camera& camera = frame.state.view.camera[size_t(View::blank)];
-    if (!ui.dragged_corner && mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy)
-        for (int k = 0; k < 4; ++k) {
-            const Eigen::Vector2d at = session.blank->blank.position.col(session.grid->boundary.corner[size_t(k)]);
-            const glm::dvec3 pixel = pixel_of(camera, {at[0], at[1], 0}, mouse.size);
-            if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale) {
-                ui.dragged_corner = k;
-                ui.corner_taken_at = mouse.pixel;
-            }
-        }
-    if (!ui.dragged_corner)
-        return;
-    const int vertex = nearest_boundary_vertex(frame.model.pickers().track(session), camera, mouse.pixel, mouse.size);
-    const bool down = ImGui::IsMouseDown(0);
-    const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
-    ui.corner_moved |= glm::length(mouse.pixel - ui.corner_taken_at) > 3 * ui.scale;
-    if (down && ui.corner_moved && vertex != now)
-        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, true});
-    if (down)
-        return;
-    if (ui.corner_moved) // a click alone changes nothing
-        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, false});
-    ui.dragged_corner.reset();
-    ui.corner_moved = false;
-}
-
-/// Where the mouse went in a view, up to where it is.
-std::vector<glm::dvec2> way_since_last_frame(const Ui& ui, const Mouse& mouse, ImVec2 from)
-{
-    std::vector<glm::dvec2> way;
-    for (const glm::dvec2& place : ui.path)
-        way.push_back(place - vec(from));
-    way.push_back(mouse.pixel);
-    return way;
-}
-
-void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
-{
-    Ui& ui = frame.ui;
-    const ViewSettings& settings = frame.state.view;
-    if (view == View::blank && (settings.tool == Tool::corners || settings.tool == Tool::look))
-        drag_corners(frame, mouse);
-    if (settings.tool == Tool::look || settings.tool == Tool::corners || !frame.state.document.session.part)
-        return;
-    const bool clicked = mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy;
-    const Palette p = palette_of(settings.dark);
-    switch (settings.tool) {
-    case Tool::pick:
-    case Tool::flood:
-    case Tool::smooth_region:
-        if (clicked)
-            frame.actions.push(PickAt{view, mouse.pixel, mouse.size, mode(),
-                                      settings.tool == Tool::flood ? std::optional(settings.flood_angle) : std::nullopt,
-                                      settings.tool == Tool::smooth_region});
-        return;
-    case Tool::probe:
-        if (clicked) {
-            const Session& session = frame.state.document.session;
-            Pickers& pickers = frame.model.pickers();
-            const RayPicker* picker = pickers.picker(session, view);
-            if (!picker)
-                return;
-            if (const auto probe = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker,
-                                            mouse.pixel, mouse.size))
-                frame.actions.push(AddProbe{*probe});
-        }
-        return;
-    case Tool::vertex:
-    case Tool::outline:
-        if (clicked)
-            frame.actions.push(PickVertex{view, mouse.pixel, mouse.size, mode(), settings.tool == Tool::outline,
-                                          PickVertex{}.reach * ui.scale});
-        return;
-    case Tool::brush:
-        if (clicked) {
-            ui.busy = view;
-            ui.trail.clear();
-        }
-        if (mouse.inside)
-            draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
-                            float(settings.brush_radius), ink(p.accent), 32, 1.5f);
-        if (ui.busy == view && !ui.turning && !ui.panning) {
-            const auto touch = [&](glm::dvec2 place) {
-                const bool first = ui.trail.empty();
-                frame.actions.push(PickBrush{view, place, settings.brush_radius, mouse.size,
-                                             mode() == PickMode::replace && !first ? PickMode::add : mode(),
-                                             settings.through});
-                ui.trail = {place};
-            };
-            if (ui.trail.empty())
-                touch(mouse.pixel);
-            for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from)) {
-                const glm::dvec2 way = place - ui.trail[0], begin = ui.trail[0];
-                const int touches = int(glm::length(way) / (0.5 * settings.brush_radius));
-                for (int k = 1; k <= touches; ++k)
-                    touch(begin + way * (double(k) / touches));
-            }
-            if (!ImGui::IsMouseDown(0)) {
-                ui.trail.clear();
-                ui.busy.reset();
-            }
-        }
-        return;
-    case Tool::section:
-        if (clicked) {
-            ui.busy = view;
-            ui.trail = {mouse.pixel};
-        }
-        if (ui.busy != view || ui.trail.empty())
-            return;
-        draw->AddLine({from.x + float(ui.trail[0].x), from.y + float(ui.trail[0].y)}, ImGui::GetMousePos(),
-                      ink(p.accent), 2);
-        if (!ImGui::IsMouseDown(0)) {
-            if (glm::length(ui.trail[0] - mouse.pixel) > 4)
-                frame.actions.push(DrawSection{view, ui.trail[0], mouse.pixel, mouse.size});
-            ui.trail.clear();
-            ui.busy.reset();
-        }
-        return;
-    case Tool::box:
-    case Tool::lasso:
-        if (clicked) {
-            ui.busy = view;
-            ui.trail = {mouse.pixel};
-        }
-        if (ui.busy != view || ui.trail.empty())
-            return;
-        if (settings.tool == Tool::box) {
-            const glm::dvec2 a = ui.trail[0], b = mouse.pixel;
-            ui.trail = {a, {b.x, a.y}, b, {a.x, b.y}};
-        } else
-            for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from))
-                if (glm::length(ui.trail.back() - place) > 3)
-                    ui.trail.push_back(place);
-        {
-            std::vector<ImVec2> shown;
-            for (const glm::dvec2& point : ui.trail)
-                shown.push_back({from.x + float(point.x), from.y + float(point.y)});
-            draw->AddPolyline(shown.data(), int(shown.size()), ink(p.accent), ImDrawFlags_Closed, 1.5f);
-        }
-        if (!ImGui::IsMouseDown(0)) {
-            frame.actions.push(PickArea{view, ui.trail, mouse.size, mode(), settings.through});
-            ui.trail.clear();
-            ui.busy.reset();
-        } else if (settings.tool == Tool::box)
-            ui.trail.resize(1);
-        return;
-    default: return;
-    }
-}
-
-/// Small buttons at the right end of a view's title; a narrow view keeps those that matter most.
-void view_buttons(Frame& frame, View view)
-{
-    struct Item {
-        const char *label, *help;
-        std::optional<StandardView> from;
-    };
-    const bool maximised = frame.state.view.maximised == view;
-    const char* enlarge = maximised ? "Four views" : "Enlarge";
-    std::vector<Item> items = {{"Fit", "Show all of it  (F)", {}}};
-    if (view != View::blank)
-        items = {{"Iso", "From the front right above", StandardView::isometric},
-                 {"Top", "From above", StandardView::top},
-                 {"Front", "From the front", StandardView::front},
-                 {"Right", "From the right", StandardView::right},
-                 items[0]};
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float gap = 4 * frame.ui.scale;
-    const auto width = [&](const char* label) { return ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap; };
-    const auto whole = [&] {
-        float sum = width(enlarge);
-        for (const Item& item : items)
-            sum += width(item.label);
-        return sum;
-    };
-    const float right = ImGui::GetWindowContentRegionMax().x,
-                title_end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + style.ItemSpacing.x;
-    while (items.size() > 1 && whole() > right - title_end)
-        items.erase(items.begin());
-    ImGui::SameLine(right - whole() + gap);
-    for (const Item& item : items) {
-        if (ImGui::SmallButton(item.label)) {
-            if (item.from)
-                frame.actions.push(LookFrom{view, *item.from});
-            frame.actions.push(FitView{view});
-        }
-        tooltip(item.help);
-        ImGui::SameLine(0, gap);
-    }
-    if (ImGui::SmallButton(enlarge)) {
-        ViewSettings settings = frame.state.view;
-        settings.maximised = maximised ? std::nullopt : std::optional(view);
-        frame.actions.push(SetViewSettings{settings});
-    }
-    tooltip("Or double-click the title");
 }
 
 /// The cut of the section line, and the place of its plot that is under the mouse.
@@ -345,20 +117,22 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     frame.ui.view_from[size_t(view)] = from;
     frame.ui.view_size[size_t(view)] = size;
     if (!frame.ui.aside)
-        frame.model.resized(view, vec(size), frame.ui.scale);
+        frame.model.resized(view, dvec(size), frame.ui.scale);
     const Scene shown = scene(view, frame.state, frame.cache, size.y / frame.ui.scale);
     const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
     ImGui::SetCursorScreenPos(from);
     ImGui::Image(frame.draw(shown, view, std::max(1, int(size.x * dots.x)), std::max(1, int(size.y * dots.y))), size,
                  {0, 1}, {1, 0});
-    if (old && (view == View::quads || view == View::surface)) // dimmed, until newer ones stand
+    const bool coloured_by_result = view != View::part || frame.state.document.display.field != Field::none;
+    const bool live = view == View::blank && frame.state.job.running;
+    if (old && coloured_by_result && !live) // dimmed, until newer ones stand
         draw->AddRectFilled(from, {from.x + size.x, from.y + size.y},
                             ink(ImVec4(p.panel.x, p.panel.y, p.panel.z, 0.5f)));
     ImGui::SetCursorScreenPos(from);
     ImGui::InvisibleButton("canvas", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    const Mouse mouse{vec(ImGui::GetMousePos()) - vec(from), vec(size), ImGui::IsItemHovered()};
+    const Mouse mouse{dvec(ImGui::GetMousePos()) - dvec(from), dvec(size), ImGui::IsItemHovered()};
 
     draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
     const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);

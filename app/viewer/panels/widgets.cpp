@@ -10,21 +10,33 @@ bool small_button(const Frame& frame, const char* label)
     return pressed;
 }
 
-bool primary_button(const Frame& frame, const char* label, bool enabled)
+bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const ImVec4& colour)
 {
-    const ImVec4 accent = palette_of(frame.state.view.dark).accent;
-    const auto shade = [&](float f) { return ImVec4(accent.x * f, accent.y * f, accent.z * f, 1); };
-    ImGui::BeginDisabled(!enabled);
+    const auto shade = [&](float f) { return ImVec4(colour.x * f, colour.y * f, colour.z * f, 1); };
     ImGui::PushStyleColor(ImGuiCol_Button, shade(0.9f));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(1));
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(0.8f));
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 1, 1, 1));
     ImGui::PushFont(frame.ui.fonts.bold);
-    const bool pressed = ImGui::Button(label, {-1, ImGui::GetFrameHeight() * 1.15f});
+    const bool pressed = ImGui::Button(label, size);
     ImGui::PopFont();
     ImGui::PopStyleColor(4);
+    return pressed;
+}
+
+bool primary_button(const Frame& frame, const char* label, bool enabled)
+{
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed =
+        coloured_button(frame, label, {-1, ImGui::GetFrameHeight() * 1.15f}, palette_of(frame.state.view.dark).accent);
     ImGui::EndDisabled();
     return pressed;
+}
+
+PickMode pick_mode()
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    return io.KeyShift ? PickMode::add : io.KeyCtrl ? PickMode::remove : PickMode::replace;
 }
 
 void step_heading(const Frame& frame, int number, const char* title, Status status)
@@ -57,6 +69,15 @@ void step_heading(const Frame& frame, int number, const char* title, Status stat
     ImGui::SetCursorScreenPos({at.x, at.y + 2 * r + 4 * frame.ui.scale});
 }
 
+void begin_scrolled(const Frame& frame, const char* name, float height)
+{
+    const float gap = 4 * frame.ui.scale;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() - gap);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, 0});
+    ImGui::BeginChild(name, {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+}
+
 void muted(const Frame& frame, const std::string& text) { coloured(palette_of(frame.state.view.dark).muted, text); }
 
 void coloured(const ImVec4& colour, const std::string& text)
@@ -74,8 +95,10 @@ void figure(const Frame& frame, const char* name, const std::string& value)
     ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
     ImGui::TextUnformatted(name);
     ImGui::PopStyleColor();
-    ImGui::SameLine();
     const float width = ImGui::CalcTextSize(value.c_str()).x;
+    ImGui::SameLine();
+    if (ImGui::GetCursorPosX() + width > right)
+        ImGui::NewLine(); // a narrow panel has the value below its name
     ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), right - width));
     ImGui::TextUnformatted(value.c_str());
 }

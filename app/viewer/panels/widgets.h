@@ -17,6 +17,10 @@ enum class Status { nothing, done, poor, stale, failed };
 /// Heading of a step with its number and a mark of how it stands.
 void step_heading(const Frame& frame, int number, const char* title, Status status);
 
+/// A part of a panel that scrolls, its text clear of the scroll bar; end it with ImGui::EndChild().
+/// @param height  pixels; negative: what it leaves below
+void begin_scrolled(const Frame& frame, const char* name, float height);
+
 /// A small grey line; wraps.
 void muted(const Frame& frame, const std::string& text);
 void coloured(const ImVec4& colour, const std::string& text);
@@ -26,6 +30,12 @@ void figure(const Frame& frame, const char* name, const std::string& value);
 
 /// Shown while the last item is under the mouse.
 void tooltip(const std::string& text);
+
+/// A button with white bold letters on a colour.
+bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const ImVec4& colour);
+
+/// What picking does with what is picked: Shift adds, Ctrl takes away.
+PickMode pick_mode();
 
 ImU32 ink(const Colour& colour, float opacity = 1);
 inline ImU32 ink(const ImVec4& c) { return ImGui::ColorConvertFloat4ToU32(c); }

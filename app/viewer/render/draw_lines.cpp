@@ -37,8 +37,9 @@ void SceneDrawer::draw_layer_lines(const Pass& pass, const SceneLayer& layer)
     };
     if (layer.edges)
         stroke(mesh.edge, layer.mesh->edge, 1, 0.38f, false, 0);
+    const bool isolines = layer.field && layer.scale.isolines; // in the same ink: they are what is asked about
     if (layer.features)
-        stroke(mesh.feature, layer.mesh->feature, 1.4f, 0.7f, true, 0.5f * pass.lift);
+        stroke(mesh.feature, layer.mesh->feature, 1.4f, isolines ? 0.25f : 0.7f, true, 0.5f * pass.lift);
 }
 
 void SceneDrawer::draw_lines(const Pass& pass, bool on_top)

@@ -8,6 +8,14 @@
 
 namespace spia::viewer {
 
+TEST(ViewerWords, ASentenceBeginsWithACapitalLetter)
+{
+    EXPECT_EQ(as_sentence("two pieces; one is left out"), "Two pieces; one is left out");
+    EXPECT_EQ(as_sentence("3 pieces"), "3 pieces");
+    EXPECT_EQ(as_sentence("\u00e9 stays"), "\u00e9 stays"); // not cut within a letter
+    EXPECT_EQ(as_sentence(""), "");
+}
+
 TEST(ViewerWords, NameButtonsInPlaceOfFlags)
 {
     EXPECT_EQ(in_viewer_words("join them (--weld); keep one (--keep-largest)"),

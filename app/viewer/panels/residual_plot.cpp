@@ -1,0 +1,36 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+
+void residual_plot(Frame& frame)
+{
+    const auto& residual = frame.state.job.residual;
+    if (residual.size() < 2)
+        return;
+    const Palette p = palette_of(frame.state.view.dark);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 56 * frame.ui.scale};
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRect(at, {at.x + size.x, at.y + size.y}, ink(p.line));
+    const auto height = [&](double r) { // 1e1 on top, 1e-10 below
+        return at.y + size.y * float(std::clamp((1 - std::log10(std::max(r, 1e-10))) / 11, 0., 1.));
+    };
+    for (size_t k = 1; k < residual.size(); ++k)
+        draw->AddLine({at.x + size.x * float(k - 1) / float(residual.size() - 1), height(residual[k - 1])},
+                      {at.x + size.x * float(k) / float(residual.size() - 1), height(residual[k])}, ink(p.accent),
+                      1.6f);
+    ImGui::Dummy(size);
+    figure(frame, fmt::format("Residual, step {}", residual.size()).c_str(), fmt::format("{:.1e}", residual.back()));
+}
+
+float residual_plot_height(const Frame& frame)
+{
+    if (frame.state.job.residual.size() < 2)
+        return 0;
+    return 56 * frame.ui.scale + ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().ItemSpacing.y;
+}
+
+} // namespace spia::viewer

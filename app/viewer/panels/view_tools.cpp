@@ -1,0 +1,170 @@
+#include "app/viewer/panels/view_tools.h"
+
+#include <algorithm>
+
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+namespace {
+
+/// The corners of the blank follow the mouse along the outline.
+void drag_corners(Frame& frame, const Mouse& mouse)
+{
+    const Session& session = frame.state.document.session;
+    Ui& ui = frame.ui;
+    if (!session.blank || !session.grid)
+        return;
+    const Camera& camera = frame.state.view.camera[size_t(View::blank)];
+    if (!ui.dragged_corner && mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy)
+        for (int k = 0; k < 4; ++k) {
+            const Eigen::Vector2d at = session.blank->blank.position.col(session.grid->boundary.corner[size_t(k)]);
+            const glm::dvec3 pixel = pixel_of(camera, {at[0], at[1], 0}, mouse.size);
+            if (glm::length(glm::dvec2(pixel) - mouse.pixel) < 14 * ui.scale) {
+                ui.dragged_corner = k;
+                ui.corner_taken_at = mouse.pixel;
+            }
+        }
+    if (!ui.dragged_corner)
+        return;
+    const int vertex = nearest_boundary_vertex(frame.model.pickers().track(session), camera, mouse.pixel, mouse.size);
+    const bool down = ImGui::IsMouseDown(0);
+    const int now = session.grid->boundary.corner[size_t(*ui.dragged_corner)];
+    ui.corner_moved |= glm::length(mouse.pixel - ui.corner_taken_at) > 3 * ui.scale;
+    if (down && ui.corner_moved && vertex != now)
+        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, true});
+    if (down)
+        return;
+    if (ui.corner_moved) // a click alone changes nothing
+        frame.actions.push(SetCorner{*ui.dragged_corner, vertex, false});
+    ui.dragged_corner.reset();
+    ui.corner_moved = false;
+}
+
+/// Where the mouse went in a view, up to where it is.
+std::vector<glm::dvec2> way_since_last_frame(const Ui& ui, const Mouse& mouse, ImVec2 from)
+{
+    std::vector<glm::dvec2> way;
+    for (const glm::dvec2& place : ui.path)
+        way.push_back(place - dvec(from));
+    way.push_back(mouse.pixel);
+    return way;
+}
+
+} // namespace
+
+void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
+{
+    Ui& ui = frame.ui;
+    const ViewSettings& settings = frame.state.view;
+    if (view == View::blank && (settings.tool == Tool::corners || settings.tool == Tool::look))
+        drag_corners(frame, mouse);
+    if (settings.tool == Tool::look || settings.tool == Tool::corners || !frame.state.document.session.part)
+        return;
+    const bool clicked = mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy;
+    const Palette p = palette_of(settings.dark);
+    switch (settings.tool) {
+    case Tool::pick:
+    case Tool::flood:
+    case Tool::smooth_region:
+        if (clicked)
+            frame.actions.push(PickAt{view, mouse.pixel, mouse.size, pick_mode(),
+                                      settings.tool == Tool::flood ? std::optional(settings.flood_angle) : std::nullopt,
+                                      settings.tool == Tool::smooth_region});
+        return;
+    case Tool::probe:
+        if (clicked) {
+            const Session& session = frame.state.document.session;
+            Pickers& pickers = frame.model.pickers();
+            const RayPicker* picker = pickers.picker(session, view);
+            if (!picker)
+                return;
+            if (const auto probe = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker,
+                                            mouse.pixel, mouse.size))
+                frame.actions.push(AddProbe{*probe});
+        }
+        return;
+    case Tool::vertex:
+    case Tool::outline:
+        if (clicked)
+            frame.actions.push(PickVertex{view, mouse.pixel, mouse.size, pick_mode(), settings.tool == Tool::outline,
+                                          PickVertex{}.reach * ui.scale});
+        return;
+    case Tool::brush:
+        if (clicked) {
+            ui.busy = view;
+            ui.trail.clear();
+        }
+        if (mouse.inside)
+            draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
+                            float(settings.brush_radius), ink(p.accent), 32, 1.5f);
+        if (ui.busy == view && !ui.turning && !ui.panning) {
+            const auto touch = [&](glm::dvec2 place) {
+                const bool first = ui.trail.empty();
+                frame.actions.push(PickBrush{view, place, settings.brush_radius, mouse.size,
+                                             pick_mode() == PickMode::replace && !first ? PickMode::add : pick_mode(),
+                                             settings.through});
+                ui.trail = {place};
+            };
+            if (ui.trail.empty())
+                touch(mouse.pixel);
+            for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from)) {
+                const glm::dvec2 way = place - ui.trail[0], begin = ui.trail[0];
+                const int touches = int(glm::length(way) / (0.5 * settings.brush_radius));
+                for (int k = 1; k <= touches; ++k)
+                    touch(begin + way * (double(k) / touches));
+            }
+            if (!ImGui::IsMouseDown(0)) {
+                ui.trail.clear();
+                ui.busy.reset();
+            }
+        }
+        return;
+    case Tool::section:
+        if (clicked) {
+            ui.busy = view;
+            ui.trail = {mouse.pixel};
+        }
+        if (ui.busy != view || ui.trail.empty())
+            return;
+        draw->AddLine({from.x + float(ui.trail[0].x), from.y + float(ui.trail[0].y)}, ImGui::GetMousePos(),
+                      ink(p.accent), 2);
+        if (!ImGui::IsMouseDown(0)) {
+            if (glm::length(ui.trail[0] - mouse.pixel) > 4)
+                frame.actions.push(DrawSection{view, ui.trail[0], mouse.pixel, mouse.size});
+            ui.trail.clear();
+            ui.busy.reset();
+        }
+        return;
+    case Tool::box:
+    case Tool::lasso:
+        if (clicked) {
+            ui.busy = view;
+            ui.trail = {mouse.pixel};
+        }
+        if (ui.busy != view || ui.trail.empty())
+            return;
+        if (settings.tool == Tool::box) {
+            const glm::dvec2 a = ui.trail[0], b = mouse.pixel;
+            ui.trail = {a, {b.x, a.y}, b, {a.x, b.y}};
+        } else
+            for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from))
+                if (glm::length(ui.trail.back() - place) > 3)
+                    ui.trail.push_back(place);
+        {
+            std::vector<ImVec2> shown;
+            for (const glm::dvec2& point : ui.trail)
+                shown.push_back({from.x + float(point.x), from.y + float(point.y)});
+            draw->AddPolyline(shown.data(), int(shown.size()), ink(p.accent), ImDrawFlags_Closed, 1.5f);
+        }
+        if (!ImGui::IsMouseDown(0)) {
+            frame.actions.push(PickArea{view, ui.trail, mouse.size, pick_mode(), settings.through});
+            ui.trail.clear();
+            ui.busy.reset();
+        } else if (settings.tool == Tool::box)
+            ui.trail.resize(1);
+        return;
+    default: return;
+    }
+}
+
+} // namespace spia::viewer
