@@ -3,7 +3,7 @@
 # of the command line (--out, --json, ...), it runs the whole chain with `spia run` instead. Installs and builds what is missing first.
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
-part=$here/assets/parts/inner-panel.obj
+part=
 if [ $# -gt 0 ] && [ "${1#-}" = "$1" ]; then
     part=$1
     shift
@@ -21,7 +21,7 @@ if [ $window = yes ] && [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
 fi
 if [ $window = yes ]; then
     bash "$here/app/setup.sh" release spia spia-viewer
-    exec "$here/build/release/bin/spia-viewer" "$part" "$@"
+    exec "$here/build/release/bin/spia-viewer" ${part:+"$part"} "$@"
 fi
 bash "$here/app/setup.sh" release spia
-exec "$here/build/release/bin/spia" run "$part" "$@"
+exec "$here/build/release/bin/spia" run "${part:-$here/assets/parts/inner-panel.obj}" "$@"

@@ -95,6 +95,7 @@ GlWindow::GlWindow(int width, int height, bool visible)
     glfwSetCharCallback(window_, [](GLFWwindow*, unsigned) { news() = true; });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int) { news() = true; });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow*, int, int) { news() = true; });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow*, float, float) { news() = true; });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow*) { news() = true; });
 }
 
@@ -102,6 +103,13 @@ GlWindow::~GlWindow()
 {
     glfwDestroyWindow(window_);
     glfwTerminate();
+}
+
+float GlWindow::content_scale() const
+{
+    float scale = 1;
+    glfwGetWindowContentScale(window_, &scale, nullptr);
+    return std::max(1.f, scale);
 }
 
 Picture GlWindow::picture(int width, int height)

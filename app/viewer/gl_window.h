@@ -21,6 +21,7 @@ public:
     GlWindow& operator=(const GlWindow&) = delete;
     GLFWwindow* get() const { return window_; }
     /// What the window shows before its buffers are swapped. @param width, height  pixels
+    float content_scale() const; ///< of the screen it is on: 1 for 96 dots per inch, and no less
     static Picture picture(int width, int height);
     /// Keys that were pressed since this was last emptied.
     static std::vector<KeyPress>& keys();

@@ -42,9 +42,7 @@ public:
         : options_(options), window_(options.width, options.height, true), gui_(window_.get()),
           model_(options.assets, [] { glfwPostEmptyEvent(); })
     {
-        float scale = 1;
-        glfwGetWindowContentScale(window_.get(), &scale, nullptr);
-        ui_.scale = std::max(1.f, scale);
+        ui_.scale = window_.content_scale();
         ui_.fonts = load_fonts(ui_.scale);
         if (!ui_.fonts.missing.empty())
             model_.say(Severity::warning,
@@ -77,11 +75,13 @@ public:
             else if (model_.busy())
                 glfwWaitEventsTimeout(0.1);
             else {
-                const double until = ui_.wake_at > 0 ? std::max(0.01, ui_.wake_at - ImGui::GetTime()) : 60;
+                const double until = ui_.wake_at > 0          ? std::max(0.01, ui_.wake_at - ImGui::GetTime())
+                                     : model_.state().unsaved ? 15
+                                                              : 60; // work is kept now and then
                 glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? std::min(0.4, until) : until);
             }
             constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
-            if (images_.any_late())
+            if (images_.any_late() || !ui_.keys_later.empty())
                 GlWindow::news() = true;
             settle = std::exchange(GlWindow::news(), false) ? frames_to_settle : std::max(0, settle - 1);
             const size_t actions = actions_done_;
@@ -187,6 +187,14 @@ private:
         follow_files();
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
+        if (const float scale = window_.content_scale(); scale != ui_.scale) { // on another screen
+            ui_.scale = scale;
+            ImGui::GetIO().Fonts->Clear();
+            ui_.fonts = load_fonts(scale);
+            ImGui_ImplOpenGL3_DestroyFontsTexture();
+            ImGui_ImplOpenGL3_CreateFontsTexture();
+            dark_.reset();
+        }
         if (dark_ != model_.state().view.dark) {
             dark_ = model_.state().view.dark;
             apply_theme(*dark_, ui_.scale);
@@ -204,7 +212,9 @@ private:
                           uintptr_t(images_.draw(size_t(view), ui_.busy == view, shown,
                                                  model_.state().view.camera[size_t(view)], w, h, look())));
                   }};
-        ui_.keys = std::exchange(GlWindow::keys(), {});
+        ui_.keys = std::exchange(ui_.keys_later, {});
+        for (const KeyPress& press : std::exchange(GlWindow::keys(), {}))
+            ui_.keys.push_back(press);
         ui_.path = GlWindow::take_path();
         if (!pictures_.empty()) // a picture shows what hides its labels, however busy the machine is
             model_.pickers().picker(model_.state().document.session, View::part);
@@ -284,8 +294,10 @@ private:
                 kept_.open(model_, action);
             else
                 model_.apply(action);
-            if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved)
+            if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved) {
                 kept_.forget();
+                remember(model_.state().project);
+            }
         } catch (const std::exception& error) {
             model_.say(Severity::error, error.what());
         }
@@ -358,13 +370,20 @@ private:
         known_part_ = state.document.session.part;
         if (!known_part_)
             return;
-        if (!ui_.sample && options_.script.empty())
-            try {
-                remember_recent(state.project.empty() ? state.document.session.file : state.project);
-                ui_.recent = recent_files();
-            } catch (const std::exception& error) {
-                model_.say(Severity::hint, error.what());
-            }
+        if (!ui_.sample)
+            remember(state.project.empty() ? state.document.session.file : state.project);
+    }
+
+    void remember(const std::filesystem::path& file)
+    {
+        if (!options_.script.empty())
+            return;
+        try {
+            remember_recent(file);
+            ui_.recent = recent_files();
+        } catch (const std::exception& error) {
+            model_.say(Severity::hint, error.what());
+        }
     }
 
     /// One step of the script per frame; at its end, what was asked for on the command line.

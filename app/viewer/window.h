@@ -14,7 +14,7 @@ struct WindowOptions {
     bool follow = false;              ///< and whenever the window has come to rest
     std::filesystem::path screenshot; ///< picture of the window at the end
     bool exit = false;                ///< quit when the chain or the script has ended
-    int width = 0, height = 0; ///< of the window, pixels; 0: what the screen has room for
+    int width = 0, height = 0;        ///< of the window, pixels; 0: what the screen has room for
     bool light = false;
     std::filesystem::path assets;
 };

@@ -9,6 +9,7 @@ struct BeadShape {
     double shoulder_radius = 3; ///< mm, of the groove's edges
     double depth = 5;           ///< mm, how far the bead pushes the sheet out of its plane
     double friction = 0.12;     ///< coefficient of the contact with the tool
+    friend bool operator==(const BeadShape&, const BeadShape&) = default;
 };
 
 /// The equivalent bead: force per length (N/mm) that pulls the sheet through. Each bending and unbending costs the plastic

@@ -55,6 +55,12 @@ struct SetEnds {
     bool natural = false;
 }; ///< "set_ends" of the interpolation
 
+/// "set_limits": curve ("automatic", "keeler_brazier", "points" of a table, "none"), table, n, margin, max_thinning,
+/// max_thickening, low_strain. A blank that is there is judged anew at once.
+struct SetLimits {
+    LimitsChoice limits;
+};
+
 // --- picking
 enum class PickMode { replace, add, remove };
 struct SelectFaces {
@@ -119,6 +125,34 @@ struct ChangeRegion {
 struct RemoveRegion {
     int region = 0;
 }; ///< "remove_region"
+/// "set_contact": what the tool on a region does: contact {force_N or pressure_MPa, friction}; null: nothing.
+struct SetContact {
+    int region = 0;
+    std::optional<ToolContact> contact;
+};
+/// "set_own_sheet": sheet {material, thickness} of a region; null: that of the rest.
+struct SetOwnSheet {
+    int region = 0;
+    std::optional<OwnSheet> sheet;
+};
+/// "add_line": kind ("drawbead", "pilot"), name (may be empty), point [[x, y, z], ...], force_N_mm or shape {radius,
+/// shoulder_radius, depth, friction}
+struct AddLine {
+    ProcessLine line;
+};
+struct ChangeLine {
+    int number = 0;
+    ProcessLine line;
+}; ///< "change_line": number, line
+struct RemoveLine {
+    int number = 0;
+};                     ///< "remove_line"
+struct PinVertices {}; ///< "pin_vertices": a pilot at each picked vertex
+/// "set_process": edge_restraint (share of the lock force), rolling (direction; null: isotropic in the plane)
+struct SetProcess {
+    double edge_restraint = 0;
+    std::optional<Eigen::Vector3d> rolling;
+};
 struct SelectRegion {
     int region = 0;
     PickMode mode = PickMode::replace;
@@ -195,11 +229,12 @@ struct Quit {};            ///< "quit"
 
 using Action =
     std::variant<OpenPart, SetUnit, SetReading, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
-                 ProposeCorners, SetGrid, SetEnds, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
-                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
-                 ChangeRegion, RemoveRegion, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection,
-                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
-                 Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+                 ProposeCorners, SetGrid, SetEnds, SetLimits, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices,
+                 PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
+                 MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine,
+                 PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
+                 SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo,
+                 OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -42,6 +42,7 @@ struct ViewerModel::Apply {
     void operator()(const ProposeCorners&);
     void operator()(const SetGrid& action);
     void operator()(const SetEnds& action);
+    void operator()(const SetLimits& action);
 
     // --- picking
     void select(std::vector<int> faces, PickMode mode, const char* name);
@@ -68,6 +69,17 @@ struct ViewerModel::Apply {
     void operator()(const ChangeRegion& action);
     void operator()(const RemoveRegion& action);
     void operator()(const SelectRegion& action);
+    /// Changes what the process is made of, and with it the solver's conditions; all or nothing.
+    /// @param edit  gets a copy of the document
+    template <class Edit> void change_process(std::string name, bool merge, const Edit& edit);
+    size_t line(int number) const;
+    void operator()(const SetContact& action);
+    void operator()(const SetOwnSheet& action);
+    void operator()(const AddLine& action);
+    void operator()(const ChangeLine& action);
+    void operator()(const RemoveLine& action);
+    void operator()(const PinVertices&);
+    void operator()(const SetProcess& action);
     void operator()(const AddProbe& action);
     void operator()(const RemoveProbe& action);
     void operator()(const ClearProbes&);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "engine/forming/material_library.h"
+#include "app/viewer/model/chain.h"
 
 namespace spia::viewer {
 
@@ -42,6 +42,8 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.display = document.display;
     fresh.display.range.reset();
     fresh.material = document.material;
+    fresh.limits = document.limits;
+    fresh.session.options.limits = session.options.limits;
     fresh.session.options.flatten.material = session.options.flatten.material;
     fresh.session.options.flatten.thickness = session.options.flatten.thickness;
     fresh.session.options.interpolate = session.options.interpolate;
@@ -118,22 +120,6 @@ void ViewerModel::Apply::operator()(const CancelJob&)
         model.chain_job_->cancel();
     if (model.export_job_)
         model.export_job_->cancel();
-}
-
-void ViewerModel::Apply::operator()(const SetMaterial& action)
-{
-    const Material material = find_material(action.material, model.assets() / "materials");
-    change("Change material");
-    document.material = action.material;
-    session.options.flatten.material = material;
-}
-
-void ViewerModel::Apply::operator()(const SetThickness& action)
-{
-    if (!(action.thickness > 0 && action.thickness < 1000))
-        throw InputError("The thickness must be above 0 and below 1000 mm.");
-    change("Change thickness", true);
-    session.options.flatten.thickness = action.thickness;
 }
 
 void ViewerModel::Apply::operator()(const SetDirection& action)
@@ -214,6 +200,18 @@ void ViewerModel::Apply::operator()(const SetEnds& action)
         action.natural ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
     if (session.lifted)
         model.run_to(Stage::fit, "Fitting the surface");
+}
+
+void ViewerModel::Apply::operator()(const SetLimits& action)
+{
+    Session judged = as_made(document);
+    judged.options.limits = limits_options(action.limits);
+    if (session.blank)
+        judged = judge_limits(std::move(judged));
+    change("Change forming limits", true);
+    document.limits = action.limits;
+    session.options.limits = document.made_with.limits = judged.options.limits;
+    session.limits = judged.limits;
 }
 
 } // namespace spia::viewer

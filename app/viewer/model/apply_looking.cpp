@@ -11,6 +11,7 @@ void ViewerModel::Apply::operator()(const SetDisplay& action)
 {
     change("Change display", true);
     document.display = action.display;
+    document.display.per_face |= action.display.field == Field::zone; // nothing lies between two zones
 }
 
 void ViewerModel::Apply::operator()(const LookFrom& action)

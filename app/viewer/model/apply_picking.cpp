@@ -146,24 +146,6 @@ void ViewerModel::Apply::operator()(const MakeRegion& action)
     document.regions.push_back(std::move(made));
 }
 
-void ViewerModel::Apply::operator()(const ChangeRegion& action)
-{
-    const size_t number = region(action.region);
-    change("Change region", true);
-    FaceRegion& changed = document.regions[number];
-    changed.name = action.name;
-    changed.kind = action.kind;
-    if (action.colour[3] > 0)
-        changed.colour = action.colour;
-}
-
-void ViewerModel::Apply::operator()(const RemoveRegion& action)
-{
-    const size_t number = region(action.region);
-    change("Remove region");
-    document.regions.erase(document.regions.begin() + int(number));
-}
-
 void ViewerModel::Apply::operator()(const SelectRegion& action)
 {
     select(document.regions[region(action.region)].faces, action.mode, "Select region");
@@ -195,14 +177,21 @@ void ViewerModel::Apply::operator()(const DrawSection& action)
 {
     const RayPicker& on = picker(action.view);
     const Camera& from = camera(action.view);
-    const RayHit first = hit_at(from, on, action.from, action.size), last = hit_at(from, on, action.to, action.size);
-    if (first.face < 0 && last.face < 0)
-        throw InputError("Draw the section line over the sheet: at least one end has to be on it.");
     const Ray a = ray_through(from, on.box(), action.from, action.size),
               b = ray_through(from, on.box(), action.to, action.size);
-    // Both ends at the same depth, that of the end which is on the sheet.
-    const Eigen::Vector3d hit = first.face >= 0 ? Eigen::Vector3d(a.origin + first.distance * a.direction)
-                                                : Eigen::Vector3d(b.origin + last.distance * b.direction);
+    // Both ends at the same depth, that of the place nearest to the first end that is on the sheet.
+    constexpr int looks = 200;
+    std::optional<Eigen::Vector3d> found;
+    for (int k = 0; k <= looks && !found; ++k) {
+        const glm::dvec2 pixel = glm::mix(action.from, action.to, double(k) / looks);
+        const RayHit there = hit_at(from, on, pixel, action.size);
+        const Ray ray = ray_through(from, on.box(), pixel, action.size);
+        if (there.face >= 0)
+            found = ray.origin + there.distance * ray.direction;
+    }
+    if (!found)
+        throw InputError("Draw the section line over the sheet: it does not meet it anywhere.");
+    const Eigen::Vector3d hit = *found;
     const Eigen::Vector3d sight = ray_through(from, on.box(), action.size / 2., action.size).direction;
     const auto at_depth = [&](const Ray& ray) -> Eigen::Vector3d {
         return ray.origin + sight.dot(hit - ray.origin) / sight.dot(ray.direction) * ray.direction;

@@ -53,7 +53,10 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
 {
     switch (done) {
     case Stage::read: made_with.read = options.read; break;
-    case Stage::solve: made_with.flatten = options.flatten; break;
+    case Stage::solve:
+        made_with.flatten = options.flatten;
+        made_with.limits = options.limits;
+        break;
     case Stage::grid:
         made_with.corners = options.corners;
         made_with.grid = options.grid;

@@ -6,21 +6,26 @@
 #include <vector>
 
 #include "app/viewer/model/field.h"
+#include "app/viewer/model/limits_choice.h"
+#include "app/viewer/model/process_choice.h"
 #include "app/viewer/model/scene.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::viewer {
 
-enum class RegionKind { fixed, binder, pad, material, other };
+enum class RegionKind { fixed, binder, pad, punch, material, other };
 std::string_view name(RegionKind kind);
 RegionKind region_kind(std::string_view name); ///< @throws InputError
+bool is_tool(RegionKind kind);                 ///< whether it presses on the sheet
 
 /// Picked faces with a name.
 struct FaceRegion {
     std::string name;
     RegionKind kind = RegionKind::other;
     Colour colour{0.9f, 0.7f, 0.1f, 1};
-    std::vector<int> faces; ///< of the part, ascending
+    std::vector<int> faces;                  ///< of the part, ascending
+    std::optional<ToolContact> contact = {}; ///< of a binder, a pad, the punch
+    std::optional<OwnSheet> sheet = {};
 
     friend bool operator==(const FaceRegion&, const FaceRegion&) = default;
 };
@@ -60,9 +65,21 @@ struct Document {
     std::vector<int> selected;           ///< faces of the part, ascending
     std::vector<int> vertices;           ///< picked ones of the part, ascending
     std::vector<FaceRegion> regions;
+    std::vector<ProcessLine> lines;
+    double edge_restraint = 0;              ///< of the outer edge, as a share of the lock force
+    std::optional<Eigen::Vector3d> rolling; ///< rolling direction; not given: the sheet is isotropic in its plane
     std::vector<Probe> probes;
     std::optional<SectionLine> section;
+    LimitsChoice limits;
     FieldDisplay display;
 };
+
+/// The conditions for the solver, of the regions, the lines and the rest.
+/// @param materials  folder of the built-in grades
+/// @throws InputError if a material is not to be had, or a bead's shape is none
+ProcessConditions process_of(const Document& document, const std::filesystem::path& materials);
+
+/// The force of a drawbead per length, N/mm: as given, or of its shape with the sheet of the document.
+double bead_force(const ProcessLine& bead, const Document& document);
 
 } // namespace spia::viewer

@@ -112,6 +112,11 @@ const std::vector<FieldInfo>& all_fields()
          "Largest change of a corner's angle of the triangle from blank to part: how much the sheet was sheared."},
         {Field::necking, "necking", "Necking", "", false,
          "1 where the strain is beyond what the hardening curve is trusted for and the sheet is likely to neck, else 0."},
+        {Field::zone, "zone", "Forming zone", "zone", false,
+         "What forming does to the place: cracks, at risk, thinned or thickened too much, may wrinkle, hardly stretched, "
+         "safe. See Forming limits."},
+        {Field::limit_distance, "limit_distance", "Distance to limit", "%", false,
+         "Engineering major strain that is left up to the forming limit curve; below 0 the sheet cracks."},
         {Field::deviation, "deviation", "Deviation", "mm", true,
          "Distance from the part to the NURBS surface; positive where the surface runs on the outer side of the part."},
     };
@@ -135,6 +140,8 @@ bool available(const Session& session, Field field)
 {
     switch (field) {
     case Field::none: return true;
+    case Field::zone: return session.part && session.limits;
+    case Field::limit_distance: return session.part && session.limits && session.limits->zones.distance.size() > 0;
     case Field::deviation: return session.part && session.surface;
     default: return session.part && session.blank;
     }
@@ -144,9 +151,10 @@ Eigen::VectorXd values(const Session& session, Field field, bool per_face)
 {
     if (!available(session, field))
         throw InputError(fmt::format("the field \"{}\" is not there yet; {} first", info(field).name,
-                                     !session.part               ? "open a part"
-                                     : field == Field::deviation ? "make the NURBS surface"
-                                                                 : "solve for the blank"));
+                                     !session.part                                      ? "open a part"
+                                     : field == Field::deviation                        ? "make the NURBS surface"
+                                     : field == Field::limit_distance && session.limits ? "choose a forming limit curve"
+                                                                                        : "solve for the blank"));
     if (field == Field::none)
         return {};
     const TriMesh& part = session.part->mesh;
@@ -154,6 +162,17 @@ Eigen::VectorXd values(const Session& session, Field field, bool per_face)
         // The part's vertices come first, those of filled holes follow.
         const Eigen::VectorXd at_vertex = session.surface->deviation.at_vertex.head(part.vertices());
         return per_face ? face_mean(part, at_vertex) : at_vertex;
+    }
+    if (field == Field::zone) {
+        const std::vector<Zone> zone =
+            per_face ? session.limits->zones.zone : zones_at_vertices(part, session.limits->zones.zone);
+        Eigen::VectorXd number(Eigen::Index(zone.size()));
+        std::transform(zone.begin(), zone.end(), number.begin(), [](Zone each) { return double(each); });
+        return number;
+    }
+    if (field == Field::limit_distance) {
+        const Eigen::VectorXd of_face = 100 * session.limits->zones.distance;
+        return per_face ? of_face : vertex_mean(part, of_face);
     }
     if (field == Field::area_change || field == Field::angle_distortion) {
         const Blank& blank = session.blank->blank;

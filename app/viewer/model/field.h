@@ -23,6 +23,8 @@ enum class Field {
     area_change,
     angle_distortion,
     necking,
+    zone,
+    limit_distance,
     deviation
 };
 
@@ -30,9 +32,10 @@ struct FieldInfo {
     Field field;
     std::string_view name;  ///< as in scripts and projects, e.g. "strain_major"
     std::string_view label; ///< for people, e.g. "Major strain"
-    std::string_view unit;  ///< "mm", "%", "MPa", "°", "" (a pure number)
-    bool diverging;         ///< zero matters: both signs
-    std::string_view help;  ///< one sentence: what it is
+    std::string_view
+        unit;       ///< "mm", "%", "MPa", "°", "" (a pure number), "zone" (the number of a Zone, told by its name)
+    bool diverging; ///< zero matters: both signs
+    std::string_view help; ///< one sentence: what it is
 };
 
 /// All of them, in the order of the menu.

@@ -64,6 +64,49 @@ inline constexpr auto members_of<GridOptions> = std::tuple{
     member("smoothing", &GridOptions::smoothing, Between{0, 100000}), member("method", &GridOptions::method)};
 
 template <>
+inline constexpr auto members_of<LimitsChoice> =
+    std::tuple{member("curve", &LimitsChoice::curve),
+               member("table", &LimitsChoice::table),
+               member("n", &LimitsChoice::n, Between{1e-6, 1}),
+               member("margin", &LimitsChoice::margin, Between{0, 1}),
+               member("max_thinning", &LimitsChoice::max_thinning, Between{0, 1}),
+               member("max_thickening", &LimitsChoice::max_thickening, Between{0, 10}),
+               member("low_strain", &LimitsChoice::low_strain, Between{0, 1})};
+
+/// Checks that a tool presses with one of the two.
+inline constexpr auto force_or_pressure = [](const std::optional<ToolContact>& contact, const Place& place) {
+    if (contact && contact->force_N.has_value() == contact->pressure_MPa.has_value())
+        place.fail("needs either the member \"force_N\" or \"pressure_MPa\"");
+};
+template <>
+inline constexpr auto members_of<ToolContact> =
+    std::tuple{member("force_N", &ToolContact::force_N, Between{1e-9, 1e9}),
+               member("pressure_MPa", &ToolContact::pressure_MPa, Between{1e-9, 1e5}),
+               member("friction", &ToolContact::friction, Between{0, 10})};
+template <>
+inline constexpr auto members_of<OwnSheet> = std::tuple{
+    required("material", &OwnSheet::material), required("thickness", &OwnSheet::thickness, Between{1e-6, 1e3})};
+template <>
+inline constexpr auto members_of<BeadShape> =
+    std::tuple{member("radius", &BeadShape::radius, Between{1e-6, 1e4}),
+               member("shoulder_radius", &BeadShape::shoulder_radius, Between{1e-6, 1e4}),
+               member("depth", &BeadShape::depth, Between{0, 1e4}),
+               member("friction", &BeadShape::friction, Between{0, 10})};
+inline constexpr auto has_places = [](const std::vector<Eigen::Vector3d>& point, const Place& place) {
+    if (point.empty())
+        place.fail("needs one place [x, y, z] at least");
+    for (size_t i = 0; i < point.size(); ++i)
+        for (size_t k = 0; k < 3; ++k)
+            Between{-most_mm, most_mm}(point[i][Eigen::Index(k)], place.entry(i).entry(k));
+};
+template <>
+inline constexpr auto members_of<ProcessLine> =
+    std::tuple{member("kind", &ProcessLine::kind), member("name", &ProcessLine::name),
+               required("point", &ProcessLine::point, has_places),
+               member("force_N_mm", &ProcessLine::force_N_mm, Between{1e-9, 1e9}),
+               member("shape", &ProcessLine::shape)};
+
+template <>
 inline constexpr auto members_of<Probe> =
     std::tuple{required("face", &Probe::face, any_index), member("barycentric", &Probe::barycentric, is_barycentric)};
 

@@ -17,9 +17,12 @@ template <class E> using Names = std::pair<E, std::string_view>;
 
 template <>
 inline constexpr std::array names_of<RegionKind>{
-    Names<RegionKind>{RegionKind::fixed, "fixed"}, Names<RegionKind>{RegionKind::binder, "binder"},
-    Names<RegionKind>{RegionKind::pad, "pad"}, Names<RegionKind>{RegionKind::material, "material"},
-    Names<RegionKind>{RegionKind::other, "other"}};
+    Names<RegionKind>{RegionKind::fixed, "fixed"},       Names<RegionKind>{RegionKind::binder, "binder"},
+    Names<RegionKind>{RegionKind::pad, "pad"},           Names<RegionKind>{RegionKind::punch, "punch"},
+    Names<RegionKind>{RegionKind::material, "material"}, Names<RegionKind>{RegionKind::other, "other"}};
+template <>
+inline constexpr std::array names_of<LineKind>{Names<LineKind>{LineKind::drawbead, "drawbead"},
+                                               Names<LineKind>{LineKind::pilot, "pilot"}};
 template <>
 inline constexpr std::array names_of<View>{Names<View>{View::part, "part"}, Names<View>{View::blank, "blank"},
                                            Names<View>{View::quads, "quads"}, Names<View>{View::surface, "surface"}};
@@ -35,6 +38,7 @@ inline constexpr std::array names_of<Tool>{Names<Tool>{Tool::look, "look"},
                                            Names<Tool>{Tool::section, "section"},
                                            Names<Tool>{Tool::vertex, "vertex"},
                                            Names<Tool>{Tool::outline, "outline"},
+                                           Names<Tool>{Tool::line, "line"},
                                            Names<Tool>{Tool::corners, "corners"}};
 template <>
 inline constexpr std::array names_of<Stage>{Names<Stage>{Stage::read, "read"}, Names<Stage>{Stage::solve, "solve"},
@@ -49,6 +53,12 @@ inline constexpr std::array names_of<InterpolateOptions::Parameters>{
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::chord, "chord"},
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::centripetal, "centripetal"},
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::uniform, "uniform"}};
+template <>
+inline constexpr std::array names_of<LimitsOptions::Source>{
+    Names<LimitsOptions::Source>{LimitsOptions::Source::automatic, "automatic"},
+    Names<LimitsOptions::Source>{LimitsOptions::Source::keeler_brazier, "keeler_brazier"},
+    Names<LimitsOptions::Source>{LimitsOptions::Source::points, "points"},
+    Names<LimitsOptions::Source>{LimitsOptions::Source::none, "none"}};
 template <>
 inline constexpr std::array names_of<LengthUnit>{
     Names<LengthUnit>{LengthUnit::mm, "mm"}, Names<LengthUnit>{LengthUnit::cm, "cm"},

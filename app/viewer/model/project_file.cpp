@@ -41,6 +41,10 @@ struct StoredProject {
     bool natural_ends = false;
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
     std::optional<Stage> ran;
+    double edge_restraint = 0;
+    std::optional<Eigen::Vector3d> rolling;
+    LimitsChoice limits;
+    std::optional<StoredPath> limits_table;
     FieldDisplay display;
     ViewSettings view;
     StoredPicks picks;
@@ -58,8 +62,12 @@ inline constexpr auto members_of<StoredPatch> =
                member("point", &StoredPatch::point, anywhere_in_space), member("triangle", &StoredPatch::triangle)};
 template <>
 inline constexpr auto members_of<StoredRegion> =
-    std::tuple{member("name", &StoredRegion::name), member("kind", &StoredRegion::kind),
-               member("colour", &StoredRegion::colour, Between{0, 1}), member("patch", &StoredRegion::patch)};
+    std::tuple{member("name", &StoredRegion::name),
+               member("kind", &StoredRegion::kind),
+               member("colour", &StoredRegion::colour, Between{0, 1}),
+               member("patch", &StoredRegion::patch),
+               member("contact", &StoredRegion::contact, force_or_pressure),
+               member("sheet", &StoredRegion::sheet)};
 template <>
 inline constexpr auto members_of<StoredProbe> =
     std::tuple{required("face", &StoredProbe::face, any_index), member("piece", &StoredProbe::piece, any_index),
@@ -76,7 +84,8 @@ template <>
 inline constexpr auto members_of<StoredPicks> =
     std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),
                member("vertices", &StoredPicks::vertices),       member("regions", &StoredPicks::regions),
-               member("probes", &StoredPicks::probes),           member("corners", &StoredPicks::corners)};
+               member("probes", &StoredPicks::probes),           member("lines", &StoredPicks::lines),
+               member("corners", &StoredPicks::corners)};
 template <>
 inline constexpr auto members_of<SectionLine> =
     std::tuple{required("from", &SectionLine::from, anywhere_in_space),
@@ -102,6 +111,10 @@ inline constexpr auto members_of<StoredProject> =
                member("natural_ends", &StoredProject::natural_ends),
                member("parameters", &StoredProject::parameters),
                member("ran", &StoredProject::ran),
+               member("edge_restraint", &StoredProject::edge_restraint, Between{0, 1}),
+               member("rolling", &StoredProject::rolling),
+               member("limits", &StoredProject::limits),
+               member("limits_table", &StoredProject::limits_table),
                member("display", &StoredProject::display),
                member("view", &StoredProject::view),
                member("picks", &StoredProject::picks),
@@ -160,10 +173,12 @@ void require_version(const Json& json, const fs::path& file)
                         file.string(), schema, schema_name, version));
 }
 
-void require_direction(const StoredProject& stored, const Place& place)
+void require_directions(const StoredProject& stored, const Place& place)
 {
     if (stored.direction && !(stored.direction->norm() > 0))
         place.member("direction").fail("must have a length; null stands for the automatic direction");
+    if (stored.rolling && !(stored.rolling->norm() > 0))
+        place.member("rolling").fail("must have a length; null stands for a sheet that is isotropic in its plane");
 }
 
 void require_section(const StoredProject& stored, const Place& place)
@@ -194,6 +209,16 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.interpolate.ends =
         stored.natural_ends ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
     session.options.interpolate.parameters = stored.parameters;
+    document.edge_restraint = stored.edge_restraint;
+    document.rolling = stored.rolling;
+    document.limits = stored.limits;
+    if (stored.limits_table)
+        document.limits.table = found_path(*stored.limits_table, folder);
+    try {
+        session.options.limits = limits_options(document.limits);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: its forming limit curve is not to be had: {}", file.string(), error.what()));
+    }
     document.display = stored.display;
     document.section = stored.section;
     return document;
@@ -221,6 +246,11 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.natural_ends = session.options.interpolate.ends == InterpolateOptions::Ends::natural;
     stored.parameters = session.options.interpolate.parameters;
     stored.ran = last_stage(session);
+    stored.edge_restraint = document.edge_restraint;
+    stored.rolling = document.rolling;
+    stored.limits = document.limits;
+    if (!std::exchange(stored.limits.table, {}).empty())
+        stored.limits_table = stored_path(document.limits.table, folder);
     stored.display = document.display;
     stored.view = view;
     stored.section = document.section;
@@ -236,7 +266,7 @@ Project open_project(const fs::path& file, const fs::path& materials)
     const std::string name = file.string();
     const Place place(name);
     read(json, stored, place);
-    require_direction(stored, place);
+    require_directions(stored, place);
     require_section(stored, place);
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);

@@ -17,6 +17,8 @@
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
 /// | `ran` | the last stage that had been run, or null |
+/// | `edge_restraint`, `rolling` | as in the script action set_process |
+/// | `limits`, `limits_table` | as in the script action set_limits; the table given like the file of the part |
 /// | `display`, `view` | as in the script actions set_display and set_view |
 /// | `picks` | StoredPicks: numbers of the part's file and geometry; matrices column by column |
 /// | `recovers` | only in an autosave: the project that it stands for |

@@ -5,29 +5,11 @@
 
 #include "app/viewer/model/html_text.h"
 #include "app/viewer/model/svg_chart.h"
+#include "app/viewer/model/zone_look.h"
 #include "engine/exchange/text_encoding.h"
 
 namespace spia::viewer {
 namespace {
-
-/// What stands for a zone in print.
-struct Look {
-    const char *words, *colour;
-};
-
-Look look(Zone zone)
-{
-    switch (zone) {
-    case Zone::crack: return {"Crack", "#c0261c"};
-    case Zone::risk: return {"Risk", "#e07b00"};
-    case Zone::excessive_thinning: return {"Excessive thinning", "#a8871f"};
-    case Zone::strong_thickening: return {"Strong thickening", "#6a3fa0"};
-    case Zone::wrinkling_tendency: return {"Wrinkling tendency", "#2f6fc4"};
-    case Zone::low_strain: return {"Low strain", "#8a93a0"};
-    case Zone::safe: return {"Safe", "#3f9142"};
-    }
-    return {"", ""};
-}
 
 /// The curve over the strains of the part, and a little further.
 Curve limit_curve(const FormingLimitCurve& curve, double from, double to, double margin)
@@ -48,7 +30,7 @@ std::vector<Curve> dots(const LimitsResult& limits, const SheetFields& face)
     constexpr int most_per_zone = 1200;
     std::vector<Curve> drawn;
     for (auto zone = std::rbegin(all_zones); zone != std::rend(all_zones); ++zone) { // the worst on top
-        Curve curve{"", look(*zone).colour, {}, true, false};
+        Curve curve{"", hex(zone_colour(*zone)), {}, true, false};
         const int faces = limits.zones.share[size_t(*zone)].faces, stride = 1 + (faces - 1) / most_per_zone;
         int seen = 0;
         for (size_t f = 0; f < limits.zones.zone.size(); ++f)
@@ -80,7 +62,7 @@ std::string zone_table(const LimitsResult& limits)
         const ZoneShare& share = limits.zones.share[size_t(zone)];
         rows += fmt::format("<tr><td><b style=\"color:{}\">\u25a0</b> {}</td>"
                             "<td style=\"text-align:left\">{}</td><td>{}</td><td>{}</td></tr>\n",
-                            look(zone).colour, look(zone).words, escaped(definition(zone, limits.settings)),
+                            hex(zone_colour(zone)), zone_words(zone), escaped(definition(zone, limits.settings)),
                             grouped(share.faces), fixed(100 * share.share, 2));
     }
     return fmt::format("<table class=\"spots\"><tr><th>Zone</th>"
@@ -99,7 +81,7 @@ std::string spot_table(const LimitsResult& limits, const PartFile& part)
         rows +=
             fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}, {}, {}</td>"
                         "<td>{}</td></tr>\n",
-                        look(spot.zone).words, fixed(100 * spot.value, 1), fixed(spot.strain_major, 3),
+                        zone_words(spot.zone), fixed(100 * spot.value, 1), fixed(spot.strain_major, 3),
                         fixed(spot.strain_minor, 3), fixed(100 * spot.thinning, 1), fixed(spot.position[0], 1),
                         fixed(spot.position[1], 1), fixed(spot.position[2], 1), part.source_face[size_t(spot.face)]);
     }

@@ -5,6 +5,7 @@
 #include "app/viewer/model/changed_part.h"
 #include "app/viewer/model/file_numbers.h"
 #include "engine/core/error.h"
+#include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {
 namespace {
@@ -100,6 +101,31 @@ public:
         return {found.begin(), found.end()};
     }
 
+    std::vector<ProcessLine> lines(const std::vector<ProcessLine>& stored)
+    {
+        if (!changed_ || stored.empty())
+            return stored;
+        const Eigen::Matrix3Xd& p = part_.mesh.position;
+        const double reach = 0.01 * (p.rowwise().maxCoeff() - p.rowwise().minCoeff()).norm(); // mm
+        const ClosestPointSearch search(part_.mesh);
+        std::vector<ProcessLine> result;
+        for (ProcessLine line : stored) {
+            const auto off = std::find_if(line.point.begin(), line.point.end(), [&](Eigen::Vector3d& point) {
+                const ClosestPoint found = search.nearest(point, reach);
+                if (found.face >= 0)
+                    point = found.position;
+                return found.face < 0;
+            });
+            if (off == line.point.end())
+                result.push_back(std::move(line));
+            else
+                missing.push_back(
+                    fmt::format("the line \"{}\" leaves the changed part near {}; it was removed, draw it anew",
+                                line.name, near(*off)));
+        }
+        return result;
+    }
+
     std::optional<std::array<int, 4>> corners(const std::array<StoredCorner, 4>& stored)
     {
         std::array<int, 4> result;
@@ -162,7 +188,9 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
     restored.regions.clear();
     for (const StoredRegion& region : picks.regions)
         restored.regions.push_back({region.name, region.kind, region.colour,
-                                    restorer.faces(region.patch, fmt::format("the region \"{}\"", region.name))});
+                                    restorer.faces(region.patch, fmt::format("the region \"{}\"", region.name)),
+                                    region.contact, region.sheet});
+    restored.lines = restorer.lines(picks.lines);
     restored.probes.clear();
     for (size_t i = 0; i < picks.probes.size(); ++i)
         if (const auto probe = restorer.probe(picks.probes[i], i))

@@ -38,7 +38,7 @@ struct FaceMarks {
     std::vector<uint8_t> mark;
 };
 
-enum class ColourMap { viridis, diverging, grey, quality };
+enum class ColourMap { viridis, diverging, grey, quality, zones };
 
 /// How values become colours.
 struct ColourScale {

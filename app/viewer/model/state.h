@@ -16,7 +16,7 @@ inline constexpr View all_views[] = {View::part, View::blank, View::quads, View:
 std::string_view name(View view);         ///< "part", ...
 View view_by_name(std::string_view name); ///< @throws InputError
 
-enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, section, vertex, outline, corners };
+enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, section, vertex, outline, corners, line };
 std::string_view name(Tool tool);
 Tool tool_by_name(std::string_view name); ///< @throws InputError
 

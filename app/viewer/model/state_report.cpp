@@ -65,6 +65,8 @@ Json regions_json(const std::vector<FaceRegion>& regions)
     for (const FaceRegion& region : regions) {
         Json json = {{"name", region.name}, {"kind", name(region.kind)}, {"colour", region.colour}};
         json.update(faces_json(region.faces));
+        json["contact"] = written(region.contact);
+        json["sheet"] = written(region.sheet);
         list.push_back(std::move(json));
     }
     return list;
@@ -187,6 +189,9 @@ Json state_report(const ViewerState& state)
             {"vertices", vertices_json(document)},
             {"distance", distance_json(document)},
             {"regions", regions_json(document.regions)},
+            {"lines", written(document.lines)},
+            {"process", {{"edge_restraint", document.edge_restraint}, {"rolling", written(document.rolling)}}},
+            {"limits", written(document.limits)},
             {"probes", probes_json(document, field)},
             {"display", written(document.display)},
             {"field", field_json(document, field)},

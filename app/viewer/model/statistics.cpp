@@ -38,7 +38,8 @@ double badness(Field field, double value)
 {
     switch (field) {
     case Field::thickness:
-    case Field::strain_minor: return -value;
+    case Field::strain_minor:
+    case Field::limit_distance: return -value;
     case Field::deviation: return std::abs(value);
     default: return value;
     }

@@ -93,7 +93,9 @@ StoredPicks store_picks(const Document& document)
     picks.selected = store_patch(part, document.selected);
     picks.vertices = store_vertices(part, document.vertices);
     for (const FaceRegion& region : document.regions)
-        picks.regions.push_back({region.name, region.kind, region.colour, store_patch(part, region.faces)});
+        picks.regions.push_back(
+            {region.name, region.kind, region.colour, store_patch(part, region.faces), region.contact, region.sheet});
+    picks.lines = document.lines;
     for (const Probe& probe : document.probes) {
         require_triangle(part.mesh, probe.face);
         const Eigen::Matrix3d corners = corners_of(part.mesh, probe.face);

@@ -23,6 +23,8 @@ struct StoredRegion {
     RegionKind kind = RegionKind::other;
     Colour colour{};
     StoredPatch patch;
+    std::optional<ToolContact> contact = {};
+    std::optional<OwnSheet> sheet = {};
 };
 
 struct StoredProbe {
@@ -50,6 +52,7 @@ struct StoredPicks {
     std::vector<StoredVertex> vertices;
     std::vector<StoredRegion> regions;
     std::vector<StoredProbe> probes;
+    std::vector<ProcessLine> lines;                     ///< by their places
     std::optional<std::array<StoredCorner, 4>> corners; ///< of the grid, where the user chose them
 };
 
@@ -66,7 +69,7 @@ StoredPicks store_picks(const Document& document);
 /// session's options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
 /// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
 /// the outer boundary. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
-/// to its place.
+/// to its place. A line of the process moves to the nearest places of the part, if all are within those 1 %.
 /// @returns in words what was not found (again); empty if the part is the same, or all was found
 /// @throws InputError if the document has no part, or the picks make no sense
 std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks);

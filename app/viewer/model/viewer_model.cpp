@@ -201,7 +201,7 @@ void ViewerModel::keep_before(const ChainResult& result, const LaterResults& qua
 
 /// Puts the results of a run into a document. On a part that was read otherwise the picks stay where they are in space.
 /// @returns in words what was not found again
-std::vector<std::string> ViewerModel::take_over(Document& document, const ChainResult& result)
+std::vector<std::string> ViewerModel::take_over(Document& document, const ChainResult& result) const
 {
     const std::shared_ptr<const PartFile> before = document.session.part, after = result.session.part;
     const bool renumbered =
@@ -214,6 +214,10 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     document.session = result.session;
     document.session.options = std::move(wanted);
     document.made_with = result.made_with;
+    if (document.session.blank && document.session.options.limits != document.made_with.limits) { // changed meanwhile
+        document.made_with.limits = document.session.options.limits;
+        document.session.limits = judge_limits(as_made(document)).limits;
+    }
     if (before && before != after)
         document.section.reset();
     if (!picks)
@@ -222,11 +226,21 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     document.vertices.clear();
     document.probes.clear();
     document.regions.clear();
+    document.lines.clear();
+    return restore(document, *picks);
+}
+
+/// Picks and, made of them, the process. @returns in words what was not found again, or why nothing was
+std::vector<std::string> ViewerModel::restore(Document& document, const StoredPicks& picks) const
+{
+    std::vector<std::string> lost;
     try {
-        return restore_picks(document, *picks);
+        lost = restore_picks(document, picks);
+        document.session.options.flatten.process = process_of(document, assets() / "materials");
     } catch (const InputError& error) {
-        return {error.what()};
+        lost.push_back(error.what());
     }
+    return lost;
 }
 
 /// With a full stop at its end.
@@ -279,10 +293,10 @@ void ViewerModel::part_opened()
     state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
     fit(std::nullopt);
     for (const std::string& note : document.session.part->notes)
-        say(Severity::hint, note);
+        say(Severity::hint, as_sentence(note));
     for (const Finding& finding : document.session.part->doctor.findings)
         say(finding.severity == spia::Severity::repaired ? Severity::warning : Severity::hint,
-            finding.text + (finding.advice.empty() ? "" : "; " + finding.advice));
+            as_sentence(finding.text) + (finding.advice.empty() ? "" : "; " + finding.advice));
 }
 
 /// The picks of a project on its part, which may have changed since; then the stages it had.
@@ -292,12 +306,8 @@ void ViewerModel::project_opened()
     Document& document = state_.document;
     if (!document.session.part)
         return;
-    try {
-        for (const std::string& lost : restore_picks(document, project.picks))
-            say(Severity::warning, lost);
-    } catch (const InputError& error) { // the rest of the project is sound
-        say(Severity::warning, error.what());
-    }
+    for (const std::string& lost : restore(document, project.picks)) // the rest of the project is sound
+        say(Severity::warning, lost);
     state_.view = project.view;
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
     if (keep_cameras_)
@@ -370,9 +380,12 @@ void ViewerModel::resized(View view, glm::dvec2 size, double scale)
 /// Beside what is shown there is room for the legend if there is one.
 Margins ViewerModel::margins(View view) const
 {
-    constexpr double around = 24;                        // pixels
-    const double legend = view == View::quads ? 92 : 72; // its title is long
+    constexpr double around = 24; // pixels
     const Document& document = state_.document;
+    const bool of_sheet = view == View::part || view == View::blank;
+    const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
+                          : view == View::quads                             ? 92  // its title is long
+                                                                            : 72;
     const bool coloured = view == View::quads     ? state_.view.quad_quality
                           : view == View::surface ? state_.view.surface_deviation
                                                   : document.display.field != Field::none;

@@ -63,7 +63,8 @@ private:
     void start(Stage from, Stage to, std::string title);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
-    static std::vector<std::string> take_over(Document& document, const ChainResult& result);
+    std::vector<std::string> take_over(Document& document, const ChainResult& result) const;
+    std::vector<std::string> restore(Document& document, const StoredPicks& picks) const;
     void keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface);
     void say_failed(const ChainResult& result);
     void take_export_result();
@@ -84,11 +85,11 @@ private:
     std::vector<std::unique_ptr<Job<ChainResult>>>
         ending_; ///< cancelled, nobody waits for them; they end by themselves
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
-    bool keep_cameras_ = false;      ///< those of a project
-    size_t depth_at_start_ = 0;      ///< of the history, when the running job began
-    bool dragging_ = false;          ///< a corner: the grid is coarse
-    std::optional<Stage> next_;      ///< run this far when the running job has ended
-    int said_ = 0;                   ///< messages so far
+    bool keep_cameras_ = false; ///< those of a project
+    size_t depth_at_start_ = 0; ///< of the history, when the running job began
+    bool dragging_ = false;     ///< a corner: the grid is coarse
+    std::optional<Stage> next_; ///< run this far when the running job has ended
+    int said_ = 0;              ///< messages so far
     int openings_ = 0;
     bool opening_ = false;           ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part

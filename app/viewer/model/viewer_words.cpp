@@ -1,5 +1,6 @@
 #include "app/viewer/model/viewer_words.h"
 
+#include <fmt/core.h>
 #include <string_view>
 
 namespace spia::viewer {
@@ -13,6 +14,21 @@ std::string in_viewer_words(std::string text)
         for (size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + button.size()))
             text.replace(at, flag.size(), button);
     return text;
+}
+
+std::string load_words(const FaceRegion& region)
+{
+    if (region.contact) {
+        const ToolContact& contact = *region.contact;
+        return fmt::format("{}, friction {:.3g}{}",
+                           contact.force_N ? fmt::format("{:.4g} kN", *contact.force_N / 1000)
+                                           : fmt::format("{:.4g} MPa", contact.pressure_MPa.value_or(0)),
+                           contact.friction, region.kind == RegionKind::binder ? " on both sides" : "");
+    }
+    if (region.sheet)
+        return fmt::format("{}, {:.3g} mm", std::filesystem::path(region.sheet->material).filename().string(),
+                           region.sheet->thickness);
+    return "";
 }
 
 std::string as_sentence(std::string text)

@@ -1,12 +1,17 @@
 #pragma once
 #include <string>
 
+#include "app/viewer/model/document.h"
+
 namespace spia::viewer {
 
 /// What the engine advises, with the viewer's buttons in place of the flags of the command line.
+std::string in_viewer_words(std::string text);
+
 /// With a capital letter at its beginning.
 std::string as_sentence(std::string text);
 
-std::string in_viewer_words(std::string text);
+/// What a region's tool or sheet is, with units: "120 kN, friction 0.12 on both sides"; empty: nothing.
+std::string load_words(const FaceRegion& region);
 
 } // namespace spia::viewer

@@ -26,12 +26,14 @@ struct Figures {
 /// What the charts show, made anew only when that changes.
 struct Charts {
     using Blank = std::shared_ptr<const FlattenResult>;
+    using Limits = std::shared_ptr<const LimitsResult>;
     using Surface = std::shared_ptr<const SurfaceStage>;
-    Memo<Figures, Blank, Surface, Field, bool> figures;
-    Memo<Eigen::VectorXd, Blank, Surface, Field, bool> values; ///< of the field: per vertex, or per face
-    Memo<std::vector<SectionPiece>, std::shared_ptr<const PartFile>, Blank, Surface, Field, std::optional<SectionLine>>
+    Memo<Figures, Blank, Limits, Surface, Field, bool> figures;
+    Memo<Eigen::VectorXd, Blank, Limits, Surface, Field, bool> values; ///< of the field: per vertex, or per face
+    Memo<std::vector<SectionPiece>, std::shared_ptr<const PartFile>, Blank, Limits, Surface, Field,
+         std::optional<SectionLine>>
         section, section_elsewhere;
-    Memo<PointCloud, Blank, int, int> strains;
+    Memo<PointCloud, Blank, Limits, int, int> strains;
     Memo<PartFigures, std::shared_ptr<const PartFile>> part, refused;
     Memo<SheetFigures, Blank> sheet;
     Memo<GridFigures, std::shared_ptr<const GridStage>, Blank> grid;
@@ -60,6 +62,9 @@ const std::vector<SectionPiece>& section_in(Frame& frame, View view);
 
 /// The field along the section line.
 void section_plot(Frame& frame);
+
+/// The forming limit curve, its margins, the zones of the sheet and their worst spots.
+void limits_section(Frame& frame);
 
 /// Major over minor strain, a point per face; a click selects the face of a point, a dragged box those in it.
 void strain_diagram(Frame& frame);

@@ -24,7 +24,7 @@ void shortcuts_window(Frame& frame)
                                            {"Shift, Ctrl", "picking adds, takes away"},
                                            {"Double click on a title", "one view, four views"},
                                            {"V P B L U R N", "tools: look, face, box, lasso, brush, flood, smooth"},
-                                           {"D G O X C", "tools: vertex, outline, probe, section, corners"},
+                                           {"D G W O X C", "tools: vertex, outline, line, probe, section, corners"},
                                            {"F5, F6", "run all, unfold"},
                                            {"F", "fit all"},
                                            {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
@@ -66,7 +66,7 @@ void unsaved_dialog(Frame& frame)
         frame.actions.push(*std::exchange(frame.ui.held, std::nullopt));
         ImGui::CloseCurrentPopup();
     };
-    if (primary_button(frame, "Save...")) {
+    if (primary_button(frame, "Save...") || enter_pressed(frame)) {
         if (frame.state.project.empty()) {
             choose_project_name(frame);
             frame.ui.after_save = std::exchange(frame.ui.held, std::nullopt);
@@ -100,14 +100,14 @@ void recovery_dialog(Frame& frame)
     ImGui::PopTextWrapPos();
     figure(frame, "Last kept", left->saved);
     const std::filesystem::path& now = frame.state.document.session.file;
-    if (!now.empty() && !frame.ui.sample)
+    if (frame.state.document.session.part && !frame.ui.sample)
         muted(frame, fmt::format("To recover it closes {}.", now.filename().string()));
     ImGui::Dummy({0, 2 * frame.ui.scale});
     const auto answer = [&](LeftWork::Answer given) {
         left->answer = given;
         ImGui::CloseCurrentPopup();
     };
-    if (primary_button(frame, "Recover"))
+    if (primary_button(frame, "Recover") || enter_pressed(frame))
         answer(LeftWork::Answer::recover);
     if (ImGui::Button("Later", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE))
         answer(LeftWork::Answer::later);
@@ -143,6 +143,13 @@ void dialogs(Frame& frame)
         if (frame.ui.after_save) // asks again if saving fails
             frame.actions.push(*std::exchange(frame.ui.after_save, std::nullopt));
         break;
+    case FileDialog::Purpose::open_limit_curve: {
+        LimitsChoice choice = frame.state.document.limits;
+        choice.curve = LimitsOptions::Source::points;
+        choice.table = *path;
+        frame.actions.push(SetLimits{choice});
+        break;
+    }
     case FileDialog::Purpose::open_material: frame.actions.push(SetMaterial{path->string()}); break;
     case FileDialog::Purpose::save_report:
         frame.ui.reporting.file = path->string();

@@ -29,6 +29,7 @@ const Wording& wording(FileDialog::Purpose purpose)
     static const Wording part{"Open a part", "Open", {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"}, false, false};
     static const Wording project{"Open a project", "Open", {".spia"}, false, false};
     static const Wording material{"Choose a material file", "Choose", {".json"}, false, false};
+    static const Wording limits{"Choose a forming limit curve", "Choose", {".csv", ".txt"}, false, false};
     static const Wording save{"Save the project", "Save", {".spia"}, true, false};
     static const Wording folder{"Choose a folder", "Choose this folder", {}, false, true};
     static const Wording report{"Save the report", "Save", {".html"}, true, false};
@@ -37,6 +38,7 @@ const Wording& wording(FileDialog::Purpose purpose)
     case P::open_part: return part;
     case P::open_project: return project;
     case P::open_material: return material;
+    case P::open_limit_curve: return limits;
     case P::save_project: return save;
     case P::export_folder: return folder;
     case P::save_report: return report;
@@ -106,6 +108,7 @@ void FileDialog::go_to(const fs::path& folder)
     fs::directory_iterator files(folder, fs::directory_options::skip_permission_denied, failed);
     if (failed) {
         problem_ = fmt::format("{}: {}", folder.string(), failed.message());
+        path_text_ = folder_.string(); // where the list still is
         return;
     }
     problem_.clear();
@@ -125,7 +128,8 @@ void FileDialog::go_to(const fs::path& folder)
         if (!is_folder &&
             (words.folders || std::find(words.endings.begin(), words.endings.end(), ending) == words.endings.end()))
             continue;
-        entries_.push_back({file.path(), is_folder, is_folder ? 0 : file.file_size(ignored)});
+        const std::uintmax_t size = is_folder ? 0 : file.file_size(ignored);
+        entries_.push_back({file.path(), is_folder, ignored ? 0 : size}); // a broken link has no size
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
         return a.folder != b.folder ? a.folder : lower(a.path.filename().string()) < lower(b.path.filename().string());
@@ -212,6 +216,19 @@ std::optional<fs::path> FileDialog::take()
     return path.lexically_normal();
 }
 
+bool FileDialog::follow_path_text()
+{
+    const fs::path wanted = typed(path_text_);
+    if (wanted.empty() || wanted == folder_)
+        return true;
+    const std::string name = name_; // of the file to be saved there
+    std::error_code ignored;
+    go_to(fs::is_regular_file(wanted, ignored) ? wanted.parent_path() : wanted);
+    if (problem_.empty())
+        name_ = !wording(purpose_).folders && fs::is_regular_file(wanted, ignored) ? wanted.filename().string() : name;
+    return problem_.empty();
+}
+
 void FileDialog::new_folder_row(bool enter)
 {
     const float create = ImGui::CalcTextSize("Create").x + 2 * ImGui::GetStyle().FramePadding.x;
@@ -225,14 +242,18 @@ void FileDialog::new_folder_row(bool enter)
     ImGui::EndDisabled();
     if (new_folder_->empty() || !(pressed || enter))
         return;
+    if (!follow_path_text())
+        return;
     const fs::path folder = folder_ / *new_folder_;
     std::error_code failed;
     fs::create_directory(folder, failed);
     new_folder_.reset();
     if (failed)
         problem_ = fmt::format("{} cannot be made: {}", folder.string(), failed.message());
-    else
+    else {
         go_to(folder);
+        appearing_name_ = true;
+    }
 }
 
 std::optional<fs::path> FileDialog::show(const Frame& frame)
@@ -277,11 +298,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
     ImGui::SetNextItemWidth(makes_folders ? -button_width - ImGui::GetStyle().ItemSpacing.x : -1);
     text_input("##path", path_text_);
     if (std::exchange(path_active_, ImGui::IsItemActive()) && enter) {
-        const fs::path wanted = typed(path_text_);
-        std::error_code ignored;
-        go_to(fs::is_regular_file(wanted, ignored) ? wanted.parent_path() : wanted);
-        if (problem_.empty() && !words.folders && fs::is_regular_file(wanted, ignored))
-            name_ = wanted.filename().string();
+        follow_path_text();
     }
     if (makes_folders) {
         ImGui::SameLine();
@@ -309,7 +326,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
     }
     if (!words.folders) {
         ImGui::SetNextItemWidth(-1);
-        if (focus_name)
+        if (focus_name || std::exchange(appearing_name_, false))
             ImGui::SetKeyboardFocusHere();
         if (text_input("##name", name_, false, "File name")) {
             confirm_ = false;
@@ -331,7 +348,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         new_folder_.reset();
     }
     std::optional<fs::path> chosen;
-    if (stay && (button || taken_)) {
+    if (stay && (button || taken_) && follow_path_text()) {
         taken_ &= folder_chosen; // Return and a double click enter a folder, the button takes it
         chosen = take();
     }

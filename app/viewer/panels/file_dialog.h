@@ -19,7 +19,8 @@ public:
         export_folder,
         save_report,
         save_picture,
-        open_material
+        open_material,
+        open_limit_curve
     };
 
     /// @param suggestion file or folder to begin with; may be empty
@@ -40,11 +41,13 @@ private:
     void move_cursor(int rows);
     void list(const Frame& frame, float below);
     void new_folder_row(bool enter);
+    /// Goes to the folder that is typed, if it is another one. @returns whether there is none or it could be done
+    bool follow_path_text();
     /// What is chosen now: a folder is entered, a file returned if it can be.
     std::optional<std::filesystem::path> take();
 
     Purpose purpose_ = Purpose::open_part;
-    bool open_ = false, appearing_ = false;
+    bool open_ = false, appearing_ = false, appearing_name_ = false;
     std::filesystem::path folder_;
     std::string name_, path_text_, problem_;
     std::vector<Entry> entries_;

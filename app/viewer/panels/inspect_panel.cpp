@@ -69,9 +69,11 @@ void field_section(Frame& frame)
     }
     tooltip(std::string(shown.help));
     int per_face = display.per_face;
+    ImGui::BeginDisabled(display.field == Field::zone); // nothing lies between two zones
     changed |= ImGui::RadioButton("Smooth", &per_face, 0);
     ImGui::SameLine();
     changed |= ImGui::RadioButton("Per face", &per_face, 1);
+    ImGui::EndDisabled();
     display.per_face = per_face == 1;
     static constexpr const char* maps[] = {"automatic colours", "viridis", "diverging", "grey"};
     int map = display.map ? int(*display.map) + 1 : 0;
@@ -122,7 +124,7 @@ std::string heading(const Frame& frame, const std::string& title)
 void histogram_section(Frame& frame)
 {
     const Figures& now = figures(frame);
-    if (now.value.size() == 0 ||
+    if (now.value.size() == 0 || frame.state.document.display.field == Field::zone || // shares are in Forming limits
         !ImGui::CollapsingHeader(heading(frame, "Histogram").c_str(), ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const Histogram& h = now.histogram;
@@ -157,7 +159,7 @@ void histogram_section(Frame& frame)
 void worst_section(Frame& frame)
 {
     const Figures& now = figures(frame);
-    if (now.worst.empty() ||
+    if (now.worst.empty() || frame.state.document.display.field == Field::zone ||
         !ImGui::CollapsingHeader(heading(frame, "Worst spots").c_str(), ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const TriMesh& part = frame.state.document.session.part->mesh;
@@ -172,7 +174,11 @@ void worst_section(Frame& frame)
             frame.actions.push(FlyTo{f});
         tooltip("Click to look at it in every view");
         const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} mm", at[0] + 0., at[1] + 0., at[2] + 0.);
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x);
+        const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x,
+                    value_end = ImGui::CalcTextSize("8.  -88.8 %").x + 2 * ImGui::GetStyle().ItemSpacing.x;
+        if (right < value_end)
+            continue; // no room; the tooltip of the view has it
+        ImGui::SameLine(right);
         ImGui::TextDisabled("%s", place.c_str());
     }
 }
@@ -330,7 +336,7 @@ const Figures& figures(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     const FieldDisplay& display = frame.state.document.display;
-    return frame.ui.charts.figures.of({session.blank, session.surface, display.field, display.per_face},
+    return frame.ui.charts.figures.of({session.blank, session.limits, session.surface, display.field, display.per_face},
                                       [&] { return figures_of(session, display.field, display.per_face); });
 }
 
@@ -350,6 +356,7 @@ void inspect_panel(Frame& frame)
         probes_section(frame);
         section_plot(frame);
         strain_diagram(frame);
+        limits_section(frame);
         looks_section(frame);
     }
     ImGui::EndChild();

@@ -47,7 +47,7 @@ double lifetime(Severity severity)
     }
 }
 
-/// Those to be seen now, the gravest first, of these the newest.
+/// Those to be seen now: what was just done, then the gravest first, of these the newest.
 std::vector<Message> current(Frame& frame)
 {
     std::vector<Message> shown;
@@ -68,8 +68,12 @@ std::vector<Message> current(Frame& frame)
         shown.push_back(*message);
     }
     frame.ui.message_since = std::move(since);
-    std::stable_sort(shown.begin(), shown.end(),
-                     [](const Message& a, const Message& b) { return a.severity > b.severity; });
+    std::stable_sort(shown.begin(), shown.end(), [](const Message& a, const Message& b) {
+        const auto rank = [](const Message& m) {
+            return m.severity == Severity::done ? 10 : int(m.severity); // it goes by itself
+        };
+        return rank(a) > rank(b);
+    });
     return shown;
 }
 

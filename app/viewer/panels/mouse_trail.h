@@ -30,6 +30,7 @@ public:
     /// where it is. The frame after another is to come at once.
     std::optional<glm::dvec2> next()
     {
+        held_ = false;
         size_t take = events_.size();
         for (size_t k = 0; k < events_.size(); ++k)
             if (events_[k].down)
@@ -39,12 +40,14 @@ public:
         if (take == events_.size()) // releases alone
             take = events_.size() - 1;
         const glm::dvec2 place = events_[take].at;
+        held_ = events_[take].down;
         events_.erase(events_.begin(), events_.begin() + long(take) + 1);
         return place;
     }
 
-    /// Where it was with a button down since the last call, in order.
-    std::vector<glm::dvec2> take_path() { return std::exchange(path_, {}); }
+    /// Where it was with a button down since the last call, in order. In the frame of a press nothing: the way from there
+    /// belongs to the next one.
+    std::vector<glm::dvec2> take_path() { return held_ ? std::vector<glm::dvec2>{} : std::exchange(path_, {}); }
 
 private:
     static constexpr size_t most = 10'000; ///< places of one frame
@@ -55,7 +58,7 @@ private:
     std::optional<glm::dvec2> at_; ///< not before it has moved
     std::vector<Event> events_;
     std::vector<glm::dvec2> path_;
-    bool down_ = false;
+    bool down_ = false, held_ = false;
 };
 
 } // namespace spia::viewer

@@ -21,7 +21,7 @@ void residual_plot(Frame& frame)
     for (size_t k = 1; k < residual.size(); ++k)
         draw->AddLine({at.x + size.x * float(k - 1) / float(residual.size() - 1), height(residual[k - 1])},
                       {at.x + size.x * float(k) / float(residual.size() - 1), height(residual[k])}, ink(p.accent),
-                      1.6f);
+                      1.6f * frame.ui.scale);
     ImGui::Dummy(size);
     figure(frame, fmt::format("Residual, step {}", residual.size()).c_str(), fmt::format("{:.1e}", residual.back()));
 }

@@ -12,7 +12,8 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
     const Session& session = document.session;
     const Field field = document.display.field;
     return frame.ui.charts.section.of(
-        {session.part, session.blank, session.surface, field, document.section}, [&]() -> std::vector<SectionPiece> {
+        {session.part, session.blank, session.limits, session.surface, field, document.section},
+        [&]() -> std::vector<SectionPiece> {
             const auto& line = document.section;
             const TriMesh* mesh =
                 line ? frame.model.pickers().mesh(session, line->on_blank ? View::blank : View::part) : nullptr;
@@ -30,7 +31,7 @@ const std::vector<SectionPiece>& section_in(Frame& frame, View view)
     if (drawn.empty() || document.section->on_blank == (view == View::blank))
         return drawn;
     return frame.ui.charts.section_elsewhere.of(
-        {session.part, session.blank, session.surface, document.display.field, document.section},
+        {session.part, session.blank, session.limits, session.surface, document.display.field, document.section},
         [&]() -> std::vector<SectionPiece> {
             Pickers& pickers = frame.model.pickers();
             const TriMesh* from = pickers.mesh(session, document.section->on_blank ? View::blank : View::part);

@@ -1,10 +1,8 @@
-#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <fmt/core.h>
 
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
-#include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -68,8 +66,7 @@ void sheet_step(Frame& frame)
     tooltip(fmt::format("{}\n{}", material.name, material.source));
     double thickness = document.session.options.flatten.thickness;
     ImGui::SetNextItemWidth(110 * frame.ui.scale);
-    if (ImGui::InputDouble("Thickness, mm", &thickness, 0.05, 0.2, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue) ||
-        (ImGui::IsItemDeactivatedAfterEdit() && thickness != document.session.options.flatten.thickness))
+    if (typed_number(frame, "Thickness, mm", thickness, "%.3g", 0.05))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
 }
@@ -103,17 +100,10 @@ void direction_control(Frame& frame)
             : "Stamping direction, that of the press. It gives the unfolding its start, the plane of the blank and its outer side.");
     if (now != 4)
         return;
-    static constexpr const char* ids[] = {"##x", "##y", "##z"};
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
     Eigen::Vector3d edited = *chosen;
-    for (int k = 0; k < 3; ++k) {
-        if (k > 0)
-            ImGui::SameLine(0, gap);
-        ImGui::SetNextItemWidth(width);
-        ImGui::InputDouble(ids[k], &edited[k], 0, 0, "%.4g");
-        if (ImGui::IsItemDeactivatedAfterEdit())
-            frame.actions.push(SetDirection{edited});
-    }
+    ImGui::SetNextItemWidth(-1);
+    if (typed_numbers(frame, "##direction", edited.data(), 3, "%.4g"))
+        frame.actions.push(SetDirection{edited});
 }
 
 void unfold_step(Frame& frame)
@@ -195,17 +185,14 @@ void grid_step(Frame& frame)
     }
     tooltip("Only the cells on the longer sides are chosen, the others follow");
     ImGui::SetNextItemWidth(width);
-    const auto edited = [&] { return ImGui::IsItemDeactivatedAfterEdit(); };
     if (automatic) {
-        ImGui::InputInt("Cells", &grid.cells, 5, 20);
+        changed |= typed_integer(frame, "Cells", grid.cells, 5);
         grid.cells = std::clamp(grid.cells, 1, 2000);
-        changed |= edited() || (grid.cells != session.options.grid.cells && !ImGui::IsItemActive());
     } else {
-        int counts[2] = {grid.columns, grid.rows};
-        ImGui::InputInt2("Columns, rows", counts);
-        changed |= edited();
-        grid.columns = std::clamp(counts[0], 1, 2000);
-        grid.rows = std::clamp(counts[1], 1, 2000);
+        double counts[] = {double(grid.columns), double(grid.rows)};
+        changed |= typed_numbers(frame, "Columns, rows", counts, 2, "%.0f");
+        grid.columns = int(std::clamp(counts[0], 1., 2000.));
+        grid.rows = int(std::clamp(counts[1], 1., 2000.));
     }
     static constexpr const char* methods[] = {"automatic", "Coons", "harmonic"};
     int method = int(grid.method);
@@ -218,9 +205,8 @@ void grid_step(Frame& frame)
         "Coons is the paper's patch, smoothed if it folds; automatic falls back on the harmonic map, which folds no cell");
     if (grid.method != GridMethod::harmonic) {
         ImGui::SetNextItemWidth(width);
-        ImGui::InputInt("Smoothing", &grid.smoothing, 10, 50);
+        changed |= typed_integer(frame, "Smoothing", grid.smoothing, 10);
         grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
-        changed |= edited() || (grid.smoothing != session.options.grid.smoothing && !ImGui::IsItemActive());
         tooltip("The most Laplacian sweeps over a Coons patch that folds");
     }
     if (changed)
@@ -282,101 +268,6 @@ void surface_step(Frame& frame)
                        std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
 }
 
-constexpr const char* kinds[] = {"fixed", "binder", "pad", "material", "other"};
-
-/// Name and kind of a region, to be changed in its row.
-void edit_region(Frame& frame, int number, const FaceRegion& region)
-{
-    EditedRegion& edited = *frame.ui.edited_region;
-    const float gap = 4 * frame.ui.scale, done = ImGui::CalcTextSize("ok").x + 2 * ImGui::GetStyle().FramePadding.x,
-                kind_width = 92 * frame.ui.scale;
-    ImGui::SetNextItemWidth(
-        std::max(40 * frame.ui.scale, ImGui::GetContentRegionAvail().x - done - kind_width - 2 * gap));
-    if (std::exchange(edited.appears, false))
-        ImGui::SetKeyboardFocusHere();
-    text_input("##name", edited.name, false, "name");
-    const bool leaves = pressed(frame, GLFW_KEY_ESCAPE), takes = enter_pressed(frame);
-    if (!leaves && (ImGui::IsItemDeactivatedAfterEdit() || takes) && !edited.name.empty() && edited.name != region.name)
-        frame.actions.push(ChangeRegion{number, edited.name, region.kind, region.colour});
-    ImGui::SameLine(0, gap);
-    int kind = int(region.kind);
-    ImGui::SetNextItemWidth(kind_width);
-    if (ImGui::Combo("##kind", &kind, kinds, 5))
-        frame.actions.push(
-            ChangeRegion{number, edited.name.empty() ? region.name : edited.name, RegionKind(kind), region.colour});
-    ImGui::SameLine(0, gap);
-    if (ImGui::Button("ok") || leaves || takes)
-        frame.ui.edited_region.reset();
-}
-
-void region_row(Frame& frame, int number, const FaceRegion& region)
-{
-    Colour colour = region.colour;
-    if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
-        frame.actions.push(ChangeRegion{number, region.name, region.kind, colour});
-    ImGui::SameLine();
-    if (frame.ui.edited_region && frame.ui.edited_region->region == number)
-        return edit_region(frame, number, region);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float buttons =
-        ImGui::CalcTextSize("edit").x + ImGui::CalcTextSize("x").x + 4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
-    const float row = std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons);
-    const std::string label =
-        fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)], region.faces.size());
-    bool edit = false;
-    ImGui::AlignTextToFramePadding();
-    if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {row, 0})) {
-        edit = ImGui::IsMouseDoubleClicked(0);
-        if (!edit)
-            frame.actions.push(SelectRegion{number, ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
-    }
-    tooltip(fmt::format("{}: {} region of {} faces. A click selects them, a double click changes name and kind.",
-                        region.name, name(region.kind), region.faces.size()));
-    ImGui::SameLine();
-    edit |= ImGui::Button("edit");
-    tooltip("Change name and kind");
-    ImGui::SameLine();
-    if (ImGui::Button("x")) {
-        frame.actions.push(RemoveRegion{number});
-        frame.ui.edited_region.reset(); // the numbers of those after it change
-    }
-    tooltip("Remove this region (its faces stay)");
-    if (edit)
-        frame.ui.edited_region = edit_of(frame.state.document, number);
-}
-
-void regions_section(Frame& frame)
-{
-    const Document& document = frame.state.document;
-    if (frame.ui.edited_region && !still_there(*frame.ui.edited_region, document))
-        frame.ui.edited_region.reset();
-    if (!document.session.part || !ImGui::CollapsingHeader("Regions", ImGuiTreeNodeFlags_DefaultOpen))
-        return;
-    const Palette p = palette_of(frame.state.view.dark);
-    for (size_t k = 0; k < document.regions.size(); ++k) {
-        ImGui::PushID(int(k));
-        region_row(frame, int(k), document.regions[k]);
-        ImGui::PopID();
-    }
-    if (document.selected.empty()) {
-        coloured(p.muted, document.regions.empty()
-                              ? "Select faces with a picking tool, then name them here: fixed region, binder, pad."
-                              : "Select faces to make another region.");
-        return;
-    }
-    int kind = int(frame.ui.region_kind);
-    ImGui::SetNextItemWidth(90 * frame.ui.scale);
-    if (ImGui::Combo("##kind", &kind, kinds, 5))
-        frame.ui.region_kind = RegionKind(kind);
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    text_input("##regionname", frame.ui.region_name, false, "name (optional)");
-    if (ImGui::Button(fmt::format("Make region of {} faces", document.selected.size()).c_str(), {-1, 0})) {
-        frame.actions.push(MakeRegion{frame.ui.region_name, frame.ui.region_kind});
-        frame.ui.region_name.clear();
-    }
-}
-
 } // namespace
 
 void steps_panel(Frame& frame)
@@ -392,6 +283,7 @@ void steps_panel(Frame& frame)
     surface_step(frame);
     ImGui::Dummy({0, 4 * frame.ui.scale});
     regions_section(frame);
+    process_section(frame);
     ImGui::EndChild();
     const Document& document = frame.state.document;
     ImGui::Dummy({0, 1});
@@ -403,7 +295,9 @@ void steps_panel(Frame& frame)
         if (primary_button(frame, "Open a part..."))
             choose_part(frame);
     } else if (first_stale(document)) {
-        if (primary_button(frame, document.session.surface ? "Update all" : "Unfold and fit a surface"))
+        if (primary_button(frame, document.session.surface ? "Update all"
+                                  : document.session.blank ? "Make grid and surface"
+                                                           : "Unfold and fit a surface"))
             frame.actions.push(RunTo{Stage::fit});
         tooltip("Runs every step that is missing or out of date  (F5)");
     } else if (primary_button(frame, "Export..."))

@@ -30,12 +30,14 @@ struct Axes {
 };
 
 /// The plane reaches well above the points and to either side of pure plane strain: there runs the limit of forming.
-Axes axes_of(const SheetFigures& sheet, ImVec2 low, ImVec2 high)
+Axes axes_of(const SheetFigures& sheet, const FormingLimitCurve* curve, ImVec2 low, ImVec2 high)
 {
     constexpr double above = 1.3, least_height = 0.1, least_width = 0.1;
     return {round_range(std::min(1.1 * sheet.strain_minor[0], -least_width),
                         std::max(1.1 * sheet.strain_minor[1], least_width)),
-            round_range(std::min(sheet.strain_major[0], 0.), std::max(above * sheet.strain_major[1], least_height)),
+            round_range(std::min(sheet.strain_major[0], 0.),
+                        std::max({above * sheet.strain_major[1], least_height,
+                                  curve ? std::min(above * curve->at_plane_strain(), 3 * sheet.strain_major[1]) : 0})),
             low, high};
 }
 
@@ -70,15 +72,51 @@ void draw_axes(const Frame& frame, const Axes& axes, ImDrawList* draw)
     draw->AddLine(axes.place(0, axes.major.least), axes.place(0, axes.major.greatest), ink(p.muted), 1.5f * s);
 }
 
-/// The fuller a square, the more solid; red by the share of faces beyond the trusted strain.
+/// What is red: beyond the forming limit; without a curve beyond the trusted strain.
+Eigen::VectorXi marked(const Session& session)
+{
+    if (!session.limits || !session.limits->curve)
+        return session.blank->face.necking;
+    const std::vector<Zone>& zone = session.limits->zones.zone;
+    Eigen::VectorXi crack(Eigen::Index(zone.size()));
+    std::transform(zone.begin(), zone.end(), crack.begin(), [](Zone each) { return int(each == Zone::crack); });
+    return crack;
+}
+
+/// The forming limit and, dashed, where the margin below it begins.
+void draw_limit(const Frame& frame, const LimitsResult& limits, const Axes& axes, ImDrawList* draw)
+{
+    if (!limits.curve)
+        return;
+    const Palette p = palette_of(frame.state.view.dark);
+    const float s = frame.ui.scale;
+    draw->PushClipRect({axes.low.x, axes.high.y}, {axes.high.x, axes.low.y}, true);
+    constexpr int pieces = 96;
+    for (const bool margin : {false, true}) {
+        const auto at = [&](int k) {
+            const double minor = axes.minor.least + (axes.minor.greatest - axes.minor.least) * k / pieces;
+            const double limit = (*limits.curve)(minor);
+            return axes.place(
+                minor, margin ? logarithmic_strain(std::max(engineering_strain(limit) - limits.settings.margin, -0.9))
+                              : limit);
+        };
+        for (int k = 0; k < pieces; ++k)
+            if (!margin || k % 3 != 2)
+                draw->AddLine(at(k), at(k + 1), ink(margin ? p.warning : p.error), (margin ? 1.2f : 1.8f) * s);
+    }
+    draw->PopClipRect();
+}
+
+/// The fuller a square, the more solid; red by the share of marked faces.
 void draw_cloud(Frame& frame, const SheetFields& face, const Axes& axes, ImDrawList* draw)
 {
+    const Session& session = frame.state.document.session;
     const Palette p = palette_of(frame.state.view.dark);
     const float s = frame.ui.scale, square = 2 * s;
     const int columns = std::max(1, int((axes.high.x - axes.low.x) / square)),
               rows = std::max(1, int((axes.low.y - axes.high.y) / square));
-    const PointCloud& cloud = frame.ui.charts.strains.of({frame.state.document.session.blank, columns, rows}, [&] {
-        return count_points(face.strain_minor, face.strain_major, face.necking, axes.range(), columns, rows);
+    const PointCloud& cloud = frame.ui.charts.strains.of({session.blank, session.limits, columns, rows}, [&] {
+        return count_points(face.strain_minor, face.strain_major, marked(session), axes.range(), columns, rows);
     });
     const float wide = (axes.high.x - axes.low.x) / float(columns), high = (axes.low.y - axes.high.y) / float(rows);
     const double fullest = std::log1p(cloud.most);
@@ -127,19 +165,24 @@ void strain_diagram(Frame& frame)
     if (!document.session.blank)
         return;
     const bool open = ImGui::CollapsingHeader("Strain diagram", ImGuiTreeNodeFlags_DefaultOpen);
-    tooltip("Every face as a point: major over minor strain; the more of them, the more solid. Red: beyond the trusted "
-            "strain. Click a point to select its face, drag a box to select many.");
+    tooltip(
+        "Every face as a point: major over minor logarithmic strain; the more of them, the more solid. Red line: forming "
+        "limit, dashed: margin. Red points: beyond the limit, or without a curve beyond the trusted strain. Click a point to select its face, drag a box to select many.");
     if (!open)
         return;
     const SheetFields& face = document.session.blank->face;
     const float s = frame.ui.scale, side = ImGui::GetContentRegionAvail().x, height = std::min(side, 260 * s);
     const float line = frame.ui.fonts.small->FontSize;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const Axes axes = axes_of(sheet_figures(frame), {at.x + 38 * s, at.y + height - 2 * line - 6 * s},
+    const auto& limits = document.session.limits;
+    const FormingLimitCurve* curve = limits && limits->curve ? &*limits->curve : nullptr;
+    const Axes axes = axes_of(sheet_figures(frame), curve, {at.x + 38 * s, at.y + height - 2 * line - 6 * s},
                               {at.x + side - 4 * s, at.y + 1.5f * line + 4 * s});
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw_axes(frame, axes, draw);
     draw_cloud(frame, face, axes, draw);
+    if (limits)
+        draw_limit(frame, *limits, axes, draw);
     ImGui::InvisibleButton("diagram", {side, height});
     if (ImGui::IsItemHovered()) { // above the diagram, where no points are
         const Eigen::Vector2d here = axes.strains(ImGui::GetMousePos());

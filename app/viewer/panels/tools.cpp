@@ -1,6 +1,8 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <fmt/core.h>
+#include <imgui.h>
+#include <imgui_internal.h> // ClearActiveID
 
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
@@ -27,6 +29,9 @@ constexpr ToolButton tools[] = {
      "Pick vertices of the outline and the holes; sharp turns attract the mouse. Four of the outline can become the corners "
      "of the grid  (G)",
      GLFW_KEY_G},
+    {Tool::line, "Line",
+     "Draw a drawbead or a pilot on the part, place by place; Return or a double click ends it, Escape drops it  (W)",
+     GLFW_KEY_W},
     {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
     {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
     {Tool::corners, "Corners", "Drag the four corners along the outline of the blank  (C)", GLFW_KEY_C},
@@ -43,7 +48,7 @@ bool begins_group(Tool tool) { return tool == Tool::pick || tool == Tool::vertex
 
 bool has_options(Tool tool)
 {
-    return tool == Tool::flood || tool == Tool::brush || tool == Tool::box || tool == Tool::lasso;
+    return tool == Tool::line || tool == Tool::flood || tool == Tool::brush || tool == Tool::box || tool == Tool::lasso;
 }
 
 /// How the tools and their options fit into the bar.
@@ -69,7 +74,7 @@ void pop(const BarStyle& style)
     ImGui::PopFont();
 }
 
-constexpr const char* hidden_too = "Hidden too";
+constexpr const char* hidden_too = "Hidden";
 
 BarStyle bar_style(const Frame& frame, float width)
 {
@@ -90,7 +95,7 @@ BarStyle bar_style(const Frame& frame, float width)
     };
     if (most() <= width)
         return style;
-    style = {true, false, 2 * s, 6 * s, 76 * s};
+    style = {true, false, 2 * s, 6 * s, 56 * s};
     push(frame, style);
     style.two_rows = has_options(frame.state.view.tool) && most() > width;
     pop(style);
@@ -102,13 +107,26 @@ void tool_options(Frame& frame, const BarStyle& style)
     ViewSettings settings = frame.state.view;
     bool changed = false;
     ImGui::SetNextItemWidth(style.slider);
+    if (settings.tool == Tool::line) {
+        ImGui::SetNextItemWidth(std::max(style.slider, 92 * frame.ui.scale));
+        int kind = int(frame.ui.line_kind);
+        if (ImGui::Combo("##kind", &kind, "drawbead\0pilot\0"))
+            frame.ui.line_kind = LineKind(kind);
+        ImGui::SameLine();
+        ImGui::BeginDisabled(frame.ui.line.empty());
+        if (ImGui::Button("End line"))
+            end_line(frame);
+        ImGui::EndDisabled();
+        tooltip("Also Return, or a double click");
+        return;
+    }
     if (settings.tool == Tool::flood) {
         float angle = float(settings.flood_angle);
-        changed = ImGui::SliderFloat("##angle", &angle, 1, 90, "up to %.0f deg");
+        changed = ImGui::SliderFloat("##angle", &angle, 1, 90, style.compact ? "%.0f deg" : "up to %.0f deg");
         settings.flood_angle = angle;
     } else if (settings.tool == Tool::brush) {
         float radius = float(settings.brush_radius);
-        changed = ImGui::SliderFloat("##radius", &radius, 4, 100, "radius %.0f px");
+        changed = ImGui::SliderFloat("##radius", &radius, 4, 100, style.compact ? "%.0f px" : "radius %.0f px");
         settings.brush_radius = radius;
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     }
@@ -159,8 +177,18 @@ float tool_bar_height(const Frame& frame, float width)
 void shortcuts(Frame& frame)
 {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
+    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
         return;
+    if (io.WantTextInput) { // what is typed is taken first, then the key counts; undo is that of the text
+        for (const KeyPress& press : frame.ui.keys)
+            if ((press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F12) ||
+                (press.modifiers == GLFW_MOD_CONTROL && (press.key == GLFW_KEY_S || press.key == GLFW_KEY_E ||
+                                                         press.key == GLFW_KEY_O || press.key == GLFW_KEY_Q)))
+                frame.ui.keys_later.push_back(press);
+        if (!frame.ui.keys_later.empty())
+            ImGui::ClearActiveID();
+        return;
+    }
     const auto pressed = [&](int key) {
         return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
                            [&](const KeyPress& press) { return press.key == key; });
@@ -234,11 +262,15 @@ void shortcuts(Frame& frame)
     if (pressed(GLFW_KEY_ESCAPE)) {
         if (frame.ui.show_shortcuts || frame.ui.show_messages)
             frame.ui.show_shortcuts = frame.ui.show_messages = false;
+        else if (!frame.ui.line.empty())
+            frame.ui.line.clear();
         else if (frame.state.job.running)
             frame.actions.push(CancelJob{});
         else
             frame.actions.push(ClearSelection{});
     }
+    if ((pressed(GLFW_KEY_ENTER) || pressed(GLFW_KEY_KP_ENTER)) && !frame.ui.line.empty())
+        end_line(frame);
     if (pressed(GLFW_KEY_F1))
         frame.ui.show_shortcuts = !frame.ui.show_shortcuts;
     const bool narrow = is_narrow(io.DisplaySize.x, frame.ui.scale);

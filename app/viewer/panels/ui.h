@@ -37,6 +37,13 @@ struct LeftWork {
     Answer answer = Answer::none;
 };
 
+/// What is being typed into a field, until typing ends.
+struct Typed {
+    ImGuiID id = 0;
+    std::array<double, 3> number{};
+    std::string text;
+};
+
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
@@ -48,7 +55,9 @@ struct Ui {
     std::map<int, double> message_since;                                 ///< seconds; by number
     double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
-    std::vector<KeyPress> keys;      ///< pressed since the last frame
+    std::vector<KeyPress> keys;       ///< pressed since the last frame
+    std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
+    std::optional<Typed> typed;
     std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
 
     // the view the mouse is busy in
@@ -60,6 +69,8 @@ struct Ui {
     bool corner_moved = false;     ///< since it was taken
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::vector<glm::dvec2> path;  ///< where the mouse went since the last frame, a button down, pixels of the window
+    std::vector<Eigen::Vector3d> line; ///< being drawn: places on the part, mm
+    LineKind line_kind = LineKind::drawbead;
     std::array<ImVec2, 4> view_from{}, view_size{};
     std::array<LabelPlaces, 4> labels;
 
@@ -102,6 +113,11 @@ struct Frame {
 
 void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);
+/// Drawbeads, pilots, the held edge, the rolling direction.
+void process_section(Frame& frame);
+/// Makes a drawbead or a pilot of the line that was drawn.
+void end_line(Frame& frame);
+void regions_section(Frame& frame);
 /// What the mesh doctor found, where, and what can be done about it.
 void doctor_panel(Frame& frame);
 /// Residual of the running job over its steps, logarithmic; nothing before there are two.

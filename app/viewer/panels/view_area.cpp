@@ -96,7 +96,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::TextUnformatted(title(view));
     ImGui::PopFont();
     ImGui::PushFont(frame.ui.fonts.small);
-    const bool old = is_old(frame.state, view);
+    const bool old = is_old(frame.state, view) && !frame.ui.dragged_corner; // the quads follow it
     if (old) {
         ImGui::SameLine();
         ImGui::TextColored(p.warning, "old");
@@ -189,6 +189,8 @@ void end_drags(Frame& frame)
     ui.busy.reset();
     ui.turning = ui.panning = false;
     ui.trail.clear();
+    if (frame.state.view.tool != Tool::line || !frame.state.document.session.part)
+        ui.line.clear();
     const auto& grid = frame.state.document.session.grid;
     if (ui.dragged_corner && ui.corner_moved && grid)
         frame.actions.push(SetCorner{*ui.dragged_corner, grid->boundary.corner[size_t(*ui.dragged_corner)], false});

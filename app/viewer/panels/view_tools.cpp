@@ -50,6 +50,35 @@ std::vector<glm::dvec2> way_since_last_frame(const Ui& ui, const Mouse& mouse, I
     return way;
 }
 
+/// A polyline on the part, place by place.
+void draw_line(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
+{
+    Ui& ui = frame.ui;
+    if (view != View::part)
+        return;
+    const Session& session = frame.state.document.session;
+    const Camera& camera = frame.state.view.camera[size_t(view)];
+    if (mouse.inside && ImGui::IsMouseDoubleClicked(0)) // its first click has set the last place
+        end_line(frame);
+    else if (mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy) {
+        Pickers& pickers = frame.model.pickers();
+        const RayPicker* picker = pickers.picker(session, view);
+        const TriMesh& part = session.part->mesh;
+        if (const auto hit = picker ? probe_at(camera, part, *picker, mouse.pixel, mouse.size) : std::nullopt)
+            ui.line.push_back(part.position(Eigen::all, part.triangle.col(hit->face)) * hit->barycentric);
+    }
+    const ImU32 colour = ink(palette_of(frame.state.view.dark).accent);
+    std::vector<ImVec2> shown;
+    for (const Eigen::Vector3d& place : ui.line) {
+        const glm::dvec3 pixel = pixel_of(camera, place, mouse.size);
+        shown.push_back({from.x + float(pixel.x), from.y + float(pixel.y)});
+        draw->AddCircleFilled(shown.back(), 4 * ui.scale, colour);
+    }
+    if (!shown.empty() && mouse.inside)
+        shown.push_back(ImGui::GetMousePos());
+    draw->AddPolyline(shown.data(), int(shown.size()), colour, ImDrawFlags_None, 2 * ui.scale);
+}
+
 } // namespace
 
 void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
@@ -79,28 +108,30 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
             if (!picker)
                 return;
             if (const auto probe = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker,
-                                            mouse.pixel, mouse.size))
+                                            mouse.pixel, mouse.size, 0))
                 frame.actions.push(AddProbe{*probe});
         }
         return;
+    case Tool::line: draw_line(frame, view, mouse, from, draw); return;
     case Tool::vertex:
     case Tool::outline:
         if (clicked)
             frame.actions.push(PickVertex{view, mouse.pixel, mouse.size, pick_mode(), settings.tool == Tool::outline,
                                           PickVertex{}.reach * ui.scale});
         return;
-    case Tool::brush:
+    case Tool::brush: {
+        const double radius = settings.brush_radius * ui.scale; // pixels of the screen
         if (clicked) {
             ui.busy = view;
             ui.trail.clear();
         }
         if (mouse.inside)
-            draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)},
-                            float(settings.brush_radius), ink(p.accent), 32, 1.5f);
+            draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)}, float(radius),
+                            ink(p.accent), 32, 1.5f * ui.scale);
         if (ui.busy == view && !ui.turning && !ui.panning) {
             const auto touch = [&](glm::dvec2 place) {
                 const bool first = ui.trail.empty();
-                frame.actions.push(PickBrush{view, place, settings.brush_radius, mouse.size,
+                frame.actions.push(PickBrush{view, place, radius, mouse.size,
                                              pick_mode() == PickMode::replace && !first ? PickMode::add : pick_mode(),
                                              settings.through});
                 ui.trail = {place};
@@ -109,7 +140,7 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                 touch(mouse.pixel);
             for (const glm::dvec2& place : way_since_last_frame(ui, mouse, from)) {
                 const glm::dvec2 way = place - ui.trail[0], begin = ui.trail[0];
-                const int touches = int(glm::length(way) / (0.5 * settings.brush_radius));
+                const int touches = int(glm::length(way) / (0.5 * radius));
                 for (int k = 1; k <= touches; ++k)
                     touch(begin + way * (double(k) / touches));
             }
@@ -119,6 +150,7 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
             }
         }
         return;
+    }
     case Tool::section:
         if (clicked) {
             ui.busy = view;
@@ -127,9 +159,9 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
         if (ui.busy != view || ui.trail.empty())
             return;
         draw->AddLine({from.x + float(ui.trail[0].x), from.y + float(ui.trail[0].y)}, ImGui::GetMousePos(),
-                      ink(p.accent), 2);
+                      ink(p.accent), 2 * ui.scale);
         if (!ImGui::IsMouseDown(0)) {
-            if (glm::length(ui.trail[0] - mouse.pixel) > 4)
+            if (glm::length(ui.trail[0] - mouse.pixel) > 4 * ui.scale)
                 frame.actions.push(DrawSection{view, ui.trail[0], mouse.pixel, mouse.size});
             ui.trail.clear();
             ui.busy.reset();
@@ -154,7 +186,7 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
             std::vector<ImVec2> shown;
             for (const glm::dvec2& point : ui.trail)
                 shown.push_back({from.x + float(point.x), from.y + float(point.y)});
-            draw->AddPolyline(shown.data(), int(shown.size()), ink(p.accent), ImDrawFlags_Closed, 1.5f);
+            draw->AddPolyline(shown.data(), int(shown.size()), ink(p.accent), ImDrawFlags_Closed, 1.5f * ui.scale);
         }
         if (!ImGui::IsMouseDown(0)) {
             frame.actions.push(PickArea{view, ui.trail, mouse.size, pick_mode(), settings.through});

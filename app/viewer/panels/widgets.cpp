@@ -1,5 +1,11 @@
 #include "app/viewer/panels/widgets.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/viewer/panels/text_input.h"
+
 namespace spia::viewer {
 
 bool small_button(const Frame& frame, const char* label)
@@ -31,6 +37,58 @@ bool primary_button(const Frame& frame, const char* label, bool enabled)
         coloured_button(frame, label, {-1, ImGui::GetFrameHeight() * 1.15f}, palette_of(frame.state.view.dark).accent);
     ImGui::EndDisabled();
     return pressed;
+}
+
+bool typed_numbers(Frame& frame, const char* label, double* value, int count, const char* format, double step)
+{
+    auto& typed = frame.ui.typed;
+    const ImGuiID id = ImGui::GetID(label);
+    const bool typing = typed && typed->id == id;
+    std::array<double, 3> shown{};
+    std::copy_n(typing ? typed->number.data() : value, count, shown.begin());
+    if (count == 1)
+        ImGui::InputScalar(label, ImGuiDataType_Double, shown.data(), step > 0 ? &step : nullptr, nullptr, format);
+    else
+        ImGui::InputScalarN(label, ImGuiDataType_Double, shown.data(), count, nullptr, nullptr, format);
+    if (ImGui::IsItemActive()) {
+        typed = Typed{id, shown, {}};
+        return false;
+    }
+    if (typing)
+        typed.reset();
+    if (std::equal(shown.begin(), shown.begin() + count, value))
+        return false;
+    std::copy_n(shown.begin(), count, value);
+    return true;
+}
+
+bool typed_integer(Frame& frame, const char* label, int& value, int step)
+{
+    double number = value;
+    if (!typed_number(frame, label, number, "%.0f", step))
+        return false;
+    constexpr double most = 1e9;
+    value = int(std::lround(std::clamp(number, -most, most)));
+    return true;
+}
+
+bool typed_text(Frame& frame, const char* label, std::string& text, const char* hint)
+{
+    auto& typed = frame.ui.typed;
+    const ImGuiID id = ImGui::GetID(label);
+    const bool typing = typed && typed->id == id;
+    std::string shown = typing ? typed->text : text;
+    text_input(label, shown, false, hint);
+    if (ImGui::IsItemActive()) {
+        typed = Typed{id, {}, std::move(shown)};
+        return false;
+    }
+    if (typing)
+        typed.reset();
+    if (shown == text || shown.empty())
+        return false;
+    text = std::move(shown);
+    return true;
 }
 
 PickMode pick_mode()

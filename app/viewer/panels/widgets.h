@@ -34,6 +34,18 @@ void tooltip(const std::string& text);
 /// A button with white bold letters on a colour.
 bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const ImVec4& colour);
 
+/// Numbers that are typed, one to three in a row; with a step they have buttons. What is typed counts when typing ends, by
+/// Return, Tab, a shortcut or a click elsewhere; Escape takes it back.
+/// @param value the numbers now. @returns whether they have just been changed, in `value`
+bool typed_numbers(Frame& frame, const char* label, double* value, int count, const char* format, double step = 0);
+inline bool typed_number(Frame& frame, const char* label, double& value, const char* format, double step = 0)
+{
+    return typed_numbers(frame, label, &value, 1, format, step);
+}
+bool typed_integer(Frame& frame, const char* label, int& value, int step = 0);
+/// The same for a line of text. An empty one is no change.
+bool typed_text(Frame& frame, const char* label, std::string& text, const char* hint);
+
 /// What picking does with what is picked: Shift adds, Ctrl takes away.
 PickMode pick_mode();
 

@@ -74,8 +74,9 @@ void status_bar(Frame& frame)
     const Field field = state.document.display.field;
     if (field != Field::none && available(session, field)) {
         const bool per_face = state.document.display.per_face && !vertex;
-        const Eigen::VectorXd& value = frame.ui.charts.values.of({session.blank, session.surface, field, per_face},
-                                                                 [&] { return values(session, field, per_face); });
+        const Eigen::VectorXd& value =
+            frame.ui.charts.values.of({session.blank, session.limits, session.surface, field, per_face},
+                                      [&] { return values(session, field, per_face); });
         double here = 0;
         if (vertex)
             here = value[*vertex];

@@ -48,7 +48,8 @@ glm::dmat4 Tile::zoom() const
 SceneDrawer::SceneDrawer(const std::filesystem::path& folder)
     : background_shader_(folder, "background"), mesh_shader_(folder, "mesh"), line_shader_(folder, "line"),
       point_shader_(folder, "point"), maps_{map_texture(ColourMap::viridis), map_texture(ColourMap::diverging),
-                                            map_texture(ColourMap::grey), map_texture(ColourMap::quality)}
+                                            map_texture(ColourMap::grey), map_texture(ColourMap::quality),
+                                            map_texture(ColourMap::zones)}
 {
     check_gl("preparing the shaders");
 }

@@ -51,7 +51,7 @@ private:
     static void place(ShaderProgram& shader, const Pass& pass, const Eigen::Vector3d& origin);
 
     ShaderProgram background_shader_, mesh_shader_, line_shader_, point_shader_;
-    std::array<Texture, 4> maps_; ///< by ColourMap
+    std::array<Texture, 5> maps_; ///< by ColourMap
     VertexArray no_vertices_;
     Uploads uploads_;
     int pictures_ = 0;

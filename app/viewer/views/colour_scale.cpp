@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/viewer/model/zone_look.h"
+
 namespace spia::viewer {
 namespace {
 
@@ -75,7 +77,9 @@ double least_range(Field field, double size)
     case Field::stress_minor:
     case Field::stress_equivalent: return 0.1; // MPa
     case Field::deviation: return 1e-6 * size;
+    case Field::limit_distance: return 100 * strain; // %
     case Field::necking:
+    case Field::zone:
     case Field::none: return 0;
     }
     return 0;
@@ -105,7 +109,15 @@ ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>
 {
     const bool diverging = info(display.field).diverging;
     ColourScale scale;
-    scale.map = display.map.value_or(diverging ? ColourMap::diverging : ColourMap::viridis);
+    if (display.field == Field::zone) { // a colour for each
+        scale.map = ColourMap::zones;
+        scale.least = -0.5f, scale.greatest = float(zone_count) - 0.5f;
+        scale.bands = scale.ticks = zone_count;
+        return scale;
+    }
+    scale.map = display.map.value_or(diverging                                ? ColourMap::diverging
+                                     : display.field == Field::limit_distance ? ColourMap::quality
+                                                                              : ColourMap::viridis);
     scale.bands = display.bands;
     scale.isolines = display.isolines;
     if (display.range) {
@@ -153,15 +165,31 @@ bool above(const ColourScale& scale, double value)
 
 std::vector<LegendTick> legend_ticks(const SceneLegend& legend, int most)
 {
+    if (legend.scale.map == ColourMap::zones) {
+        std::vector<LegendTick> names;
+        for (int k = 0; k < zone_count; ++k)
+            names.push_back({(k + 0.5) / zone_count, zone_words(Zone(k))});
+        return names;
+    }
     const std::vector<double> values = tick_values(legend.scale);
-    const int last = int(values.size()) - 1, every = (last + std::max(1, most - 1) - 1) / std::max(1, most - 1);
+    const int last = int(values.size()) - 1;
+    const auto zero = std::find_if(values.begin(), values.end(), [&](double value) {
+        return std::abs(value) < 1e-6 * (values.back() - values.front());
+    });
+    const int middle = zero == values.end() ? -1 : int(zero - values.begin());
     std::vector<LegendTick> ticks;
-    for (int k = 0; k <= last; ++k) {
-        const bool fits = k % every == 0 && (k + every <= last || k == last); // the upper end is always told
-        if (!fits && k != last)
-            continue;
-        const char* sign = k == 0 && legend.below ? "\u2264 " : k == last && legend.above ? "\u2265 " : "";
-        ticks.push_back({double(k) / last, sign + tick_text(legend.scale, values[size_t(k)])});
+    for (int every = 1; every <= last + 1; ++every) { // the closest row with both ends and zero that there is room for
+        ticks.clear();
+        for (int k = 0; k <= last; ++k) {
+            const bool end = k == 0 || k == last, in_row = (k - std::max(middle, 0)) % every == 0,
+                       crowded = 2 * std::min(k, last - k) < every; // covers the text of an end
+            if (!end && !(k == middle && every <= last) && (!in_row || crowded))
+                continue;
+            const char* sign = k == 0 && legend.below ? "\u2264 " : k == last && legend.above ? "\u2265 " : "";
+            ticks.push_back({double(k) / last, sign + tick_text(legend.scale, values[size_t(k)])});
+        }
+        if (int(ticks.size()) <= most)
+            break;
     }
     return ticks;
 }
@@ -172,8 +200,10 @@ std::string value_text(double value, std::string_view unit)
     const double size = std::abs(value);
     if (!std::isfinite(value))
         return "no value";
+    if (unit == info(Field::zone).unit)
+        return zone_words(Zone(std::clamp(int(std::lround(value)), 0, zone_count - 1)));
     if (value == 0)
-        number = "0";
+        number.assign(1, '0');
     else if (size < 1e-4 || size >= 1e6)
         number = fmt::format("{:.2e}", value);
     else

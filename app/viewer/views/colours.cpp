@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/viewer/model/zone_look.h"
 #include "engine/exchange/colour_map.h"
 
 namespace spia::viewer {
@@ -56,6 +57,10 @@ Eigen::Vector3d map_colour(ColourMap map, double t)
     switch (map) {
     case ColourMap::viridis: return viridis(t);
     case ColourMap::diverging: return diverging(t);
+    case ColourMap::zones: {
+        const Colour colour = zone_colour(Zone(int(std::lround(t * (zone_count - 1)))));
+        return Eigen::Vector3d(colour[0], colour[1], colour[2]);
+    }
     case ColourMap::quality: return diverging(1 - t / 2);
     case ColourMap::grey: return srgb({0.28 + 0.66 * t, 0, 0}).cwiseMax(0).cwiseMin(1);
     }

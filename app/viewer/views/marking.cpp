@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "app/viewer/model/viewer_words.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
@@ -116,7 +117,9 @@ std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Ei
                     least = away;
                     place = centre(face);
                 }
-        labels.push_back({place, region.name, palette::text(dark), LabelKind::region});
+        const std::string load = load_words(region);
+        labels.push_back({place, load.empty() ? region.name : fmt::format("{}: {}", region.name, load),
+                          palette::text(dark), LabelKind::region});
     }
     return labels;
 }
@@ -147,7 +150,8 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
         scene.points.push_back(points);
     };
 
-    if (values && display.extremes && values->least >= 0 && values->least != values->greatest) {
+    if (values && display.extremes && display.field != Field::zone && values->least >= 0 &&
+        values->least != values->greatest) {
         std::vector<Eigen::Vector3d> places;
         for (const auto& [word, at] : {std::pair("min", values->least), std::pair("max", values->greatest)}) {
             places.push_back(display.per_face ? centre(at) : Eigen::Vector3d(position.col(at)));

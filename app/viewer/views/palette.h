@@ -14,6 +14,8 @@ inline constexpr Colour measure{0.98f, 0.98f, 0.98f, 1};   ///< the line between
 inline constexpr Colour stretched{0.80f, 0.16f, 0.10f, 1}; ///< principal strains, positive
 inline constexpr Colour squeezed{0.07f, 0.27f, 0.72f, 1};  ///< negative
 inline constexpr Colour corner{0.98f, 0.98f, 0.98f, 1};
+inline constexpr Colour drawbead{0.98f, 0.55f, 0.12f, 1};
+inline constexpr Colour pilot{0.20f, 0.80f, 0.88f, 1};
 inline constexpr Colour folded{0.90f, 0.12f, 0.16f, 1};
 inline constexpr Colour quads{0.80f, 0.83f, 0.86f, 1};
 inline constexpr Colour surface{0.60f, 0.72f, 0.84f, 1};

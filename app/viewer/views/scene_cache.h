@@ -9,6 +9,7 @@
 #include "app/viewer/model/figures.h"
 #include "app/viewer/model/scene.h"
 #include "app/viewer/model/state.h"
+#include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {
 
@@ -71,16 +72,24 @@ struct StageShape {
     Eigen::AlignedBox3d box; ///< mm
 };
 
+/// Drawbeads and pilots.
+struct LineShapes {
+    LineList lines;
+    std::vector<std::shared_ptr<const ScenePoints>> points; ///< of single pins
+};
+
 /// What is shown on the sheet, once for the part and once for the blank.
 struct SheetCache {
     using Mesh = std::shared_ptr<const SceneMesh>;
     using Part = std::shared_ptr<const PartFile>;
     using Blank = std::shared_ptr<const FlattenResult>;
+    using Limits = std::shared_ptr<const LimitsResult>;
     using Surface = std::shared_ptr<const SurfaceStage>;
 
-    Memo<std::shared_ptr<const SceneField>, Mesh, Part, Blank, Surface, Field, bool> field;
+    Memo<std::shared_ptr<const SceneField>, Mesh, Part, Blank, Limits, Surface, Field, bool> field;
     Memo<std::shared_ptr<const std::vector<Isoline>>, std::shared_ptr<const SceneField>, float, float, int> isolines;
     Memo<LineList, Mesh, std::vector<FaceRegion>> regions;
+    Memo<LineShapes, Mesh, Part, std::vector<ProcessLine>> process_lines;
     Memo<std::vector<SceneLabel>, Mesh, std::vector<FaceRegion>, bool> region_labels;
     Memo<LineList, Part, Blank, double> glyphs;
     Memo<LineList, Mesh, std::vector<int>> selection;
@@ -94,6 +103,7 @@ struct SceneCache {
     using Blank = std::shared_ptr<const FlattenResult>;
     using Grid = std::shared_ptr<const GridStage>;
     using Lifted = std::shared_ptr<const LiftResult>;
+    using Limits = std::shared_ptr<const LimitsResult>;
     using Surface = std::shared_ptr<const SurfaceStage>;
     using LiveBlank = std::shared_ptr<const Eigen::Matrix2Xd>;
 
@@ -101,11 +111,12 @@ struct SceneCache {
 
     Memo<PartShape, Part> part;
     Memo<FlatShape, Part, Blank, LiveBlank> flat;
-    Memo<FieldValues, Part, Blank, Surface, Field, bool> values;
+    Memo<FieldValues, Part, Blank, Limits, Surface, Field, bool> values;
     SheetCache on_part, on_blank;
     Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>, std::optional<int>> marks;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_elsewhere;
+    Memo<std::vector<std::vector<ClosestPoint>>, Part, std::vector<ProcessLine>> line_places;
     Vertices vertices_on_part, vertices_on_blank;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;

@@ -7,6 +7,7 @@
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/picked_vertices.h"
+#include "app/viewer/views/process_lines.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/strain_glyphs.h"
 
@@ -44,15 +45,16 @@ const FieldValues* field_values(const ViewerState& state, SceneCache& cache)
     const FieldDisplay& display = state.document.display;
     if (display.field == Field::none || !session.part || !available(session, display.field))
         return nullptr;
-    return &cache.values.of({session.part, session.blank, session.surface, display.field, display.per_face},
-                            [&] { return with_extremes(values(session, display.field, display.per_face)); });
+    return &cache.values.of(
+        {session.part, session.blank, session.limits, session.surface, display.field, display.per_face},
+        [&] { return with_extremes(values(session, display.field, display.per_face)); });
 }
 
 SceneLegend legend_of(const ViewerState& state, const FieldValues& values, double size)
 {
     const FieldInfo& field = info(state.document.display.field);
     const std::array<double, 2> extremes = values.extremes();
-    SceneLegend legend{std::string(field.label), std::string(field.unit),
+    SceneLegend legend{std::string(field.label), field.field == Field::zone ? std::string() : std::string(field.unit),
                        field_scale(state.document.display, extremes, size)};
     legend.below = below(legend.scale, extremes[0]);
     legend.above = above(legend.scale, extremes[1]);
@@ -87,9 +89,9 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
     if (values) {
         scene.legend = legend_of(state, *values, part_shape(state, shared).box.diagonal().norm());
         sheet.scale = scene.legend->scale;
-        sheet.field =
-            cache.field.of({mesh, session.part, session.blank, session.surface, display.field, display.per_face},
-                           [&] { return scene_field(*mesh, values->value, display.per_face); });
+        sheet.field = cache.field.of(
+            {mesh, session.part, session.blank, session.limits, session.surface, display.field, display.per_face},
+            [&] { return scene_field(*mesh, values->value, display.per_face); });
         if (display.isolines && !display.per_face)
             scene.isolines =
                 cache.isolines.of({sheet.field, sheet.scale.least, sheet.scale.greatest, sheet.scale.ticks}, [&] {
@@ -114,6 +116,7 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
     if (place.converging)
         return;
     add_watched_places(scene, state, values, place.position);
+    add_process_lines(scene, state, place.position, mesh, cache, shared);
     const auto& names = cache.region_labels.of({mesh, document.regions, state.view.dark}, [&] {
         return region_labels(part.triangle, place.position, document.regions, state.view.dark);
     });

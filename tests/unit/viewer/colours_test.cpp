@@ -233,7 +233,8 @@ TEST(LegendTicks, AreRoundWithBothEndsAndTellOfValuesBeyond)
     legend.above = true;
     EXPECT_EQ(texts(5), (std::vector<std::string>{"-0.1", "0", "0.1", "0.2", "\u2265 0.3"}));
     legend.below = true;
-    EXPECT_EQ(texts(4), (std::vector<std::string>{"\u2264 -0.1", "0.05", "\u2265 0.3"}));
+    EXPECT_EQ(texts(4), (std::vector<std::string>{"\u2264 -0.1", "0", "0.15", "\u2265 0.3"}));
+    EXPECT_EQ(texts(3), (std::vector<std::string>{"\u2264 -0.1", "0", "\u2265 0.3"})); // zero is what matters
     for (int most = 2; most < 12; ++most) {
         const auto ticks = legend_ticks(legend, most);
         EXPECT_LE(int(ticks.size()), most);

@@ -40,6 +40,24 @@ TEST(MouseTrail, OfTwoClicksInOneFrameTheLastCounts)
     EXPECT_EQ(mouse.next(), std::nullopt);
 }
 
+TEST(MouseTrail, TheWayOfAFastStrokeBeginsAfterItsPress)
+{
+    MouseTrail mouse;
+    mouse.moved({3, 3});
+    mouse.button(true);
+    mouse.moved({4, 4}); // of a stroke that is over before a frame has seen it
+    mouse.button(false);
+    mouse.moved({1, 1});
+    mouse.button(true);
+    mouse.moved({5, 1});
+    mouse.moved({9, 9});
+    mouse.button(false);
+    EXPECT_EQ(mouse.next(), glm::dvec2(1, 1)); // the frame of the press: the mouse is there
+    EXPECT_TRUE(mouse.take_path().empty());
+    EXPECT_EQ(mouse.next(), glm::dvec2(9, 9));
+    EXPECT_EQ(mouse.take_path(), (std::vector<glm::dvec2>{{5, 1}, {9, 9}}));
+}
+
 TEST(MouseTrail, TheWayIsWhatLiesBetweenPressAndRelease)
 {
     MouseTrail mouse;

@@ -60,6 +60,14 @@ Document picked(const fs::path& part, Stage last)
     document.selected = faces_between(mesh, low, 0.7 * low + 0.3 * high);
     document.regions.push_back(
         {"clamp \"1\" äöü", RegionKind::binder, {0.5f, 0.25f, 0, 1}, faces_between(mesh, 0.5 * (low + high), high)});
+    document.regions[0].contact = ToolContact{.force_N = 1500, .friction = 0.07};
+    document.lines = {{LineKind::drawbead, "bead", {middle(mesh, 3), middle(mesh, 9)}, 75, BeadShape{4, 2, 3, 0.1}},
+                      {LineKind::pilot, "pin", {middle(mesh, 5)}, 1, {}}};
+    document.edge_restraint = 0.25;
+    document.rolling = Eigen::Vector3d(1, 2, 0);
+    document.limits.curve = LimitsOptions::Source::keeler_brazier;
+    document.limits.n = 0.19;
+    document.limits.max_thinning = 0.3;
     document.regions.push_back({"empty", RegionKind::pad, {0, 0, 1, 0.5f}, {}});
     document.probes.push_back({7, {0.5, 0.25, 0.25}});
     document.probes.push_back({mesh.triangles() - 1, {0, 0, 1}});
@@ -92,6 +100,7 @@ void expect_same_picks(const Document& a, const Document& b)
     EXPECT_EQ(a.selected, b.selected);
     EXPECT_EQ(a.vertices, b.vertices);
     EXPECT_EQ(a.regions, b.regions);
+    EXPECT_EQ(a.lines, b.lines);
     ASSERT_EQ(a.probes.size(), b.probes.size());
     for (size_t i = 0; i < a.probes.size(); ++i) {
         EXPECT_EQ(a.probes[i].face, b.probes[i].face);
@@ -356,7 +365,7 @@ TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
     EXPECT_NE(refused("\"thickness\"", "\"thicknes\"").find("thicknes"), std::string::npos);
     EXPECT_NE(refused("\"dark\":true", "\"dark\":1").find("/view/dark must be true or false"), std::string::npos);
     EXPECT_NE(refused("\"mild_steel\"", "\"gold\"").find("gold"), std::string::npos);
-    EXPECT_NE(refused("\"display\"", "display").find("line 13"), std::string::npos);
+    EXPECT_NE(refused("\"display\"", "display").find("line 17"), std::string::npos);
     EXPECT_NE(refusal(folder / "none.spia").find("none.spia"), std::string::npos);
     EXPECT_NE(refusal(folder / ".").find("no file"), std::string::npos);
     put(folder / "b.spia", "");

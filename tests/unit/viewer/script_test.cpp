@@ -57,6 +57,13 @@ std::vector<Action> every_action()
         set(PickVertex{View::blank, pixel, size, PickMode::remove, true, 20});
         set(MakeRegion{"clamp \"A\" äöü", RegionKind::binder});
         set(ChangeRegion{2, "pad", RegionKind::pad, {0.25f, 0.5f, 0.75f, 1}});
+        set(SetLimits{{LimitsOptions::Source::points, "flc.csv", 0.2, 0.05, 0.3, 0.2, 0.01}});
+        set(SetContact{1, ToolContact{.pressure_MPa = 3.5, .friction = 0.2}});
+        set(SetOwnSheet{1, OwnSheet{"dp600", 1.25}});
+        const ProcessLine bead{LineKind::drawbead, "b", {{1, 2, 3}, {4, 5, 6}}, 75, BeadShape{4, 2, 3, 0.1}};
+        set(AddLine{bead});
+        set(ChangeLine{3, {LineKind::pilot, "p", {{1, 2, 3}}, 10, {}}});
+        set(SetProcess{0.25, Eigen::Vector3d(1, 2, 0)});
         set(AddProbe{{7, {0.5, 0.25, 0.25}}});
         set(DrawSection{View::blank, pixel, {30, 40}, size});
         set(SetDisplay{{Field::strain_major, true, std::array{-0.5, 0.5}, ColourMap::grey, 7, true, false, true}});

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/zone_look.h"
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/widgets.h"
+#include "app/viewer/views/colour_scale.h"
+
+namespace spia::viewer {
+namespace {
+
+using Source = LimitsOptions::Source;
+
+/// Where the curve comes from.
+void curve_input(Frame& frame, LimitsChoice& choice)
+{
+    constexpr std::pair<Source, const char*> sources[] = {{Source::automatic, "Curve: by the metal"},
+                                                          {Source::keeler_brazier, "Curve: Keeler-Brazier"},
+                                                          {Source::points, "Curve: from a table..."},
+                                                          {Source::none, "No curve"}};
+    const auto now = std::find_if(std::begin(sources), std::end(sources),
+                                  [&](const auto& each) { return each.first == choice.curve; });
+    const std::string shown =
+        choice.curve == Source::points ? "Curve: " + choice.table.filename().string() : std::string(now->second);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::BeginCombo("##curve", shown.c_str())) {
+        for (const auto& [source, label] : sources)
+            if (ImGui::Selectable(label, source == choice.curve)) {
+                if (source == Source::points)
+                    frame.ui.files.open(FileDialog::Purpose::open_limit_curve, choice.table);
+                else
+                    choice.curve = source;
+            }
+        ImGui::EndCombo();
+    }
+    tooltip(
+        "By the metal: Keeler-Brazier for steel, none for others. A table has two columns, minor and major strain; its "
+        "heading says engineering or true.");
+}
+
+/// A share that is typed in percent. @returns whether it was changed
+bool percent_input(Frame& frame, const char* label, double& share, const char* help)
+{
+    double percent = 100 * share;
+    ImGui::SetNextItemWidth(86 * frame.ui.scale);
+    const bool changed = typed_number(frame, label, percent, "%.4g %%");
+    tooltip(help);
+    if (!changed)
+        return false;
+    share = std::clamp(percent / 100, 0., 1.);
+    return true;
+}
+
+void settings(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    LimitsChoice choice = document.limits;
+    curve_input(frame, choice);
+    const auto& limits = document.session.limits;
+    if (choice.curve == Source::keeler_brazier || (choice.curve == Source::automatic && limits && limits->curve)) {
+        double n = choice.n.value_or(0);
+        ImGui::SetNextItemWidth(86 * frame.ui.scale);
+        if (typed_number(frame, "n", n, choice.n ? "%.4g" : "of material"))
+            choice.n = n > 0 ? std::optional(std::min(n, 1.)) : std::nullopt;
+        tooltip("Hardening exponent for Keeler-Brazier; 0: that of the material");
+    }
+    double margin = choice.margin.value_or(limits ? limits->settings.margin : ZoneOptions{}.margin);
+    if (percent_input(frame, "Margin", margin, "Points of engineering major strain below the curve that are at risk"))
+        choice.margin = margin;
+    percent_input(frame, "Allowed thinning", choice.max_thinning, "Of the initial thickness");
+    percent_input(frame, "Allowed thickening", choice.max_thickening, "Of the initial thickness");
+    percent_input(frame, "Low strain below", choice.low_strain,
+                  "Engineering; where both principal strains are smaller the sheet is hardly stretched");
+    if (!(choice == document.limits))
+        frame.actions.push(SetLimits{choice});
+}
+
+/// A row per zone that has faces; a click selects them.
+void zone_rows(Frame& frame, const LimitsResult& limits)
+{
+    const float side = ImGui::GetTextLineHeight();
+    for (const Zone zone : all_zones) {
+        const ZoneShare& share = limits.zones.share[size_t(zone)];
+        if (share.faces == 0)
+            continue;
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const std::string figures = fmt::format("{:.1f} %   {}", 100 * share.share, share.faces);
+        ImGui::PushID(int(zone));
+        if (ImGui::Selectable("##zone", false)) {
+            std::vector<int> faces;
+            for (size_t f = 0; f < limits.zones.zone.size(); ++f)
+                if (limits.zones.zone[f] == zone)
+                    faces.push_back(int(f));
+            frame.actions.push(SelectFaces{std::move(faces), pick_mode()});
+        }
+        ImGui::PopID();
+        tooltip(fmt::format("{}: {}. Share of the area and number of faces; a click selects them.", zone_words(zone),
+                            definition(zone, limits.settings)));
+        ImDrawList* draw = ImGui::GetWindowDrawList();
+        draw->AddRectFilled({at.x, at.y + 1}, {at.x + side - 2, at.y + side - 1}, ink(zone_colour(zone)), 2);
+        const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text);
+        draw->AddText({at.x + side + 6 * frame.ui.scale, at.y}, text, zone_words(zone).c_str());
+        const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+        draw->AddText({right - ImGui::CalcTextSize(figures.c_str()).x, at.y}, text, figures.c_str());
+    }
+}
+
+void spots(Frame& frame, const LimitsResult& limits)
+{
+    constexpr size_t most = 6;
+    for (size_t k = 0; k < std::min(most, limits.zones.spots.size()); ++k) {
+        const WorstSpot& spot = limits.zones.spots[k];
+        const bool here = frame.state.document.selected == std::vector<int>{spot.face};
+        if (ImGui::Selectable(fmt::format("{}.  {}##spot{}", k + 1, zone_words(spot.zone), spot.face).c_str(), here))
+            frame.actions.push(FlyTo{spot.face});
+        tooltip(fmt::format(
+            "Face {} at {:.4g}, {:.4g}, {:.4g} mm: major strain {:.3f}, minor {:.3f}, thinning {:.1f} %. The worst "
+            "of a region of {} faces, {:.4g} mm2. Click to look at it.",
+            spot.face, spot.position[0], spot.position[1], spot.position[2], spot.strain_major, spot.strain_minor,
+            100 * spot.thinning, spot.region_faces, spot.region_area_mm2));
+        const std::string value = fmt::format("{:+.1f} %", 100 * spot.value);
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+        ImGui::TextDisabled("%s", value.c_str());
+    }
+}
+
+} // namespace
+
+void limits_section(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    const bool open = ImGui::CollapsingHeader("Forming limits", ImGuiTreeNodeFlags_DefaultOpen);
+    tooltip("Where the sheet cracks, comes near to it, thins or thickens too much, may wrinkle or is hardly stretched");
+    if (!open)
+        return;
+    settings(frame);
+    if (!session.limits)
+        return;
+    const LimitsResult& limits = *session.limits;
+    if (limits.curve)
+        figure(frame, "FLC0", fmt::format("{:.1f} %", 100 * engineering_strain(limits.curve->at_plane_strain())));
+    for (const std::string& note : limits.notes)
+        muted(frame, note);
+    zone_rows(frame, limits);
+    if (frame.state.document.display.field != Field::zone && small_button(frame, "Show the zones")) {
+        FieldDisplay display = frame.state.document.display;
+        display.field = Field::zone;
+        display.range.reset();
+        display.map.reset();
+        frame.actions.push(SetDisplay{display});
+    }
+    spots(frame, limits);
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/widgets.h"
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+/// Of the outer edge, with what it comes to.
+void edge_input(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    const FlattenOptions& sheet = document.session.options.flatten;
+    float percent = float(100 * document.edge_restraint);
+    ImGui::SetNextItemWidth(110 * frame.ui.scale);
+    if (ImGui::SliderFloat("Edge held", &percent, 0, 100, "%.0f %%"))
+        frame.actions.push(SetProcess{std::clamp(percent / 100., 0., 1.), document.rolling});
+    tooltip(
+        "Restraint of the outer edge, as a share of the lock force: the force per length at which the sheet would tear "
+        "between the tools");
+    if (document.edge_restraint > 0)
+        figure(frame, "of the edge",
+               fmt::format("{:.3g} N/mm", document.edge_restraint * lock_force(sheet.material, sheet.thickness)));
+}
+
+void rolling_input(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    static constexpr const char* names[] = {"no matter", "x", "y", "z", "own"};
+    int now = document.rolling ? 4 : 0;
+    for (int k = 0; k < 3 && document.rolling; ++k)
+        if (*document.rolling == axes.col(k))
+            now = k + 1;
+    int wanted = now;
+    ImGui::SetNextItemWidth(110 * frame.ui.scale);
+    if (ImGui::Combo("Rolling", &wanted, names, 5) && wanted != now)
+        frame.actions.push(
+            SetProcess{document.edge_restraint, wanted == 0   ? std::nullopt
+                                                : wanted == 4 ? std::optional(document.rolling.value_or(axes.col(0)))
+                                                              : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
+    tooltip(
+        "Rolling direction of the sheet, seen along the stamping direction: the r-values along, across and between then count "
+        "each for itself. No matter: their mean in all directions.");
+    if (now != 4)
+        return;
+    Eigen::Vector3d edited = *document.rolling;
+    ImGui::SetNextItemWidth(-1);
+    if (typed_numbers(frame, "##rolling", edited.data(), 3, "%.4g"))
+        frame.actions.push(SetProcess{document.edge_restraint, edited});
+}
+
+bool number_input(Frame& frame, const char* label, double& value, double least, double greatest, const char* help)
+{
+    ImGui::SetNextItemWidth(86 * frame.ui.scale);
+    const bool changed = typed_number(frame, label, value, "%.4g");
+    tooltip(help);
+    value = std::clamp(value, least, greatest);
+    return changed;
+}
+
+/// The equivalent bead: force of a shape.
+bool shape_inputs(Frame& frame, ProcessLine& bead)
+{
+    bool by_shape = bead.shape.has_value();
+    bool changed = ImGui::Checkbox("Force of the bead's shape", &by_shape);
+    tooltip("From radius, depth and friction: the work of bending and unbending, and friction on the wraps");
+    if (changed)
+        bead.shape = by_shape ? std::optional(BeadShape{}) : std::nullopt;
+    if (!bead.shape)
+        return changed;
+    changed |= number_input(frame, "Bead radius, mm", bead.shape->radius, 1e-3, 1e3, "Of the bead that presses");
+    changed |=
+        number_input(frame, "Shoulder radius, mm", bead.shape->shoulder_radius, 1e-3, 1e3, "Of the groove's edges");
+    changed |=
+        number_input(frame, "Depth, mm", bead.shape->depth, 0, 1e3, "How far it pushes the sheet out of its plane");
+    changed |= number_input(frame, "Friction", bead.shape->friction, 0, 10, "Coefficient in the bead");
+    return changed;
+}
+
+void line_row(Frame& frame, int number, const ProcessLine& line)
+{
+    const Document& document = frame.state.document;
+    const bool bead = line.kind == LineKind::drawbead;
+    std::string force, problem;
+    try {
+        force = bead ? fmt::format("{:.3g} N/mm", bead_force(line, document)) : "held";
+    } catch (const InputError& error) {
+        problem = error.what();
+    }
+    const float buttons = ImGui::CalcTextSize("x").x + 2 * ImGui::GetStyle().FramePadding.x;
+    const bool open =
+        ImGui::TreeNodeEx("line", ImGuiTreeNodeFlags_AllowItemOverlap, "%s   %s", line.name.c_str(), force.c_str());
+    tooltip(bead ? "Drawbead: restrains the sheet across its line" : "Pilot: the sheet does not move here");
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons);
+    if (ImGui::SmallButton("x"))
+        frame.actions.push(RemoveLine{number});
+    if (!problem.empty())
+        coloured(palette_of(frame.state.view.dark).error, problem);
+    if (!open)
+        return;
+    ProcessLine edited = line;
+    ImGui::SetNextItemWidth(-1);
+    bool changed = typed_text(frame, "##name", edited.name, "name");
+    if (bead) {
+        if (!line.shape)
+            changed |=
+                number_input(frame, "N/mm", edited.force_N_mm, 1e-6, 1e6, "Restraining force per length of the line");
+        changed |= shape_inputs(frame, edited);
+    }
+    if (changed)
+        frame.actions.push(ChangeLine{number, edited});
+    ImGui::TreePop();
+}
+
+} // namespace
+
+void process_section(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (!document.session.part)
+        return;
+    const bool open = ImGui::CollapsingHeader("Process");
+    tooltip(
+        "What the tools do: drawbeads, pilots, the held edge. Binder, pad and punch are regions with a force or pressure.");
+    if (!open)
+        return;
+    edge_input(frame);
+    rolling_input(frame);
+    for (size_t k = 0; k < document.lines.size(); ++k) {
+        ImGui::PushID(int(k));
+        line_row(frame, int(k), document.lines[k]);
+        ImGui::PopID();
+    }
+    if (document.lines.empty())
+        muted(frame, "Draw drawbeads on the part with the tool Line.");
+    if (!document.vertices.empty() &&
+        small_button(frame, fmt::format("Pin {} picked {}", document.vertices.size(),
+                                        document.vertices.size() == 1 ? "vertex" : "vertices")
+                                .c_str()))
+        frame.actions.push(PinVertices{});
+}
+
+void end_line(Frame& frame)
+{
+    std::vector<Eigen::Vector3d> drawn = std::exchange(frame.ui.line, {});
+    if (drawn.size() > 1)
+        frame.actions.push(AddLine{{.kind = frame.ui.line_kind, .point = std::move(drawn)}});
+    else if (drawn.size() == 1 && frame.ui.line_kind == LineKind::pilot)
+        frame.actions.push(AddLine{{.kind = LineKind::pilot, .point = std::move(drawn)}});
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,183 @@
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
+
+namespace spia::viewer {
+namespace {
+
+constexpr const char* kinds[] = {"fixed", "binder", "pad", "punch", "material", "other"};
+
+/// What the tool presses with.
+void contact_inputs(Frame& frame, int number, const FaceRegion& region)
+{
+    std::optional<ToolContact> contact = region.contact;
+    bool presses = contact.has_value(), changed = false;
+    if (ImGui::Checkbox("Presses on the sheet", &presses)) {
+        contact = presses ? std::optional(ToolContact{.force_N = 100'000}) : std::nullopt;
+        changed = true;
+    }
+    tooltip(region.kind == RegionKind::binder ? "Friction on both sides of the sheet"
+                                              : "Friction on one side of the sheet");
+    if (contact) {
+        const float width = 86 * frame.ui.scale;
+        int by_pressure = contact->pressure_MPa.has_value();
+        double amount = by_pressure ? *contact->pressure_MPa : *contact->force_N / 1000;
+        ImGui::SetNextItemWidth(width);
+        changed |= typed_number(frame, "##amount", amount, "%.4g");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(width);
+        changed |= ImGui::Combo("##unit", &by_pressure, "kN\0MPa\0");
+        tooltip("kN: the whole force along the stamping direction. MPa: pressure on the faces.");
+        ImGui::SetNextItemWidth(width);
+        changed |= typed_number(frame, "Friction", contact->friction, "%.3g");
+        tooltip("Coefficient of Coulomb friction of each side");
+        amount = std::clamp(amount, 1e-6, 1e5);
+        contact->friction = std::clamp(contact->friction, 0., 10.);
+        contact->force_N = by_pressure ? std::nullopt : std::optional(1000 * amount);
+        contact->pressure_MPa = by_pressure ? std::optional(amount) : std::nullopt;
+    }
+    if (changed)
+        frame.actions.push(SetContact{number, contact});
+}
+
+/// Grade and gauge of a piece of a tailored blank.
+void sheet_inputs(Frame& frame, int number, const FaceRegion& region)
+{
+    const Document& document = frame.state.document;
+    std::optional<OwnSheet> sheet = region.sheet;
+    bool own = sheet.has_value(), changed = false;
+    if (ImGui::Checkbox("A sheet of its own", &own)) {
+        sheet =
+            own ? std::optional(OwnSheet{document.material, document.session.options.flatten.thickness}) : std::nullopt;
+        changed = true;
+    }
+    tooltip("Another gauge or grade here: a tailored blank");
+    if (sheet) {
+        ImGui::SetNextItemWidth(-1);
+        if (ImGui::BeginCombo("##grade", std::filesystem::path(sheet->material).filename().c_str())) {
+            for (const std::string& grade : frame.ui.grades)
+                if (ImGui::Selectable(grade.c_str(), grade == sheet->material)) {
+                    sheet->material = grade;
+                    changed = true;
+                }
+            ImGui::EndCombo();
+        }
+        ImGui::SetNextItemWidth(86 * frame.ui.scale);
+        changed |= typed_number(frame, "Thickness, mm", sheet->thickness, "%.3g");
+        sheet->thickness = std::clamp(sheet->thickness, 1e-3, 1e3);
+    }
+    if (changed)
+        frame.actions.push(SetOwnSheet{number, sheet});
+}
+
+/// Name and kind of a region, to be changed in its row.
+void edit_region(Frame& frame, int number, const FaceRegion& region)
+{
+    EditedRegion& edited = *frame.ui.edited_region;
+    const float gap = 4 * frame.ui.scale, done = ImGui::CalcTextSize("ok").x + 2 * ImGui::GetStyle().FramePadding.x,
+                kind_width = 92 * frame.ui.scale;
+    ImGui::SetNextItemWidth(
+        std::max(40 * frame.ui.scale, ImGui::GetContentRegionAvail().x - done - kind_width - 2 * gap));
+    if (std::exchange(edited.appears, false))
+        ImGui::SetKeyboardFocusHere();
+    text_input("##name", edited.name, false, "name");
+    const bool leaves = pressed(frame, GLFW_KEY_ESCAPE), takes = enter_pressed(frame);
+    if (!leaves && (ImGui::IsItemDeactivatedAfterEdit() || takes) && !edited.name.empty() && edited.name != region.name)
+        frame.actions.push(ChangeRegion{number, edited.name, region.kind, region.colour});
+    ImGui::SameLine(0, gap);
+    int kind = int(region.kind);
+    ImGui::SetNextItemWidth(kind_width);
+    if (ImGui::Combo("##kind", &kind, kinds, int(std::size(kinds))))
+        frame.actions.push(
+            ChangeRegion{number, edited.name.empty() ? region.name : edited.name, RegionKind(kind), region.colour});
+    ImGui::SameLine(0, gap);
+    const bool ends = ImGui::Button("ok") || leaves || takes;
+    if (is_tool(region.kind))
+        contact_inputs(frame, number, region);
+    else if (region.kind == RegionKind::material)
+        sheet_inputs(frame, number, region);
+    if (ends)
+        frame.ui.edited_region.reset();
+}
+
+void region_row(Frame& frame, int number, const FaceRegion& region)
+{
+    Colour colour = region.colour;
+    if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
+        frame.actions.push(ChangeRegion{number, region.name, region.kind, colour});
+    ImGui::SameLine();
+    if (frame.ui.edited_region && frame.ui.edited_region->region == number)
+        return edit_region(frame, number, region);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float buttons =
+        ImGui::CalcTextSize("edit").x + ImGui::CalcTextSize("x").x + 4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
+    const float row = std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons);
+    const std::string label =
+        fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)], region.faces.size());
+    bool edit = false;
+    ImGui::AlignTextToFramePadding();
+    if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {row, 0})) {
+        edit = ImGui::IsMouseDoubleClicked(0);
+        if (!edit)
+            frame.actions.push(SelectRegion{number, ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
+    }
+    tooltip(fmt::format("{}: {} region of {} faces. A click selects them, a double click changes name and kind.",
+                        region.name, name(region.kind), region.faces.size()));
+    ImGui::SameLine();
+    edit |= ImGui::Button("edit");
+    tooltip("Change name and kind");
+    ImGui::SameLine();
+    if (ImGui::Button("x")) {
+        frame.actions.push(RemoveRegion{number});
+        frame.ui.edited_region.reset(); // the numbers of those after it change
+    }
+    tooltip("Remove this region (its faces stay)");
+    if (edit)
+        frame.ui.edited_region = edit_of(frame.state.document, number);
+    if (const std::string load = load_words(region); !load.empty()) {
+        ImGui::Indent(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
+        muted(frame, load);
+        ImGui::Unindent(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
+    }
+}
+
+} // namespace
+
+void regions_section(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (frame.ui.edited_region && !still_there(*frame.ui.edited_region, document))
+        frame.ui.edited_region.reset();
+    if (!document.session.part || !ImGui::CollapsingHeader("Regions", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    const Palette p = palette_of(frame.state.view.dark);
+    for (size_t k = 0; k < document.regions.size(); ++k) {
+        ImGui::PushID(int(k));
+        region_row(frame, int(k), document.regions[k]);
+        ImGui::PopID();
+    }
+    if (document.selected.empty()) {
+        coloured(p.muted, document.regions.empty()
+                              ? "Select faces with a picking tool, then name them here: fixed region, binder, pad."
+                              : "Select faces to make another region.");
+        return;
+    }
+    int kind = int(frame.ui.region_kind);
+    ImGui::SetNextItemWidth(90 * frame.ui.scale);
+    if (ImGui::Combo("##kind", &kind, kinds, int(std::size(kinds))))
+        frame.ui.region_kind = RegionKind(kind);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    text_input("##regionname", frame.ui.region_name, false, "name (optional)");
+    if (ImGui::Button(fmt::format("Make region of {} faces", document.selected.size()).c_str(), {-1, 0})) {
+        frame.actions.push(MakeRegion{frame.ui.region_name, frame.ui.region_kind});
+        frame.ui.region_name.clear();
+    }
+}
+
+} // namespace spia::viewer

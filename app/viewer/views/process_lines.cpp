@@ -1,0 +1,117 @@
+#include "app/viewer/views/process_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/viewer/views/marking.h"
+#include "app/viewer/views/palette.h"
+#include "app/viewer/views/scene_mesh.h"
+#include "engine/core/error.h"
+
+namespace spia::viewer {
+namespace {
+
+constexpr int most_pieces = 400; // of a line
+
+Eigen::Matrix3Xd on_sheet(const std::vector<ClosestPoint>& places, const Eigen::Matrix3Xd& position,
+                          const Eigen::Matrix3Xi& triangle)
+{
+    Eigen::Matrix3Xd result(3, Eigen::Index(places.size()));
+    for (size_t i = 0; i < places.size(); ++i)
+        result.col(Eigen::Index(i)) = place_on(position, triangle, places[i].face, places[i].barycentric);
+    return result;
+}
+
+const Colour& colour_of(LineKind kind) { return kind == LineKind::drawbead ? palette::drawbead : palette::pilot; }
+
+std::string words(const ProcessLine& line, const Document& document)
+{
+    if (line.kind == LineKind::pilot)
+        return line.name;
+    try {
+        return fmt::format("{}  {:.3g} N/mm", line.name, bead_force(line, document));
+    } catch (const InputError&) { // the solver says what is wrong with its shape
+        return line.name;
+    }
+}
+
+LineShapes shapes(const std::vector<ProcessLine>& lines, const std::vector<std::vector<ClosestPoint>>& places,
+                  const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle)
+{
+    LineShapes made;
+    for (size_t k = 0; k < lines.size(); ++k) {
+        const Eigen::Matrix3Xd place = on_sheet(places[k], position, triangle);
+        if (place.cols() == 0)
+            continue;
+        if (place.cols() == 1) {
+            for (const auto& [colour, size] : {std::pair(palette::casing, 13.f), {colour_of(lines[k].kind), 10.f}}) {
+                const auto dot = scene_points(place);
+                dot->colour = colour;
+                dot->size = size;
+                made.points.push_back(dot);
+            }
+            continue;
+        }
+        Eigen::Matrix2Xi ends(2, place.cols() - 1);
+        for (Eigen::Index i = 0; i < ends.cols(); ++i)
+            ends.col(i) << int(i), int(i + 1);
+        for (const auto& [colour, width] : {std::pair(palette::casing, 6.f), {colour_of(lines[k].kind), 3.5f}}) {
+            const auto line = scene_lines(place, ends);
+            line->colour = colour;
+            line->width = width;
+            made.lines.push_back(line);
+        }
+    }
+    return made;
+}
+
+} // namespace
+
+std::vector<std::vector<ClosestPoint>> places_of_lines(const TriMesh& part, const std::vector<ProcessLine>& lines)
+{
+    std::vector<std::vector<ClosestPoint>> result(lines.size());
+    if (lines.empty())
+        return result;
+    const double diagonal = (part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff()).norm(),
+                 reach = 0.01 * diagonal, spacing = diagonal / most_pieces;
+    const ClosestPointSearch search(part);
+    for (size_t k = 0; k < lines.size(); ++k) {
+        std::vector<Eigen::Vector3d> wanted(lines[k].point.begin(), lines[k].point.begin() + 1);
+        for (size_t i = 1; i < lines[k].point.size(); ++i) {
+            const Eigen::Vector3d from = wanted.back(), way = lines[k].point[i] - from;
+            const int pieces = std::clamp(int(std::ceil(way.norm() / spacing)), 1, most_pieces);
+            for (int j = 1; j <= pieces; ++j)
+                wanted.push_back(from + way * (double(j) / pieces));
+        }
+        for (const Eigen::Vector3d& point : wanted)
+            result[k].push_back(search.nearest(point, reach));
+        if (std::any_of(result[k].begin(), result[k].end(), [](const ClosestPoint& p) { return p.face < 0; }))
+            result[k].clear();
+    }
+    return result;
+}
+
+void add_process_lines(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position,
+                       const std::shared_ptr<const SceneMesh>& mesh, SheetCache& cache, SceneCache& shared)
+{
+    const Document& document = state.document;
+    if (document.lines.empty())
+        return;
+    const auto& part = document.session.part;
+    const auto& places =
+        shared.line_places.of({part, document.lines}, [&] { return places_of_lines(part->mesh, document.lines); });
+    const LineShapes& shown = cache.process_lines.of(
+        {mesh, part, document.lines}, [&] { return shapes(document.lines, places, position, part->mesh.triangle); });
+    scene.lines.insert(scene.lines.end(), shown.lines.begin(), shown.lines.end());
+    scene.points.insert(scene.points.end(), shown.points.begin(), shown.points.end());
+    for (size_t k = 0; k < document.lines.size(); ++k)
+        if (!places[k].empty()) {
+            const ClosestPoint& middle = places[k][places[k].size() / 2];
+            scene.labels.push_back({place_on(position, part->mesh.triangle, middle.face, middle.barycentric),
+                                    words(document.lines[k], document), palette::text(state.view.dark),
+                                    LabelKind::region});
+        }
+}
+
+} // namespace spia::viewer
