@@ -1,9 +1,12 @@
 #include "app/viewer/panels/gui_frame.h"
 
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <stdexcept>
+
+#include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
 namespace {
@@ -34,7 +37,71 @@ protected:
     static int triangles() { return ImGui::GetDrawData()->TotalIdxCount / 3; }
 };
 
+/// A number field into which somebody types.
+class TypedNumber : public GuiFrame {
+protected:
+    /// Draws one frame. @returns whether the number has changed
+    bool draw(std::vector<int> keys = {})
+    {
+        ui.keys.clear();
+        for (const int key : keys)
+            ui.keys.push_back({key, 0});
+        bool changed = false;
+        frame([&] {
+            if (std::exchange(focus, false))
+                ImGui::SetKeyboardFocusHere();
+            changed = typed_number(now, "number", value, "%.4g", step);
+            ImGui::InputText("other", other, sizeof other);
+        });
+        return changed;
+    }
+    void type(const char* text)
+    {
+        focus = true;
+        for (int k = 0; k < 3; ++k)
+            ASSERT_FALSE(draw());
+        for (; *text; ++text) {
+            ImGui::GetIO().AddInputCharacter(unsigned(*text));
+            ASSERT_FALSE(draw()) << "it counts when typing ends";
+        }
+        ASSERT_EQ(value, 1);
+    }
+
+    ViewerModel model{SPIA_SOURCE_DIR "/assets"};
+    ActionQueue actions;
+    Ui ui;
+    SceneCache cache;
+    Frame now{model, model.state(), actions, ui, cache, {}};
+    double value = 1, step = 0;
+    bool focus = false;
+    char other[8] = "";
+};
+
 } // namespace
+
+TEST_F(TypedNumber, CountsWhateverEndsTyping)
+{
+    for (const double buttons : {0., 0.5})
+        for (const int key : {GLFW_KEY_TAB, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER, 0}) {
+            step = buttons;
+            value = 1;
+            type("25");
+            if (key == 0) // a click elsewhere, or a shortcut
+                ImGui::ClearActiveID();
+            EXPECT_TRUE(key == 0 ? draw() : draw({key})) << key << " with step " << step;
+            EXPECT_EQ(value, 25);
+            EXPECT_FALSE(draw()) << "once";
+            EXPECT_FALSE(draw());
+        }
+}
+
+TEST_F(TypedNumber, IsTakenBackByEscape)
+{
+    type("25");
+    EXPECT_FALSE(draw({GLFW_KEY_ESCAPE}));
+    EXPECT_FALSE(draw());
+    EXPECT_EQ(value, 1);
+}
 
 TEST_F(GuiFrame, AfterABrokenOneTheNextIsAsIfItHadNeverBeen)
 {

@@ -1,9 +1,12 @@
 #include "app/viewer/panels/widgets.h"
 
+#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <imgui_internal.h> // ClearActiveID
 
+#include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 
 namespace spia::viewer {
@@ -39,6 +42,41 @@ bool primary_button(const Frame& frame, const char* label, bool enabled)
     return pressed;
 }
 
+/// Whether a key ends what is being typed. ImGui would miss one that is down for less than a frame.
+static bool leaves_typing(const Frame& frame)
+{
+    if (!pressed(frame, GLFW_KEY_TAB) && !pressed(frame, GLFW_KEY_ESCAPE) && !enter_pressed(frame))
+        return false;
+    ImGui::ClearActiveID();
+    return true;
+}
+
+/// A number with a button to either side of its label. @param active whether it is being typed
+/// @returns -1 or 1 where a button is pressed, else 0
+static int with_step_buttons(const char* label, double& number, const char* format, bool& active)
+{
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, side = ImGui::GetFrameHeight();
+    const float width = ImGui::CalcItemWidth() - 2 * (gap + side);
+    ImGui::BeginGroup();
+    ImGui::PushID(label);
+    ImGui::SetNextItemWidth(std::max(1.f, width));
+    ImGui::InputScalar("##number", ImGuiDataType_Double, &number, nullptr, nullptr, format);
+    active = ImGui::IsItemActive();
+    int steps = 0;
+    ImGui::PushButtonRepeat(true);
+    for (const auto& [sign, by] : {std::pair{"-", -1}, {"+", 1}}) {
+        ImGui::SameLine(0, gap);
+        if (ImGui::Button(sign, {side, side}))
+            steps = by;
+    }
+    ImGui::PopButtonRepeat();
+    ImGui::SameLine(0, gap);
+    ImGui::TextUnformatted(label);
+    ImGui::PopID();
+    ImGui::EndGroup();
+    return steps;
+}
+
 bool typed_numbers(Frame& frame, const char* label, double* value, int count, const char* format, double step)
 {
     auto& typed = frame.ui.typed;
@@ -46,16 +84,21 @@ bool typed_numbers(Frame& frame, const char* label, double* value, int count, co
     const bool typing = typed && typed->id == id;
     std::array<double, 3> shown{};
     std::copy_n(typing ? typed->number.data() : value, count, shown.begin());
-    if (count == 1)
-        ImGui::InputScalar(label, ImGuiDataType_Double, shown.data(), step > 0 ? &step : nullptr, nullptr, format);
-    else
+    bool active = false;
+    if (step > 0)
+        shown[0] += step * with_step_buttons(label, shown[0], format, active);
+    else {
         ImGui::InputScalarN(label, ImGuiDataType_Double, shown.data(), count, nullptr, nullptr, format);
-    if (ImGui::IsItemActive()) {
+        active = ImGui::IsItemActive();
+    }
+    if (active && !leaves_typing(frame)) {
         typed = Typed{id, shown, {}};
         return false;
     }
     if (typing)
         typed.reset();
+    if (active && pressed(frame, GLFW_KEY_ESCAPE))
+        return false;
     if (std::equal(shown.begin(), shown.begin() + count, value))
         return false;
     std::copy_n(shown.begin(), count, value);
@@ -79,12 +122,15 @@ bool typed_text(Frame& frame, const char* label, std::string& text, const char* 
     const bool typing = typed && typed->id == id;
     std::string shown = typing ? typed->text : text;
     text_input(label, shown, false, hint);
-    if (ImGui::IsItemActive()) {
+    const bool active = ImGui::IsItemActive();
+    if (active && !leaves_typing(frame)) {
         typed = Typed{id, {}, std::move(shown)};
         return false;
     }
     if (typing)
         typed.reset();
+    if (active && pressed(frame, GLFW_KEY_ESCAPE))
+        return false;
     if (shown == text || shown.empty())
         return false;
     text = std::move(shown);
