@@ -69,6 +69,11 @@ Json findings_json(const DoctorReport& doctor)
     return list;
 }
 
+Json seam_json(const PartFile& part)
+{
+    return part.seam.empty() ? Json(nullptr) : Json{{"length_mm", part.seam_length}, {"paths", part.seam}};
+}
+
 Json part_json(const PartFile& part)
 {
     Json json = {{"vertices", part.mesh.vertices()},
@@ -77,6 +82,7 @@ Json part_json(const PartFile& part)
                  {"area_mm2", area(part.mesh)},
                  {"format", part.format},
                  {"unit", name(part.unit)},
+                 {"seam", seam_json(part)},
                  {"findings", findings_json(part.doctor)}};
     return json;
 }
@@ -305,6 +311,7 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
                  {"faces", part.file_faces},
                  {"components", part.doctor.components},
                  {"healthy", part.doctor.healthy()},
+                 {"seam", seam_json(part)},
                  {"findings", findings_json(part.doctor)},
                  {"notes", part.notes}};
     const auto optional = [&](const char* key, const std::optional<int>& value) {

@@ -1,0 +1,304 @@
+#include "engine/mesh/cut.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+#include <numeric>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/edge_graph.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/handle_cut.h"
+#include "engine/mesh/ring_strain.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+/// The marked edges as rows of vertices: from each crossing or end to the next, then the closed rows that are left.
+std::vector<std::vector<int>> rows_of(const EdgeGraph& graph, std::vector<char> cut)
+{
+    std::vector<int> degree(size_t(graph.vertices()), 0);
+    for (size_t e = 0; e < cut.size(); ++e)
+        if (cut[e]) {
+            ++degree[size_t(graph.edge[e].low)];
+            ++degree[size_t(graph.edge[e].high)];
+        }
+    const auto leave = [&](int v) { // along the first marked edge; -1 if there is none
+        for (int i = graph.first[size_t(v)]; i < graph.first[size_t(v) + 1]; ++i)
+            if (const int e = graph.at[size_t(i)]; std::exchange(cut[size_t(e)], char(0)))
+                return graph.edge[size_t(e)].other(v);
+        return -1;
+    };
+    const auto node = [&](int v) { return degree[size_t(v)] != 2 || graph.on_rim[size_t(v)]; };
+    std::vector<std::vector<int>> rows;
+    for (const bool closed : {false, true})
+        for (int start = 0; start < graph.vertices(); ++start) {
+            if (degree[size_t(start)] == 0 || node(start) == closed)
+                continue;
+            for (int v = leave(start); v >= 0; v = leave(start)) {
+                std::vector<int> row{start};
+                for (; v >= 0; v = node(v) || v == start ? -1 : leave(v))
+                    row.push_back(v);
+                rows.push_back(std::move(row));
+            }
+        }
+    return rows;
+}
+
+CutPart uncut(const TriMesh& part)
+{
+    CutPart result;
+    result.mesh = part;
+    result.source.resize(size_t(part.vertices()));
+    std::iota(result.source.begin(), result.source.end(), 0);
+    return result;
+}
+
+CutPart cut_edges(const TriMesh& part, const EdgeGraph& graph, std::vector<char> cut)
+{
+    // A vertex gets a copy for each fan of faces around it that no uncut edge joins to another.
+    DisjointSets fan(3 * size_t(part.triangles()));
+    const auto corner = [&](int face, int vertex) {
+        const auto t = part.triangle.col(face);
+        return 3 * face + (t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2);
+    };
+    CutPart result;
+    for (size_t e = 0; e < cut.size(); ++e) {
+        const EdgeGraph::Edge& edge = graph.edge[e];
+        if (edge.boundary())
+            cut[e] = 0; // open already
+        else if (cut[e])
+            result.length += edge.length;
+        else
+            for (const int v : {edge.low, edge.high})
+                fan.join(corner(edge.face, v), corner(edge.twin, v));
+    }
+    std::vector<std::pair<int, int>> copies; // of the vertex, named by the least corner of the fan
+    std::vector<int> number(3 * size_t(part.triangles()), -1);
+    for (int c = 0; c < 3 * part.triangles(); ++c)
+        if (fan.root(c) == c)
+            copies.emplace_back(part.triangle(c % 3, c / 3), c);
+    std::sort(copies.begin(), copies.end());
+    result.mesh.position.resize(3, Eigen::Index(copies.size()));
+    for (size_t i = 0; i < copies.size(); ++i) {
+        number[size_t(copies[i].second)] = int(i);
+        result.source.push_back(copies[i].first);
+        result.mesh.position.col(Eigen::Index(i)) = part.position.col(copies[i].first);
+    }
+    result.mesh.triangle.resize(3, part.triangles());
+    for (int c = 0; c < 3 * part.triangles(); ++c)
+        result.mesh.triangle(c % 3, c / 3) = number[size_t(fan.root(c))];
+    result.seam = rows_of(graph, std::move(cut));
+    return result;
+}
+
+/// One cut after another.
+CutPart followed_by(const CutPart& first, CutPart second)
+{
+    for (int& v : second.source)
+        v = first.source[size_t(v)];
+    for (std::vector<int>& row : second.seam)
+        for (int& v : row)
+            v = first.source[size_t(v)];
+    second.seam.insert(second.seam.begin(), first.seam.begin(), first.seam.end());
+    second.length += first.length;
+    second.why = first.why.empty() ? second.why : first.why + "; " + second.why;
+    return second;
+}
+
+void mark_path(const EdgeGraph& graph, const EdgePaths& paths, int v, std::vector<char>& cut)
+{
+    for (int e = paths.edge[size_t(v)]; e >= 0; e = paths.edge[size_t(v)]) {
+        cut[size_t(e)] = 1;
+        v = graph.edge[size_t(e)].other(v);
+    }
+}
+
+CutPart cut_given(const TriMesh& part, const std::vector<std::vector<int>>& path)
+{
+    const EdgeGraph graph = edge_graph(part);
+    std::vector<char> cut(graph.edge.size(), 0);
+    for (const std::vector<int>& row : path) {
+        if (row.size() < 2)
+            throw InputError("a path of the seam has fewer than two vertices; give where it begins and where it ends");
+        for (const int v : row)
+            if (v < 0 || v >= part.vertices())
+                throw InputError(fmt::format("the seam names vertex {}, which the part has not", v));
+        for (size_t i = 1; i < row.size(); ++i) {
+            std::vector<char> target(size_t(part.vertices()), 0);
+            target[size_t(row[i])] = 1;
+            const EdgePaths paths = shortest_paths(graph, {row[i - 1]}, RimCost::as_long_as_it_is, target);
+            if (paths.reached < 0)
+                throw InputError(
+                    fmt::format("no way leads along edges from vertex {} of the seam to vertex {}; leave out "
+                                "the repeated one, or choose vertices of one piece",
+                                row[i - 1], row[i]));
+            mark_path(graph, paths, row[i], cut);
+        }
+    }
+    CutPart result = cut_edges(part, graph, std::move(cut));
+    const SurfaceType left = surface_type(result.mesh);
+    if (left.components > 1)
+        throw InputError(fmt::format("the seam cuts the part into {} pieces; leave one of its paths open somewhere",
+                                     left.components));
+    if (left.loops == 0)
+        throw InputError("the seam opens nothing: the part is still closed");
+    if (left.genus > 0)
+        throw InputError(
+            fmt::format("with this seam the part still has {}: a cut through each and around it is needed; "
+                        "add paths, or leave the seam to the program",
+                        left.genus == 1 ? "a handle" : fmt::format("{} handles", left.genus)));
+    result.why = "as it was given";
+    return result;
+}
+
+CutPart cut_handles(const TriMesh& part, int genus)
+{
+    const EdgeGraph graph = edge_graph(part);
+    std::vector<char> cut(graph.edge.size(), 0);
+    for (const int e : handle_cut(graph, boundary_loops(part), part.triangles(), genus))
+        cut[size_t(e)] = 1;
+    CutPart result = cut_edges(part, graph, std::move(cut));
+    result.why =
+        fmt::format("the shortest found through {}", genus == 1 ? "its handle" : fmt::format("its {} handles", genus));
+    return result;
+}
+
+CutPart cut_closed(const TriMesh& part)
+{
+    const EdgeGraph graph = edge_graph(part);
+    const auto farthest = [](const EdgePaths& paths) {
+        return int(std::max_element(paths.distance.begin(), paths.distance.end()) - paths.distance.begin());
+    };
+    const int from = farthest(shortest_paths(graph, {0}, RimCost::as_long_as_it_is));
+    const EdgePaths paths = shortest_paths(graph, {from}, RimCost::as_long_as_it_is);
+    std::vector<char> cut(graph.edge.size(), 0);
+    mark_path(graph, paths, farthest(paths), cut);
+    if (std::count(cut.begin(), cut.end(), char(1)) == 1) // a single edge cannot be opened
+        for (int i = graph.first[size_t(from)]; i < graph.first[size_t(from) + 1]; ++i)
+            if (!std::exchange(cut[size_t(graph.at[size_t(i)])], char(1)))
+                break;
+    CutPart result = cut_edges(part, graph, std::move(cut));
+    result.why = "the shortest between two of its points that are farthest apart";
+    return result;
+}
+
+/// Cuts the longest of the tubes, if there is one; else without a seam.
+CutPart cut_tube(const TriMesh& part)
+{
+    constexpr double most_ring = 1, least_gain = 0.5; // of logarithms of the scale
+    constexpr double least_end = 0.25;                // of the length of the loop
+    const auto loops = boundary_loops(part);
+    if (loops.size() < 2)
+        return uncut(part);
+    std::vector<double> length;
+    for (const std::vector<int>& loop : loops) {
+        length.push_back((part.position.col(loop.front()) - part.position.col(loop.back())).norm());
+        for (size_t i = 1; i < loop.size(); ++i)
+            length.back() += (part.position.col(loop[i]) - part.position.col(loop[i - 1])).norm();
+    }
+    const auto others = [&](size_t j) { // the vertices of the loops that count as the other end
+        std::vector<char> is(size_t(part.vertices()), 0);
+        for (size_t k = 0; k < loops.size(); ++k)
+            for (const int v : loops[k])
+                is[size_t(v)] = k != j && length[k] >= least_end * length[j];
+        return is;
+    };
+    FrontMarch march(part);
+    size_t worst = loops.size();
+    double ring = most_ring;
+    for (size_t j = 0; j < loops.size(); ++j) {
+        if (j == 0 && length[1] < least_end * length[0])
+            continue; // nothing would end the march
+        const RingStrain strain = ring_strain(march, loops[j], others(j));
+        if (strain.ring > ring && strain.fan < least_gain * strain.ring) {
+            ring = strain.ring;
+            worst = j;
+        }
+    }
+    if (worst == loops.size())
+        return uncut(part);
+    const EdgeGraph graph = edge_graph(part);
+    const EdgePaths paths = shortest_paths(graph, loops[worst], RimCost::as_long_as_it_is, others(worst));
+    std::vector<char> cut(graph.edge.size(), 0);
+    mark_path(graph, paths, paths.reached, cut);
+    CutPart result = cut_edges(part, graph, std::move(cut));
+    result.why =
+        fmt::format("the shortest from one end of the tube to the other, whose ends as the edges of a flat ring "
+                    "would be scaled apart by a factor of {:.3g}",
+                    std::exp(ring));
+    return result;
+}
+
+} // namespace
+
+SurfaceType surface_type(const TriMesh& part)
+{
+    DisjointSets pieces(size_t(part.vertices()));
+    std::vector<char> used(size_t(part.vertices()), 0);
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            used[size_t(part.triangle(k, f))] = 1;
+            pieces.join(part.triangle(k, f), part.triangle((k + 1) % 3, f));
+        }
+    int vertices = 0, edges = 0;
+    const auto uses = edge_uses(part.triangle);
+    for_each_edge(uses, [&](size_t, size_t) { ++edges; });
+    SurfaceType type;
+    for (int v = 0; v < part.vertices(); ++v) {
+        vertices += used[size_t(v)];
+        type.components += used[size_t(v)] && pieces.root(v) == v;
+    }
+    type.loops = int(boundary_loops(part).size());
+    const int characteristic = vertices - edges + part.triangles(); // 2 components - 2 genus - loops
+    type.genus = (2 * type.components - type.loops - characteristic) / 2;
+    return type;
+}
+
+CutPart cut_along(const TriMesh& part, const std::vector<std::array<int, 2>>& edges)
+{
+    const EdgeGraph graph = edge_graph(part);
+    std::vector<char> cut(graph.edge.size(), 0);
+    for (const auto& [a, b] : edges) {
+        const int e = a >= 0 && b >= 0 && a < part.vertices() && b < part.vertices() ? graph.find(a, b) : -1;
+        if (e < 0)
+            throw InputError(fmt::format("the part has no edge between the vertices {} and {}", a, b));
+        cut[size_t(e)] = 1;
+    }
+    return cut_edges(part, graph, std::move(cut));
+}
+
+CutPart cut_open(const TriMesh& part, const SeamOptions& options)
+{
+    if (options.mode == SeamOptions::Mode::none)
+        return uncut(part);
+    if (options.mode == SeamOptions::Mode::given)
+        return cut_given(part, options.path);
+    const SurfaceType type = surface_type(part);
+    CutPart result = type.genus > 0 ? cut_handles(part, type.genus) : type.loops == 0 ? cut_closed(part) : uncut(part);
+    for (CutPart tube = cut_tube(result.mesh); !tube.seam.empty(); tube = cut_tube(result.mesh))
+        result = followed_by(result, std::move(tube));
+    return result;
+}
+
+bool has_both_skins(const TriMesh& part)
+{
+    double volume = 0; // by the divergence theorem; the apex of the pyramids does not matter
+    const Eigen::Vector3d apex = part.position.col(0);
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto t = part.triangle.col(f);
+        volume += (part.position.col(t[0]) - apex)
+                      .dot((part.position.col(t[1]) - apex).cross(part.position.col(t[2]) - apex)) /
+                  6;
+    }
+    const double whole = area(part);
+    constexpr double thin = 1.0 / 30;
+    return 2 * std::abs(volume) / whole < thin * std::sqrt(whole / 2);
+}
+
+} // namespace spia
