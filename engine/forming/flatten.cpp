@@ -318,6 +318,11 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     result.volume_error = volume_error(part, result, sheet);
     result.blank.position.colwise() += plane.transpose() * centre;
     result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
+    if (result.flipped_triangles > 0)
+        throw SolveError(fmt::format("{} triangles of the blank are too thin for coordinates {:.3g} mm from the origin: move "
+                                     "the part nearer to it, or mesh it more evenly",
+                                     result.flipped_triangles, centre.norm()));
+    result.overlap = overlap(part, result.blank.position);
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;
 }
