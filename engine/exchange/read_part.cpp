@@ -182,6 +182,23 @@ void note_size(PartFile& part, bool unit_given)
                         diagonal, name(part.unit)));
 }
 
+/// Examines and cuts what the file holds; the part has its format, unit and notes already.
+void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, const Progress& progress)
+{
+    part.file_vertices = soup.vertices();
+    part.file_faces = soup.polygons();
+    DoctorOptions doctor = options.doctor;
+    doctor.weld = options.weld.value_or(weld);
+    Examination examination = examine(soup, doctor, progress.part(0, 0.95));
+    part.mesh = std::move(examination.mesh);
+    part.doctor = std::move(examination.report);
+    part.source_vertex = std::move(examination.source_vertex);
+    part.source_face = std::move(examination.source_face);
+    progress.checkpoint(0.95, "looking for where it must be cut open");
+    cut_where_needed(part, options.seam);
+    note_size(part, options.unit.has_value());
+}
+
 PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
     const std::string extension = extension_of(path);
@@ -191,19 +208,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
     for (Eigen::Vector3d& p : soup.position)
         p *= millimetres(part.unit);
-    part.file_vertices = soup.vertices();
-    part.file_faces = soup.polygons();
-
-    DoctorOptions doctor = options.doctor;
-    doctor.weld = options.weld.value_or(gltf || extension == "stl");
-    Examination examination = examine(soup, doctor, progress.part(0.5, 0.97));
-    part.mesh = std::move(examination.mesh);
-    part.doctor = std::move(examination.report);
-    part.source_vertex = std::move(examination.source_vertex);
-    part.source_face = std::move(examination.source_face);
-    progress.checkpoint(0.98, "looking for where it must be cut open");
-    cut_where_needed(part, options.seam);
-    note_size(part, options.unit.has_value());
+    fill(part, soup, options, gltf || extension == "stl", progress.part(0.5, 1));
     return part;
 }
 
@@ -222,6 +227,14 @@ template <class Work> PartFile named(const fs::path& path, const Work& work)
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
     return named(path, [&] { return examine_file(path, options, progress); });
+}
+
+PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const Progress& progress)
+{
+    PartFile part;
+    part.format = "in memory";
+    fill(part, soup, options, false, progress);
+    return part;
 }
 
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)

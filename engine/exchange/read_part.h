@@ -46,4 +46,7 @@ PartFile read_part(const std::filesystem::path& path, const ReadOptions& options
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options = {},
                       const Progress& progress = {});
 
+/// The same for faces that are already in memory, in mm; there is no file to be named. A sick part is no error.
+PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options = {}, const Progress& progress = {});
+
 } // namespace spia

@@ -107,7 +107,7 @@ TEST(CutOpen, LeavesSheetsWithHolesAlone)
                                                                                                 -std::sin(2 * pi * u),
                                                                                                 0);
                                                      }),
-                                shapes::pipe(50, 50, 20, 60, 4), // a collar: a fifth of its width high
+                                shapes::pipe(50, 50, 50, 60, 10), // a collar: half its width high
                                 shapes::pipe(60, 20, 10, 60, 8)}) {
         ASSERT_GT(boundary_loops(part).size(), 1u);
         const CutPart cut = cut_open(part);
@@ -130,6 +130,7 @@ TEST(CutOpen, CutsATubeAlongOneGenerator)
     EXPECT_NEAR(cut.length, 100, 1e-9);
     EXPECT_EQ(boundary_loops(cut.mesh).size(), 1u);
     EXPECT_NE(cut.why.find("tube"), std::string::npos);
+    EXPECT_EQ(cut_open(shapes::pipe(50, 50, 75, 60, 15)).seam.size(), 1u); // a little more than a collar
     EXPECT_TRUE(cut_open(tube, {SeamOptions::Mode::none}).seam.empty());
 }
 
@@ -203,6 +204,25 @@ TEST(CutOpen, OpensAHandleOfASheetAndKeepsItsHoles)
     EXPECT_LE(cut.length, 80 + 1e-9); // around a leg and through the arch
 }
 
+TEST(CutOpen, OfALittleHandleOnALargeSheetStaysThere)
+{
+    std::set<Cell> cubes;
+    for (int i = 0; i < 71; ++i)
+        for (int j = 0; j < 71; ++j)
+            cubes.insert({i, j, 0});
+    for (const auto& [i, k] : {std::pair(34, 1), {36, 1}, {34, 2}, {35, 2}, {36, 2}})
+        cubes.insert({i, 35, k});
+    const TriMesh part = shapes::body_surface(cubes, 10, 1, [](const Cell& cube, const Eigen::Vector3i& outwards) {
+        return cube[2] == 0 && outwards[2] <= 0;
+    });
+    const CutPart cut = cut_open(part);
+    expect_the_same_part_as_a_sheet(cut, part);
+    EXPECT_LE(cut.length, 110); // around a leg and through the arch, with no way to them
+    for (const auto& row : cut.seam)
+        for (const int v : row)
+            EXPECT_LE((part.position.col(v) - Eigen::Vector3d(355, 355, 20)).norm(), 50);
+}
+
 TEST(CutOpen, OfAClosedPartRunsBetweenItsFarthestPoints)
 {
     const TriMesh sphere = shapes::closed_sphere(50, 2000);
@@ -254,6 +274,52 @@ TEST(CutAlong, MakesAsManyCopiesAsPiecesMeet)
     EXPECT_EQ(std::count(cross.source.begin(), cross.source.end(), 1), 2);
     EXPECT_EQ(surface_type(cross.mesh).components, 4);
     EXPECT_THROW(cut_along(plate, {{0, 8}}), InputError);
+}
+
+TEST(EdgePaths, ReachAFreeRimAsAWhole)
+{
+    // Symmetric about the diagonal from which the ways start: two of the same length lead to the rim.
+    const TriMesh part = shapes::without_faces(shapes::rectangle(80, 80, 8, 8), [](const Eigen::Vector3d& x) {
+        return std::abs(x[0] - 40) < 20 && std::abs(x[1] - 40) < 20;
+    });
+    const EdgeGraph graph = edge_graph(part);
+    const std::vector<int> rim = boundary_loops(part)[1];
+    for (int source = 0; source < part.vertices(); ++source) {
+        if (graph.on_rim[size_t(source)])
+            continue;
+        const EdgePaths paths = shortest_paths(graph, {source}, RimCost::none);
+        int along = 0;
+        for (const int v : rim) {
+            const int e = paths.edge[size_t(v)];
+            along += e >= 0 && graph.edge[size_t(e)].boundary();
+            EXPECT_EQ(paths.distance[size_t(v)], paths.distance[size_t(rim[0])]);
+        }
+        EXPECT_EQ(along, int(rim.size()) - 1);
+    }
+}
+
+TEST(FrontMarch, CrossesTrianglesStraight)
+{
+    // From the slanted side of a sheared rectangle no edge goes the shortest way.
+    TriMesh part = shapes::rectangle(60, 40, 30, 20);
+    const double shear = -0.5; // acute triangles: through obtuse ones fronts go along edges
+    part.position.row(0) += shear * part.position.row(1);
+    std::vector<int> side;
+    for (int j = 0; j <= 20; ++j)
+        side.push_back(31 * j);
+    FrontMarch march(part);
+    march.run(side, std::vector<char>(size_t(part.vertices()), 0));
+    int compared = 0;
+    for (int v = 0; v < part.vertices(); ++v) {
+        const double x = part.position(0, v), y = part.position(1, v), before = x - shear * y;
+        const double distance = before / std::hypot(1, shear);
+        const double foot = y + shear * distance / std::hypot(1, shear); // of the plumb line on the side
+        if (foot < 10 || foot > 30)                                      // the ends disturb their neighbourhood
+            continue;
+        ASSERT_NEAR(march.distance(v), distance, 0.01 * distance); // along edges: 12 % too far
+        ++compared;
+    }
+    EXPECT_GT(compared, 200);
 }
 
 TEST(RingStrain, OfATubeAConeAndAFlatRingIsTheClosedForm)

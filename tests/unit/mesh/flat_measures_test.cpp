@@ -73,9 +73,13 @@ TEST(Outline, NamesTheEdgesThatMeetEvenWhereTheyOnlyTouch)
     EXPECT_EQ(found.size(), side >= 0 ? 2u : 0u);
     points.col(3) << 0.25, 0.75; // on it, exactly
     points.col(1) << 0.5, 1.5;
-    const auto touching = outline_crossings({{0, 1, 2}, {3, 4, 5}}, points);
-    ASSERT_EQ(touching.size(), 2u); // with both edges of the corner
-    EXPECT_EQ(touching[0].edge, (std::array{0, 1}));
+    for (const double mirror : {1.0, -1.0}) { // either loop comes first in the sweep
+        Eigen::Matrix2Xd seen = points;
+        seen.row(0) *= mirror;
+        const auto touching = outline_crossings({{0, 1, 2}, {3, 4, 5}}, seen);
+        ASSERT_EQ(touching.size(), 2u); // with both edges of the corner
+        EXPECT_EQ(mirror > 0 ? touching[0].edge : touching[0].other, (std::array{0, 1}));
+    }
 }
 
 TEST(Outline, AnEdgeThatGoesBackOnItsNeighbourCounts)

@@ -90,10 +90,13 @@ TEST_F(Seam, CornersOnItAreGivenTwiceAndFoundAgain)
         in_file[k] = session.part->source_vertex[size_t(session.grid->boundary.corner[k])];
     ASSERT_EQ(std::set<int>(in_file.begin(), in_file.end()).size(), 2u); // the two ends of the seam
     const std::array<int, 4> found = session.grid->boundary.corner;
-    session.options.corners = in_file;
-    require_possible(session);
-    const auto same = run_stage(Stage::grid, session).grid->boundary.corner;
-    EXPECT_EQ(std::set<int>(same.begin(), same.end()), std::set<int>(found.begin(), found.end()));
+    for (int turn = 0; turn < 4; ++turn) {
+        std::rotate(in_file.begin(), in_file.begin() + 1, in_file.end());
+        session.options.corners = in_file;
+        require_possible(session);
+        const auto same = run_stage(Stage::grid, session).grid->boundary.corner;
+        EXPECT_EQ(std::set<int>(same.begin(), same.end()), std::set<int>(found.begin(), found.end()));
+    }
     session.options.corners = {in_file[0], in_file[0], in_file[0], in_file[2]};
     EXPECT_THROW(require_possible(session), InputError);
 }
