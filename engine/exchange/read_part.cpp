@@ -133,9 +133,8 @@ void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
 void cut_where_needed(PartFile& part, const SeamOptions& seam)
 {
     DoctorReport& report = part.doctor;
-    const bool closed = report.boundary_loops == 0, plain = report.boundary_loops == 1 && report.genus == 0;
-    if (seam.mode == SeamOptions::Mode::none || sick_beyond_a_cut(report) || report.components != 1 || !report.genus ||
-        (plain && seam.mode == SeamOptions::Mode::automatic))
+    const bool closed = report.boundary_loops == 0;
+    if (seam.mode == SeamOptions::Mode::none || sick_beyond_a_cut(report) || report.components != 1 || !report.genus)
         return;
     if (seam.mode == SeamOptions::Mode::automatic && closed && has_both_skins(part.mesh)) {
         for (Finding& finding : report.findings)

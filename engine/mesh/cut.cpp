@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -188,43 +189,77 @@ CutPart cut_closed(const TriMesh& part)
     return result;
 }
 
-/// Cuts the longest of the tubes, if there is one; else without a seam.
+/// The boundary of a part, its lengths and how it turns.
+struct Rims {
+    std::vector<std::vector<int>> loop;
+    std::vector<double> length; ///< mm; the longest comes first
+    std::vector<double>
+        turning; ///< to the left in the surface, the sheet on the left: 2 pi around a flat one, -2 pi at
+                 ///< its holes, 0 at the ends of a tube
+};
+
+Rims rims_of(const TriMesh& part)
+{
+    Rims rims{boundary_loops(part), {}, {}};
+    std::vector<double> angle(size_t(part.vertices()), 0);
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3d at = part.position.col(part.triangle(k, f));
+            const Eigen::Vector3d a = part.position.col(part.triangle((k + 1) % 3, f)) - at,
+                                  b = part.position.col(part.triangle((k + 2) % 3, f)) - at;
+            angle[size_t(part.triangle(k, f))] += std::atan2(a.cross(b).norm(), a.dot(b));
+        }
+    for (const std::vector<int>& loop : rims.loop) {
+        double length = 0, turning = 0;
+        for (size_t i = 0; i < loop.size(); ++i) {
+            length += (part.position.col(loop[(i + 1) % loop.size()]) - part.position.col(loop[i])).norm();
+            turning += std::numbers::pi - angle[size_t(loop[i])];
+        }
+        rims.length.push_back(length);
+        rims.turning.push_back(turning);
+    }
+    return rims;
+}
+
+/// Cuts the tube that would suffer most, if there is one; else without a seam.
 CutPart cut_tube(const TriMesh& part)
 {
     constexpr double most_ring = 1, least_gain = 0.5; // of logarithms of the scale
-    constexpr double least_end = 0.25;                // of the length of the loop
-    const auto loops = boundary_loops(part);
-    if (loops.size() < 2)
+    constexpr double least_end = 0.25;                // of the length of the loop looked at
+    constexpr double window = -1.5 * std::numbers::pi;
+    const Rims rims = rims_of(part);
+    if (rims.loop.size() < 2)
         return uncut(part);
-    std::vector<double> length;
-    for (const std::vector<int>& loop : loops) {
-        length.push_back((part.position.col(loop.front()) - part.position.col(loop.back())).norm());
-        for (size_t i = 1; i < loop.size(); ++i)
-            length.back() += (part.position.col(loop[i]) - part.position.col(loop[i - 1])).norm();
-    }
-    const auto others = [&](size_t j) { // the vertices of the loops that count as the other end
-        std::vector<char> is(size_t(part.vertices()), 0);
-        for (size_t k = 0; k < loops.size(); ++k)
-            for (const int v : loops[k])
-                is[size_t(v)] = k != j && length[k] >= least_end * length[j];
-        return is;
-    };
     FrontMarch march(part);
-    size_t worst = loops.size();
+    std::vector<char> ends(size_t(part.vertices()), 0), worst_ends;
+    size_t worst = rims.loop.size();
     double ring = most_ring;
-    for (size_t j = 0; j < loops.size(); ++j) {
-        if (j == 0 && length[1] < least_end * length[0])
-            continue; // nothing would end the march
-        const RingStrain strain = ring_strain(march, loops[j], others(j));
-        if (strain.ring > ring && strain.fan < least_gain * strain.ring) {
-            ring = strain.ring;
-            worst = j;
+    for (const bool windows_count : {false, true}) {
+        const auto end = [&](size_t k) { return windows_count || rims.turning[k] > window; };
+        for (size_t j = 0; j < rims.loop.size(); ++j) {
+            bool any = false;
+            for (size_t k = 0; k < rims.loop.size(); ++k) {
+                const bool counts = k != j && end(k) && rims.length[k] >= least_end * rims.length[j];
+                any = any || counts;
+                for (const int v : rims.loop[k])
+                    ends[size_t(v)] = counts;
+            }
+            if (!any || !end(j))
+                continue;
+            const RingStrain strain = ring_strain(march, rims.loop[j], ends);
+            if (strain.ring > ring && strain.fan < least_gain * strain.ring) {
+                ring = strain.ring;
+                worst = j;
+                worst_ends = ends;
+            }
         }
+        if (worst < rims.loop.size())
+            break;
     }
-    if (worst == loops.size())
+    if (worst == rims.loop.size())
         return uncut(part);
     const EdgeGraph graph = edge_graph(part);
-    const EdgePaths paths = shortest_paths(graph, loops[worst], RimCost::as_long_as_it_is, others(worst));
+    const EdgePaths paths = shortest_paths(graph, rims.loop[worst], RimCost::none, worst_ends);
     std::vector<char> cut(graph.edge.size(), 0);
     mark_path(graph, paths, paths.reached, cut);
     CutPart result = cut_edges(part, graph, std::move(cut));
@@ -232,6 +267,31 @@ CutPart cut_tube(const TriMesh& part)
         fmt::format("the shortest from one end of the tube to the other, whose ends as the edges of a flat ring "
                     "would be scaled apart by a factor of {:.3g}",
                     std::exp(ring));
+    return result;
+}
+
+/// Cuts from the longest rim to the farthest point if that rim is a narrow mouth; else without a seam.
+CutPart cut_bottle(const TriMesh& part)
+{
+    constexpr double narrow = 0.25;
+    const Rims rims = rims_of(part);
+    // The girth of a body is about the root of pi times its area; a mouth far below that is worth a look.
+    if (rims.loop.empty() || rims.length[0] * rims.length[0] > area(part))
+        return uncut(part);
+    FrontMarch march(part);
+    const RingStrain around = ring_strain(march, rims.loop[0], std::vector<char>(size_t(part.vertices()), 0));
+    if (rims.length[0] >= narrow * around.widest)
+        return uncut(part);
+    const EdgeGraph graph = edge_graph(part);
+    const EdgePaths paths = shortest_paths(graph, rims.loop[0], RimCost::none);
+    const int farthest = int(std::max_element(paths.distance.begin(), paths.distance.end()) - paths.distance.begin());
+    std::vector<char> cut(graph.edge.size(), 0);
+    mark_path(graph, paths, farthest, cut);
+    CutPart result = cut_edges(part, graph, std::move(cut));
+    result.why =
+        fmt::format("the shortest from its mouth of {:.4g} mm, too narrow for the {:.4g} mm around its widest place, "
+                    "to its farthest point",
+                    rims.length[0], around.widest);
     return result;
 }
 
@@ -281,8 +341,9 @@ CutPart cut_open(const TriMesh& part, const SeamOptions& options)
         return cut_given(part, options.path);
     const SurfaceType type = surface_type(part);
     CutPart result = type.genus > 0 ? cut_handles(part, type.genus) : type.loops == 0 ? cut_closed(part) : uncut(part);
-    for (CutPart tube = cut_tube(result.mesh); !tube.seam.empty(); tube = cut_tube(result.mesh))
-        result = followed_by(result, std::move(tube));
+    for (const auto& step : {cut_bottle, cut_tube})
+        for (CutPart next = step(result.mesh); !next.seam.empty(); next = step(result.mesh))
+            result = followed_by(result, std::move(next));
     return result;
 }
 

@@ -57,6 +57,7 @@ RingStrain ring_strain(FrontMarch& march, const std::vector<int>& loop, const st
     if (!(march.end() > 0))
         return result;
     const auto length = level_lengths(march);
+    result.widest = *std::max_element(length.begin(), length.end());
     // Near the hole the line has its waves, near the next loop it is torn: neither says anything of the ring.
     constexpr int first = 1, last = levels - 2;
     std::vector<double> turn, size; // integral of ds / l, logarithm of l

@@ -11,9 +11,10 @@ namespace spia {
 /// one end of a tube to the other, a height h away, its logarithm grows by 2 pi h / l. Cut open, the sheet becomes a fan
 /// of any angle in place of 2 pi: a tube one of no angle, a cone its own, both without a change of scale.
 struct RingStrain {
-    double ring = 0;  ///< greatest difference of the logarithm of the scale, as a closed ring
-    double fan = 0;   ///< likewise for the best fan; never more than ring
-    double reach = 0; ///< mm, how far the lines were followed: up to the next of the loops that count
+    double ring = 0;   ///< greatest difference of the logarithm of the scale, as a closed ring
+    double fan = 0;    ///< likewise for the best fan; never more than ring
+    double reach = 0;  ///< mm, how far the lines were followed: up to the next of the loops that count
+    double widest = 0; ///< mm, the longest of the lines
 };
 
 /// @param loop the boundary loop @param stop #V, 1 at the vertices of the loops that end the search

@@ -490,6 +490,180 @@ TriMesh both_skins(Lots& lots, int n)
     return mesh;
 }
 
+/// Noise beyond the size of the edges: faces over and under each other.
+TriMesh crumpled(Lots& lots, int n)
+{
+    TriMesh mesh = lots.coin() ? saddle({.triangles = n}) : dome({.triangles = n}).mesh;
+    const double size = mean_edge(mesh) * lots.between(0.6, 2);
+    for (double& x : mesh.position.reshaped())
+        x += size * lots.between(-1, 1);
+    return mesh;
+}
+
+/// A sheet drawn out into one or more long thin fingers.
+TriMesh whiskers(Lots& lots, int n)
+{
+    const int count = lots.whole(1, 3);
+    std::array<Vector3d, 3> finger; // place, height
+    for (Vector3d& f : finger)
+        f << lots.between(0.25, 0.75), lots.between(0.25, 0.75), lots.between(100, 600);
+    const double width = lots.between(0.04, 0.12);
+    return grid_surface(cells(n, 1, 1), [=](double u, double v) {
+        double z = 0;
+        for (int i = 0; i < count; ++i) {
+            const Vector3d& f = finger[size_t(i)];
+            z += f[2] * std::exp(-(std::pow(u - f[0], 2) + std::pow(v - f[1], 2)) / (width * width));
+        }
+        return Vector3d(100 * u, 100 * v, z);
+    });
+}
+
+/// A closed body with one single face left out.
+TriMesh pinhole(Lots& lots, int n)
+{
+    TriMesh mesh =
+        lots.coin() ? closed_sphere(40, n) : body_surface({{0, 0, 0}}, 60, std::max(1, int(std::sqrt(n / 12.0))));
+    mesh.position.row(2) *= lots.between(0.5, 2);
+    mesh.triangle.conservativeResize(3, mesh.triangles() - 1);
+    return mesh;
+}
+
+/// As few faces as a part can have.
+TriMesh tiny(Lots& lots, int)
+{
+    const int spokes = lots.whole(2, 5); // a fan without its last face
+    TriMesh mesh;
+    mesh.position.resize(3, spokes + 1);
+    mesh.position.col(0) << 0, 0, lots.between(0, 20);
+    for (int i = 0; i < spokes; ++i)
+        mesh.position.col(i + 1) = polar(5.5 * i / spokes, lots.between(5, 30), lots.between(-5, 5));
+    mesh.triangle.resize(3, spokes - 1);
+    for (int i = 0; i + 1 < spokes; ++i)
+        mesh.triangle.col(i) << 0, i + 1, i + 2;
+    return mesh;
+}
+
+/// A ribbon one cell wide on a winding way, or with a bridge of one single edge.
+TriMesh ribbon(Lots& lots, int n)
+{
+    const double a = lots.between(1, 4), b = lots.between(1, 4), c = lots.between(0.5, 3), width = lots.between(1, 8);
+    return grid_surface({n / 2, 1}, [=](double u, double v) {
+        const double t = 2 * pi * u;
+        return Vector3d(60 * std::sin(a * t), 60 * std::sin(b * t + 1) + width * (v - 0.5) * std::cos(t),
+                        60 * std::cos(c * t) + width * (v - 0.5) * std::sin(t));
+    });
+}
+
+/// Two sheets that hang together by one cell.
+TriMesh bridge(Lots& lots, int n)
+{
+    const int side = 2 * std::max(3, int(std::sqrt(n / 4.0)) / 2) + 1;
+    const double twist = lots.between(0, 3) / side;
+    TriMesh mesh = without_faces(rectangle(2 * side + 1, side, 2 * side + 1, side), [=](const Vector3d& x) {
+        return std::abs(x[0] - side - 0.5) < 0.5 && std::abs(x[1] - 0.5 * side) > 0.5;
+    });
+    for (auto x : mesh.position.colwise()) { // about the axis through the bridge
+        const double angle = twist * (x[0] - side - 0.5), y = x[1] - 0.5 * side;
+        x << x[0], y * std::cos(angle), y * std::sin(angle);
+    }
+    return mesh;
+}
+
+/// Many handles: a block with windows right through it.
+TriMesh sponge(Lots& lots, int n)
+{
+    const int a = 2 * lots.whole(1, 2) + 1, b = 2 * lots.whole(1, 2) + 1, c = 2 * lots.whole(0, 1) + 1;
+    std::set<Cell> cubes;
+    for (int i = 0; i < a; ++i)
+        for (int j = 0; j < b; ++j)
+            for (int k = 0; k < c; ++k)
+                if (i % 2 + j % 2 + k % 2 < 2)
+                    cubes.insert({i, j, k});
+    return body_surface(cubes, 20, std::max(1, int(std::lround(std::sqrt(n / 6.0 / double(cubes.size()))))));
+}
+
+/// A pipe along a torus knot; closed to a ring, or with two open ends.
+TriMesh knotted(Lots& lots, int n, bool ring)
+{
+    const int p = lots.whole(2, 3), q = 2 * lots.whole(1, 2) + 1 - (p == 3); // 2,3  2,5  3,2  3,4
+    const double thin = lots.between(3, 8), part = ring ? 1 : 0.97;
+    const auto axis = [=](double t) {
+        const double r = 60 + 25 * std::cos(q * t);
+        return Vector3d(r * std::cos(p * t), r * std::sin(p * t), 25 * std::sin(q * t));
+    };
+    GridPlan plan = cells(n, 2 * pi * thin, 2 * pi * 60 * p * 1.3, true);
+    plan.along = ring;
+    return grid_surface(plan, [=](double u, double v) {
+        const double t = 2 * pi * part * v;
+        const Vector3d along = (axis(t + 1e-4) - axis(t - 1e-4)).normalized();
+        const Vector3d from_core = axis(t) - 60 * Vector3d(std::cos(p * t), std::sin(p * t), 0); // turns with the knot
+        const Vector3d e = (from_core - from_core.dot(along) * along).normalized(), f = along.cross(e);
+        return Vector3d(axis(t) + thin * (std::cos(2 * pi * u) * e + std::sin(2 * pi * u) * f));
+    });
+}
+
+/// A pipe with windows in its wall.
+TriMesh windowed_tube(Lots& lots, int n)
+{
+    const int windows = lots.whole(2, 5);
+    const double length = lots.between(120, 300), low = lots.between(0.15, 0.35), high = lots.between(0.5, 0.85);
+    GridPlan plan = cells(n, 2 * pi * 30, length, true);
+    plan.columns = windows * std::max(4, plan.columns / windows);
+    const TriMesh whole = grid_surface(plan, [=](double u, double v) { return polar(2 * pi * u, 30, length * v); });
+    return without_faces(whole, [=](const Vector3d& x) {
+        const double turn = std::atan2(x[1], x[0]) / (2 * pi) * windows, place = turn - std::floor(turn);
+        return place > 0.3 && place < 0.8 && x[2] > low * length && x[2] < high * length;
+    });
+}
+
+/// More than a full turn around one vertex: a ruffle.
+TriMesh ruffle(Lots& lots, int n)
+{
+    const int waves = lots.whole(2, 6), rings_count = std::max(2, int(std::lround(std::sqrt(n / 40.0))));
+    const double height = lots.between(0.5, 2.5);
+    return stitch_rings([&] {
+        std::vector<Eigen::Matrix3Xd> rings{Eigen::Matrix3Xd::Zero(3, 1)};
+        for (int j = 1; j <= rings_count; ++j) {
+            Eigen::Matrix3Xd ring(3, std::max(8 * waves, 40));
+            for (int i = 0; i < ring.cols(); ++i) {
+                const double angle = 2 * pi * i / double(ring.cols()), r = 60.0 * j / rings_count;
+                ring.col(i) = polar(angle, r, height * r * std::sin(waves * angle));
+            }
+            rings.push_back(ring);
+        }
+        return rings;
+    }());
+}
+
+/// Faces from tens of millimetres down to thousandths of one.
+TriMesh graded(Lots& lots, int n)
+{
+    const double power = lots.between(2, 5), bow = lots.between(0, 0.002);
+    return grid_surface(cells(n, 1, 1), [=](double u, double v) {
+        const double x = 300 * std::pow(u, power), y = 300 * std::pow(v, power);
+        return Vector3d(x, y, bow * (x * x + y * y));
+    });
+}
+
+/// A height field with walls that stand almost upright.
+TriMesh cliffs(Lots& lots, int n)
+{
+    const double height = lots.between(50, 300), sharp = lots.between(5, 60);
+    const double a = lots.between(3, 9), b = lots.between(3, 9), phase = lots.between(0, 2 * pi);
+    return grid_surface(cells(n, 1, 1), [=](double u, double v) {
+        return Vector3d(100 * u, 100 * v, height * std::tanh(sharp * std::sin(a * u + phase) * std::cos(b * v)));
+    });
+}
+
+TriMesh very_anisotropic(Lots& lots, int n)
+{
+    const double bow = lots.between(0.2, 1.5);
+    return grid_surface({std::max(40, n / 4), 2}, [=](double u, double v) {
+        const double angle = bow * (u - 0.5);
+        return Vector3d(20 / bow * std::sin(angle), 1000 * v, 20 / bow * std::cos(angle) + 30 * v * v);
+    });
+}
+
 } // namespace
 
 std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
@@ -543,6 +717,20 @@ std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
     add("several pieces", 3, several_pieces, Expected::refusal);
     add("several pieces, largest", 3, several_pieces, Expected::blank, true);
     add("both skins", 3, both_skins, Expected::refusal);
+    add("crumpled", 8, crumpled);
+    add("whiskers", 6, whiskers);
+    add("pinhole", 5, pinhole);
+    add("tiny", 6, tiny);
+    add("ribbon", 5, ribbon);
+    add("bridge", 4, bridge);
+    add("sponge", 5, sponge);
+    add("knotted tube", 5, [](Lots& lots, int n) { return knotted(lots, n, false); });
+    add("knotted ring", 4, [](Lots& lots, int n) { return knotted(lots, n, true); });
+    add("windowed tube", 6, windowed_tube);
+    add("ruffle", 5, ruffle);
+    add("graded", 6, graded, Expected::either);
+    add("cliffs", 6, cliffs);
+    add("aspect 1:1000", 4, very_anisotropic);
     return shapes;
 }
 

@@ -239,6 +239,33 @@ TEST(CutOpen, OfAClosedPartRunsBetweenItsFarthestPoints)
     expect_the_same_part_as_a_sheet(cut_open(tetrahedron), tetrahedron);
 }
 
+TEST(CutOpen, PassesTheWindowsOfATube)
+{
+    // Ends half a width away from the windows: no collar, and still one tube.
+    const TriMesh whole = shapes::pipe(30, 30, 120, 40, 24);
+    const TriMesh part = shapes::without_faces(whole, [](const Eigen::Vector3d& x) {
+        const double place = std::fmod(std::atan2(x[1], x[0]) / (2 * pi) * 4 + 4, 1);
+        return place > 0.25 && place < 0.75 && x[2] > 25 && x[2] < 95;
+    });
+    ASSERT_EQ(boundary_loops(part).size(), 6u);
+    const CutPart cut = cut_open(part);
+    expect_the_same_part_as_a_sheet(cut, part);
+    EXPECT_LE(cut.length, 55); // 25 and 25 mm: through a window, whose edge is open already
+    EXPECT_EQ(boundary_loops(cut.mesh).size(), 4u);
+}
+
+TEST(CutOpen, OpensABottleButNotACup)
+{
+    const TriMesh bottle = shapes::sphere_cap({.radius = 50, .half_angle_deg = 172, .triangles = 1500}).mesh;
+    const CutPart cut = cut_open(bottle);
+    expect_the_same_part_as_a_sheet(cut, bottle);
+    EXPECT_NEAR(cut.length, 50 * 172 * pi / 180, 15); // to the pole
+    EXPECT_NE(cut.why.find("mouth"), std::string::npos);
+    for (const double half_angle : {90.0, 120.0, 160.0})
+        EXPECT_TRUE(cut_open(shapes::sphere_cap({.half_angle_deg = half_angle, .triangles = 1500}).mesh).seam.empty());
+    EXPECT_TRUE(cut_open(shapes::sharp_cup({.radius = 10, .height = 120, .triangles = 2000}).mesh).seam.empty());
+}
+
 TEST(CutOpen, GoesWhereItIsTold)
 {
     const TriMesh tube = shapes::pipe(25, 25, 100, 40, 25);
