@@ -64,7 +64,7 @@ struct FlattenResult {
 };
 
 /// Finds the flat blank that one forming step turns into the part.
-/// @param part      mm; one component, at least one boundary loop, no face without area
+/// @param part      mm; one component, at least one boundary loop, no handles (cut_open() sees to it), no face without area
 /// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
 /// @throws InputError  if the part or an option is not as described; names the first offending face
 /// @throws SolveError  if there is no flip-free state at all, or none that can be told in the part's coordinates

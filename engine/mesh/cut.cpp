@@ -7,12 +7,12 @@
 #include <fmt/core.h>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_graph.h"
-#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/handle_cut.h"
 #include "engine/mesh/ring_strain.h"
 #include "engine/mesh/topology.h"
@@ -198,9 +198,9 @@ struct Rims {
                  ///< its holes, 0 at the ends of a tube
 };
 
-Rims rims_of(const TriMesh& part)
+Rims rims_of(const TriMesh& part, std::vector<std::vector<int>> loops)
 {
-    Rims rims{boundary_loops(part), {}, {}};
+    Rims rims{std::move(loops), {}, {}};
     std::vector<double> angle(size_t(part.vertices()), 0);
     for (int f = 0; f < part.triangles(); ++f)
         for (int k = 0; k < 3; ++k) {
@@ -221,15 +221,15 @@ Rims rims_of(const TriMesh& part)
     return rims;
 }
 
-/// Cuts the tube that would suffer most, if there is one; else without a seam.
-CutPart cut_tube(const TriMesh& part)
+/// Cuts the tube that would suffer most, if there is one.
+std::optional<CutPart> cut_tube(const TriMesh& part, const Rims& rims)
 {
-    constexpr double most_ring = 1, least_gain = 0.5; // of logarithms of the scale
-    constexpr double least_end = 0.25;                // of the length of the loop looked at
+    // Logarithms of the scale. Rings at the limit came out of the solver with equivalent strains of 0.8.
+    constexpr double most_ring = std::numbers::ln2, least_gain = 0.5;
+    constexpr double least_end = 0.25; // of the length of the loop looked at
     constexpr double window = -1.5 * std::numbers::pi;
-    const Rims rims = rims_of(part);
     if (rims.loop.size() < 2)
-        return uncut(part);
+        return std::nullopt;
     FrontMarch march(part);
     std::vector<char> ends(size_t(part.vertices()), 0), worst_ends;
     size_t worst = rims.loop.size();
@@ -257,7 +257,7 @@ CutPart cut_tube(const TriMesh& part)
             break;
     }
     if (worst == rims.loop.size())
-        return uncut(part);
+        return std::nullopt;
     const EdgeGraph graph = edge_graph(part);
     const EdgePaths paths = shortest_paths(graph, rims.loop[worst], RimCost::none, worst_ends);
     std::vector<char> cut(graph.edge.size(), 0);
@@ -270,18 +270,17 @@ CutPart cut_tube(const TriMesh& part)
     return result;
 }
 
-/// Cuts from the longest rim to the farthest point if that rim is a narrow mouth; else without a seam.
-CutPart cut_bottle(const TriMesh& part)
+/// Cuts from the longest rim to the farthest point if that rim is a narrow mouth.
+std::optional<CutPart> cut_bottle(const TriMesh& part, const Rims& rims)
 {
     constexpr double narrow = 0.25;
-    const Rims rims = rims_of(part);
     // The girth of a body is about the root of pi times its area; a mouth far below that is worth a look.
     if (rims.loop.empty() || rims.length[0] * rims.length[0] > area(part))
-        return uncut(part);
+        return std::nullopt;
     FrontMarch march(part);
     const RingStrain around = ring_strain(march, rims.loop[0], std::vector<char>(size_t(part.vertices()), 0));
     if (rims.length[0] >= narrow * around.widest)
-        return uncut(part);
+        return std::nullopt;
     const EdgeGraph graph = edge_graph(part);
     const EdgePaths paths = shortest_paths(graph, rims.loop[0], RimCost::none);
     const int farthest = int(std::max_element(paths.distance.begin(), paths.distance.end()) - paths.distance.begin());
@@ -295,9 +294,7 @@ CutPart cut_bottle(const TriMesh& part)
     return result;
 }
 
-} // namespace
-
-SurfaceType surface_type(const TriMesh& part)
+SurfaceType type_of(const TriMesh& part, const std::vector<std::vector<int>>& loops)
 {
     DisjointSets pieces(size_t(part.vertices()));
     std::vector<char> used(size_t(part.vertices()), 0);
@@ -306,19 +303,23 @@ SurfaceType surface_type(const TriMesh& part)
             used[size_t(part.triangle(k, f))] = 1;
             pieces.join(part.triangle(k, f), part.triangle((k + 1) % 3, f));
         }
-    int vertices = 0, edges = 0;
-    const auto uses = edge_uses(part.triangle);
-    for_each_edge(uses, [&](size_t, size_t) { ++edges; });
     SurfaceType type;
+    int vertices = 0, sides = 3 * part.triangles(); // twice the edges
     for (int v = 0; v < part.vertices(); ++v) {
         vertices += used[size_t(v)];
         type.components += used[size_t(v)] && pieces.root(v) == v;
     }
-    type.loops = int(boundary_loops(part).size());
-    const int characteristic = vertices - edges + part.triangles(); // 2 components - 2 genus - loops
+    for (const std::vector<int>& loop : loops)
+        sides += int(loop.size());
+    type.loops = int(loops.size());
+    const int characteristic = vertices - sides / 2 + part.triangles(); // 2 components - 2 genus - loops
     type.genus = (2 * type.components - type.loops - characteristic) / 2;
     return type;
 }
+
+} // namespace
+
+SurfaceType surface_type(const TriMesh& part) { return type_of(part, boundary_loops(part)); }
 
 CutPart cut_along(const TriMesh& part, const std::vector<std::array<int, 2>>& edges)
 {
@@ -339,12 +340,18 @@ CutPart cut_open(const TriMesh& part, const SeamOptions& options)
         return uncut(part);
     if (options.mode == SeamOptions::Mode::given)
         return cut_given(part, options.path);
-    const SurfaceType type = surface_type(part);
+    auto loops = boundary_loops(part);
+    const SurfaceType type = type_of(part, loops);
     CutPart result = type.genus > 0 ? cut_handles(part, type.genus) : type.loops == 0 ? cut_closed(part) : uncut(part);
-    for (const auto& step : {cut_bottle, cut_tube})
-        for (CutPart next = step(result.mesh); !next.seam.empty(); next = step(result.mesh))
-            result = followed_by(result, std::move(next));
-    return result;
+    for (;;) {
+        const Rims rims = rims_of(result.mesh, result.seam.empty() ? std::move(loops) : boundary_loops(result.mesh));
+        std::optional<CutPart> next = cut_bottle(result.mesh, rims);
+        if (!next)
+            next = cut_tube(result.mesh, rims);
+        if (!next)
+            return result;
+        result = followed_by(result, std::move(*next));
+    }
 }
 
 bool has_both_skins(const TriMesh& part)
