@@ -365,7 +365,7 @@ bool has_both_skins(const TriMesh& part)
                   6;
     }
     const double whole = area(part);
-    constexpr double thin = 1.0 / 30;
+    constexpr double thin = 1.0 / 40;
     return 2 * std::abs(volume) / whole < thin * std::sqrt(whole / 2);
 }
 

@@ -57,7 +57,7 @@ CutPart cut_along(const TriMesh& part, const std::vector<std::array<int, 2>>& ed
 CutPart cut_open(const TriMesh& part, const SeamOptions& options = {});
 
 /// Whether a closed part looks like a sheet with both its skins: twice its volume over its area, about its thickness, is
-/// below a thirtieth of the side of a square of half the area.
+/// below a fortieth of the side of a square of half the area.
 bool has_both_skins(const TriMesh& part);
 
 } // namespace spia
