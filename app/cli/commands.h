@@ -24,6 +24,7 @@ struct RunArguments {
     std::optional<double> flc_n;
     std::optional<double> marginal;                ///< percent
     double max_thinning = 25, max_thickening = 10; ///< percent
+    std::string seam = "auto";                     ///< auto, none, or a file of paths
     bool strict = false, weld = false, keep_largest = false;
 };
 
@@ -33,7 +34,7 @@ int run(const RunArguments& arguments);
 
 struct InfoArguments {
     std::filesystem::path part, json;
-    std::string unit;
+    std::string unit, seam = "auto";
     bool weld = false, keep_largest = false;
 };
 

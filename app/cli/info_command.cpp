@@ -5,6 +5,7 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/seam_file.h"
 
 namespace spia::cli {
 
@@ -16,6 +17,7 @@ int info(const InfoArguments& arguments)
     if (arguments.weld)
         options.weld = true;
     options.doctor.keep_largest = arguments.keep_largest;
+    options.seam = seam_options(arguments.seam);
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

@@ -51,6 +51,12 @@ int main(int count, char** values)
     run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
     run_command->add_flag("--keep-largest", run.keep_largest,
                           "leave out all but the largest piece, and ribs on edges of three faces");
+    run_command
+        ->add_option("--seam", run.seam,
+                     "where a closed part, a tube or a part with handles is cut open: auto (a short seam), none, or a "
+                     "file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
+        ->type_name("auto|none|FILE")
+        ->capture_default_str();
     run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
@@ -129,6 +135,12 @@ int main(int count, char** values)
     info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
     info_command->add_flag("--keep-largest", info.keep_largest,
                            "leave out all but the largest piece, and ribs on edges of three faces");
+    info_command
+        ->add_option("--seam", info.seam,
+                     "where a closed part, a tube or a part with handles is cut open: auto (a short seam), none, or a "
+                     "file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
+        ->type_name("auto|none|FILE")
+        ->capture_default_str();
     info_command->add_option("--json", info.json, "write the findings")->type_name("FILE");
 
     cli::CompareArguments comparison;

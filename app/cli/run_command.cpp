@@ -14,6 +14,7 @@
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/seam_file.h"
 
 namespace spia::cli {
 namespace {
@@ -46,6 +47,7 @@ SessionOptions options(const RunArguments& arguments)
     if (arguments.weld)
         result.read.weld = true;
     result.read.doctor.keep_largest = arguments.keep_largest;
+    result.read.seam = seam_options(arguments.seam);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     result.flatten.thickness = arguments.thickness;
     if (!arguments.direction.empty())

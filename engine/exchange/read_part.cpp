@@ -82,6 +82,91 @@ PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile
     return read_openmesh(checked);
 }
 
+/// What the doctor found that a cut cannot mend.
+bool sick_beyond_a_cut(const DoctorReport& report)
+{
+    return std::any_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
+        return finding.severity == Severity::fatal && finding.fault != Fault::closed_surface &&
+               finding.fault != Fault::handle;
+    });
+}
+
+/// The seam of the options, in vertices of the mesh; of copies the first.
+SeamOptions in_mesh(SeamOptions seam, const std::vector<int>& source_vertex)
+{
+    for (std::vector<int>& row : seam.path)
+        for (int& v : row) {
+            const auto found = std::lower_bound(source_vertex.begin(), source_vertex.end(), v);
+            if (found == source_vertex.end() || *found != v)
+                throw InputError(fmt::format("the seam names vertex {}, which is not a vertex of the part (they count "
+                                             "from 0 in the file's order)",
+                                             v));
+            v = int(found - source_vertex.begin());
+        }
+    return seam;
+}
+
+void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
+{
+    Tally where;
+    std::vector<Eigen::Vector3d> place;
+    for (size_t r = 0; r < cut.seam.size(); ++r)
+        for (size_t i = 0; i < cut.seam[r].size(); ++i) {
+            where.add(part.seam[r][i]);
+            if (place.size() < where.where.size())
+                place.push_back(uncut.position.col(cut.seam[r][i]));
+        }
+    const Eigen::Vector3d &from = place.front(), &to = place[std::min(place.size(), cut.seam.front().size()) - 1];
+    const int paths = int(cut.seam.size());
+    part.doctor.add(
+        Fault::seam, Severity::repaired, where,
+        fmt::format(
+            "cut open along a seam of {:.4g} mm{}, from vertex {} at {:.4g}, {:.4g}, {:.4g} to vertex {} at {:.4g}, "
+            "{:.4g}, {:.4g}: {}; the blank has an edge on both sides of it, to be joined after forming",
+            cut.length, paths > 1 ? fmt::format(" in {} paths, the first", paths) : "", part.seam[0].front(), from.x(),
+            from.y(), from.z(), part.seam[0].back(), to.x(), to.y(), to.z(), cut.why),
+        "");
+    part.doctor.findings.back().place = std::move(place);
+}
+
+/// Cuts open what is no sheet, and turns the findings that would have refused it into repairs.
+void cut_where_needed(PartFile& part, const SeamOptions& seam)
+{
+    DoctorReport& report = part.doctor;
+    const bool closed = report.boundary_loops == 0;
+    if (seam.mode == SeamOptions::Mode::none || sick_beyond_a_cut(report) || report.components != 1 || !report.genus)
+        return;
+    if (seam.mode == SeamOptions::Mode::automatic && closed && has_both_skins(part.mesh)) {
+        for (Finding& finding : report.findings)
+            if (finding.fault == Fault::closed_surface) {
+                finding.text += " and looks like a sheet with both its skins";
+                finding.advice += "; if it is a hollow body after all, give the seam along which to cut it open";
+            }
+        return;
+    }
+    CutPart cut = cut_open(part.mesh, in_mesh(seam, part.source_vertex));
+    if (cut.seam.empty())
+        return;
+    part.seam = cut.seam;
+    for (std::vector<int>& row : part.seam)
+        for (int& v : row)
+            v = part.source_vertex[size_t(v)];
+    part.seam_length = cut.length;
+    for (Finding& finding : report.findings)
+        if (finding.fault == Fault::closed_surface || finding.fault == Fault::handle)
+            finding.severity = Severity::repaired;
+    report_seam(cut, part.mesh, part);
+    std::vector<int> source;
+    for (const int v : cut.source)
+        source.push_back(part.source_vertex[size_t(v)]);
+    part.source_vertex = std::move(source);
+    part.mesh = std::move(cut.mesh);
+    const SurfaceType type = surface_type(part.mesh);
+    report.boundary_loops = type.loops;
+    report.genus = type.genus;
+    report.euler_characteristic = 2 - 2 * type.genus - type.loops;
+}
+
 void note_size(PartFile& part, bool unit_given)
 {
     if (part.mesh.vertices() == 0)
@@ -96,6 +181,23 @@ void note_size(PartFile& part, bool unit_given)
                         diagonal, name(part.unit)));
 }
 
+/// Examines and cuts what the file holds; the part has its format, unit and notes already.
+void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, const Progress& progress)
+{
+    part.file_vertices = soup.vertices();
+    part.file_faces = soup.polygons();
+    DoctorOptions doctor = options.doctor;
+    doctor.weld = options.weld.value_or(weld);
+    Examination examination = examine(soup, doctor, progress.part(0, 0.95));
+    part.mesh = std::move(examination.mesh);
+    part.doctor = std::move(examination.report);
+    part.source_vertex = std::move(examination.source_vertex);
+    part.source_face = std::move(examination.source_face);
+    progress.checkpoint(0.95, "looking for where it must be cut open");
+    cut_where_needed(part, options.seam);
+    note_size(part, options.unit.has_value());
+}
+
 PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
     const std::string extension = extension_of(path);
@@ -105,17 +207,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
     for (Eigen::Vector3d& p : soup.position)
         p *= millimetres(part.unit);
-    part.file_vertices = soup.vertices();
-    part.file_faces = soup.polygons();
-
-    DoctorOptions doctor = options.doctor;
-    doctor.weld = options.weld.value_or(gltf || extension == "stl");
-    Examination examination = examine(soup, doctor, progress.part(0.5, 1));
-    part.mesh = std::move(examination.mesh);
-    part.doctor = std::move(examination.report);
-    part.source_vertex = std::move(examination.source_vertex);
-    part.source_face = std::move(examination.source_face);
-    note_size(part, options.unit.has_value());
+    fill(part, soup, options, gltf || extension == "stl", progress.part(0.5, 1));
     return part;
 }
 
@@ -134,6 +226,14 @@ template <class Work> PartFile named(const fs::path& path, const Work& work)
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
     return named(path, [&] { return examine_file(path, options, progress); });
+}
+
+PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const Progress& progress)
+{
+    PartFile part;
+    part.format = "in memory";
+    fill(part, soup, options, false, progress);
+    return part;
 }
 
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)

@@ -6,6 +6,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/exchange/length_unit.h"
+#include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/tri_mesh.h"
 
@@ -15,22 +16,27 @@ struct ReadOptions {
     std::optional<LengthUnit> unit = {}; ///< of the file; not given: m for glTF (its specification), else mm
     std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
     DoctorOptions doctor = {};           ///< its `weld` is ignored
+    SeamOptions seam = {};               ///< where a part is cut open that is no sheet; vertices of the file
 };
 
 /// What a file holds, and what was done to it.
 struct PartFile {
     TriMesh mesh;                   ///< mm; vertices and faces in the order of the file
     DoctorReport doctor;            ///< faults and repairs; it names vertices and faces as in the file, counted from 0
-    std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases (see Examination)
+    std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases, and repeats where
+                                    ///< touching fans were separated and along the seam
     std::vector<int> source_face;   ///< per triangle of mesh its face in the file; never decreases
     int file_vertices = 0;          ///< STL: different points, in the order of their first corner
     int file_faces = 0;
     std::string format; ///< e.g. "STL (binary)"
     LengthUnit unit = LengthUnit::mm;
-    std::vector<std::string> notes; ///< what was left out, or deserves a word
+    std::vector<std::string> notes;          ///< what was left out, or deserves a word
+    std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part was cut open
+    double seam_length = 0;                  ///< mm
 };
 
-/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file as a sheet part: one piece with a boundary and no handles.
+/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file as a sheet part: one piece with a boundary and no handles. What is closed,
+/// has handles or is a tube is cut open along a seam (cut_open()); the report says so and where.
 /// Coordinates keep their full precision (STL and glTF hold single precision).
 /// @throws InputError  the file cannot be read, or the doctor found a fault that cannot be repaired
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
@@ -39,5 +45,8 @@ PartFile read_part(const std::filesystem::path& path, const ReadOptions& options
 /// @throws InputError  the file cannot be read
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options = {},
                       const Progress& progress = {});
+
+/// The same for faces that are already in memory, in mm; there is no file to be named. A sick part is no error.
+PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options = {}, const Progress& progress = {});
 
 } // namespace spia

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/mesh/orient2d.h"
 
 namespace spia {
 namespace {
@@ -51,8 +52,7 @@ int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& 
     int count = 0;
     for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
         const auto x = corners(X, triangle.col(f));
-        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
-        count += !(p[0] * q[1] - p[1] * q[0] > 0);
+        count += orient2d(x.col(0), x.col(1), x.col(2)) <= 0;
     }
     return count;
 }

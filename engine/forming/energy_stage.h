@@ -45,7 +45,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
 /// The largest step along `direction` that turns no triangle over (its area passing through zero); infinity if none.
 double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction);
 
-/// Triangles of the blank with no or negative area.
+/// Triangles of the blank with no or negative area, by an exact test (orient2d.h).
 int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X);
 
 } // namespace spia

@@ -10,6 +10,7 @@
 #include "engine/core/parallel.h"
 #include "engine/forming/equilibrium.h"
 #include "engine/forming/sheet_fields.h"
+#include "engine/mesh/cut.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -23,8 +24,14 @@ void require_valid(const TriMesh& part, const FlattenOptions& options)
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", options.thickness));
     if (options.direction && !(options.direction->norm() > 0 && options.direction->allFinite()))
         throw InputError("the stamping direction must be a finite vector that is not zero");
-    if (boundary_loops(part).empty())
+    const SurfaceType type = surface_type(part);
+    if (type.loops == 0)
         throw InputError("the part is closed: it has no edge from which it could be unfolded; cut it open");
+    if (type.components > 1)
+        throw InputError(fmt::format("the part is {} separate pieces; unfold them one by one", type.components));
+    if (type.genus > 0)
+        throw InputError(fmt::format("the part has {} (genus {}); cut it open",
+                                     type.genus == 1 ? "a handle" : "handles", type.genus));
 }
 
 StampingDirection stamping(const TriMesh& part, const FlattenOptions& options)
@@ -318,6 +325,12 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     result.volume_error = volume_error(part, result, sheet);
     result.blank.position.colwise() += plane.transpose() * centre;
     result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
+    if (result.flipped_triangles > 0)
+        throw SolveError(
+            fmt::format("{} triangles of the blank are too thin for coordinates {:.3g} mm from the origin: move "
+                        "the part nearer to it, or mesh it more evenly",
+                        result.flipped_triangles, centre.norm()));
+    result.overlap = overlap(part, result.blank.position);
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;
 }

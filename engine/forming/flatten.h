@@ -9,6 +9,7 @@
 #include "engine/forming/material.h"
 #include "engine/forming/process.h"
 #include "engine/forming/stamping_direction.h"
+#include "engine/mesh/overlap.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -57,15 +58,16 @@ struct FlattenResult {
     StampingDirection stamping;
     SolveReport report;
     int necking_triangles = 0; ///< faces beyond the trusted strain: extrapolated, where the part tears
-    int flipped_triangles = 0; ///< always 0; counted anew from the result
+    int flipped_triangles = 0; ///< always 0; counted anew from the result, by an exact test
+    Overlap overlap;           ///< where the blank lies on itself
     double volume_error = 0;   ///< largest |h A - h0 A0| / (h0 A0) over the faces
 };
 
 /// Finds the flat blank that one forming step turns into the part.
-/// @param part      mm; one component, at least one boundary loop, no face without area
+/// @param part      mm; one component, at least one boundary loop, no handles (cut_open() sees to it), no face without area
 /// @param progress  one checkpoint per iteration; cancelling takes effect at the next one
 /// @throws InputError  if the part or an option is not as described; names the first offending face
-/// @throws SolveError  if there is no flip-free state at all
+/// @throws SolveError  if there is no flip-free state at all, or none that can be told in the part's coordinates
 /// If the virtual-work system does not converge, the hardening curve is continued from the uniform strain on and equations
 /// that the mesh cannot bear are relaxed; if that fails too, the blank of the energy stage (thickness held) is given. The
 /// report says so. The result does not depend on the number of threads. [Zhu et al. 2013, eqs. 4-23]

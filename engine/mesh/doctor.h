@@ -29,6 +29,7 @@ enum class Fault {
     several_components, ///< [face, the first one outside the largest piece]
     closed_surface,     ///< no boundary [face]
     handle,             ///< genus above 0 [face]
+    seam,               ///< cut open, after the examination [vertex, of the seam]
     sliver              ///< a very small angle [face]
 };
 std::string_view name(Fault fault);

@@ -33,6 +33,7 @@ std::string_view name(Fault fault)
     case Fault::several_components: return "several components";
     case Fault::closed_surface: return "closed surface";
     case Fault::handle: return "handle";
+    case Fault::seam: return "seam";
     case Fault::sliver: return "sliver";
     }
     return "";
@@ -60,7 +61,7 @@ void DoctorReport::add(Fault fault, Severity severity, const Tally& tally, std::
 bool counts_vertices(Fault fault)
 {
     return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::stray_vertex ||
-           fault == Fault::touching_fans;
+           fault == Fault::touching_fans || fault == Fault::seam;
 }
 
 void require_healthy(const DoctorReport& report)

@@ -112,7 +112,7 @@ void check_topology(const MendedSurface& s, int vertices, DoctorReport& report)
                    "a sheet is given by one of its skins: delete the other side and the faces across the thickness");
     if (report.genus.value_or(0) > 0)
         report.add(Fault::handle, Severity::fatal, Tally{*report.genus, -1, {}},
-                   fmt::format("the surface has {} (genus {}), like that of a cup: it cannot be laid flat",
+                   fmt::format("the surface has {} (genus {}), like that of a cup: it cannot be laid flat as it is",
                                counted(*report.genus, "handle", "handles"), *report.genus),
                    "cut each handle open");
 }

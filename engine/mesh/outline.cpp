@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh/orient2d.h"
+
 namespace spia {
 namespace {
 
@@ -11,25 +13,33 @@ struct Edge {
     double left, right;
 };
 
-double side(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p)
+/// Whether edges a -> v and v -> c, which have the vertex v in common, lie on each other.
+bool folded_back(const Eigen::Vector2d& a, const Eigen::Vector2d& v, const Eigen::Vector2d& c)
 {
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    if (orient2d(a, v, c) != 0)
+        return false;
+    const int axis = a[0] != v[0] ? 0 : 1;
+    return a[axis] != v[axis] && c[axis] != v[axis] && (a[axis] > v[axis]) == (c[axis] > v[axis]);
 }
 
 bool meet(const Edge& e, const Edge& f, const Eigen::Matrix2Xd& x)
 {
-    if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b)
-        return false; // neighbours
+    if ((e.a == f.a && e.b == f.b) || (e.a == f.b && e.b == f.a))
+        return false; // a loop of two edges
+    if (e.b == f.a || e.a == f.a)
+        return folded_back(x.col(e.b == f.a ? e.a : e.b), x.col(f.a), x.col(f.b));
+    if (e.a == f.b || e.b == f.b)
+        return folded_back(x.col(e.a == f.b ? e.b : e.a), x.col(f.b), x.col(f.a));
     const Eigen::Vector2d a = x.col(e.a), b = x.col(e.b), c = x.col(f.a), d = x.col(f.b);
     if (std::max(c[1], d[1]) < std::min(a[1], b[1]) || std::max(a[1], b[1]) < std::min(c[1], d[1]))
         return false;
-    const double s1 = side(a, b, c), s2 = side(a, b, d), s3 = side(c, d, a), s4 = side(c, d, b);
-    return ((s1 <= 0 && s2 >= 0) || (s1 >= 0 && s2 <= 0)) && ((s3 <= 0 && s4 >= 0) || (s3 >= 0 && s4 <= 0));
+    return orient2d(a, b, c) * orient2d(a, b, d) <= 0 && orient2d(c, d, a) * orient2d(c, d, b) <= 0;
 }
 
 } // namespace
 
-int crossings(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& position)
+std::vector<OutlineCrossing> outline_crossings(const std::vector<std::vector<int>>& loops,
+                                               const Eigen::Matrix2Xd& position)
 {
     std::vector<Edge> edges;
     for (const auto& loop : loops)
@@ -38,16 +48,22 @@ int crossings(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd
             edges.push_back({a, b, std::min(position(0, a), position(0, b)), std::max(position(0, a), position(0, b))});
         }
     // Sweep from left to right: only edges that overlap in x are compared.
-    std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.left < f.left; });
+    std::stable_sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.left < f.left; });
     std::vector<const Edge*> open;
-    int count = 0;
+    std::vector<OutlineCrossing> found;
     for (const Edge& edge : edges) {
         std::erase_if(open, [&](const Edge* other) { return other->right < edge.left; });
         for (const Edge* other : open)
-            count += meet(edge, *other, position);
+            if (meet(edge, *other, position))
+                found.push_back({{other->a, other->b}, {edge.a, edge.b}});
         open.push_back(&edge);
     }
-    return count;
+    return found;
+}
+
+int crossings(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& position)
+{
+    return int(outline_crossings(loops, position).size());
 }
 
 double length(const std::vector<int>& loop, const Eigen::Matrix2Xd& position)

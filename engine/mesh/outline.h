@@ -1,12 +1,24 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace spia {
 
-/// Pairs of edges of closed polygons in the plane that cross or touch, neighbours on one loop apart: 0 if the sheet
-/// nowhere lies on itself at its edge.
+/// Two edges of an outline that have a point in common; each by its two vertices, in the direction of its loop.
+struct OutlineCrossing {
+    std::array<int, 2> edge, other;
+
+    friend bool operator==(const OutlineCrossing&, const OutlineCrossing&) = default;
+};
+
+/// Pairs of edges of closed polygons in the plane that cross or touch: none if the sheet nowhere lies on itself at its edge.
+/// Neighbours on one loop only count where one lies on the other. Exact (orient2d.h).
 /// @param loops vertex indices; @param position 2 by #V
+std::vector<OutlineCrossing> outline_crossings(const std::vector<std::vector<int>>& loops,
+                                               const Eigen::Matrix2Xd& position);
+
+/// How many there are.
 int crossings(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& position);
 
 /// mm, of one closed polygon

@@ -69,6 +69,11 @@ Json findings_json(const DoctorReport& doctor)
     return list;
 }
 
+Json seam_json(const PartFile& part)
+{
+    return part.seam.empty() ? Json(nullptr) : Json{{"length_mm", part.seam_length}, {"paths", part.seam}};
+}
+
 Json part_json(const PartFile& part)
 {
     Json json = {{"vertices", part.mesh.vertices()},
@@ -77,6 +82,7 @@ Json part_json(const PartFile& part)
                  {"area_mm2", area(part.mesh)},
                  {"format", part.format},
                  {"unit", name(part.unit)},
+                 {"seam", seam_json(part)},
                  {"findings", findings_json(part.doctor)}};
     return json;
 }
@@ -100,8 +106,24 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping)
             {"newton_steps", steps_json(report.newton)}};
 }
 
-Json blank_json(const TriMesh& part, const FlattenResult& flat)
+/// Vertices by their numbers in the file; the first hundred of each list: nobody looks at more.
+Json overlap_json(const Overlap& overlap, const PartFile& file)
 {
+    constexpr size_t most = 100;
+    const auto number = [&](int v) { return file.source_vertex[size_t(v)]; };
+    Json crossings = Json::array(), wound = Json::array();
+    for (const OutlineCrossing& c : overlap.crossings)
+        if (crossings.size() < most)
+            crossings.push_back({{number(c.edge[0]), number(c.edge[1])}, {number(c.other[0]), number(c.other[1])}});
+    for (const int v : overlap.wound)
+        if (wound.size() < most)
+            wound.push_back(number(v));
+    return {{"crossing_edges", crossings}, {"wound_vertices", wound}};
+}
+
+Json blank_json(const PartFile& file, const FlattenResult& flat)
+{
+    const TriMesh& part = file.mesh;
     const Eigen::Matrix2Xd& X = flat.blank.position;
     const auto loops = boundary_loops(part);
     const Eigen::Vector2d low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff();
@@ -109,7 +131,8 @@ Json blank_json(const TriMesh& part, const FlattenResult& flat)
             {"perimeter_mm", length(loops[size_t(outer_loop(loops, X))], X)},
             {"bounding_box_mm", {low[0], low[1], high[0], high[1]}},
             {"flipped_triangles", flat.flipped_triangles},
-            {"outline_self_intersections", crossings(loops, X)}};
+            {"outline_self_intersections", flat.overlap.crossings.size()},
+            {"overlap", overlap_json(flat.overlap, file)}};
 }
 
 Json result_json(const FlattenResult& flat)
@@ -236,11 +259,18 @@ std::vector<std::string> shortcomings(const Session& session)
                             flat.necking_triangles, flat.report.trusted_strain));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
-        if (const int n = crossings(boundary_loops(session.part->mesh), flat.blank.position))
-            list.push_back(
-                fmt::format("the outline of the blank crosses itself at {} places: the flat sheet would overlap; "
-                            "cut the part or unfold it in steps",
-                            n));
+        if (const auto& crossing = flat.overlap.crossings; !crossing.empty()) {
+            const Eigen::Vector2d at = flat.blank.position.col(crossing[0].edge[0]);
+            list.push_back(fmt::format(
+                "the outline of the blank crosses itself at {} places, the first near {:.4g}, {:.4g} mm: the flat "
+                "sheet would overlap; cut the part or unfold it in steps",
+                crossing.size(), at[0], at[1]));
+        }
+        if (const auto& wound = flat.overlap.wound; !wound.empty())
+            list.push_back(fmt::format(
+                "the blank winds around {} more than once (first: vertex {}): the flat sheet would "
+                "overlap; cut the part open to there",
+                counted(int(wound.size()), "vertex", "vertices"), session.part->source_vertex[size_t(wound[0])]));
     }
     if (session.grid && session.grid->result.quality.folded_cells > 0) {
         const CellQuality& quality = session.grid->result.quality;
@@ -266,7 +296,7 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["hardening"] = Json::parse(hardening_text(session.options.flatten.material.hardening));
         json["sheet_thickness_mm"] = session.options.flatten.thickness;
         json["solve"] = solve_json(session.blank->report, session.blank->stamping);
-        json["blank"] = blank_json(session.part->mesh, *session.blank);
+        json["blank"] = blank_json(*session.part, *session.blank);
         json["result"] = result_json(*session.blank);
         if (session.limits)
             json["limits"] = limits_json(*session.limits, *session.part);
@@ -305,6 +335,7 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
                  {"faces", part.file_faces},
                  {"components", part.doctor.components},
                  {"healthy", part.doctor.healthy()},
+                 {"seam", seam_json(part)},
                  {"findings", findings_json(part.doctor)},
                  {"notes", part.notes}};
     const auto optional = [&](const char* key, const std::optional<int>& value) {

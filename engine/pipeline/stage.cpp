@@ -4,26 +4,63 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {
 namespace {
 
-/// Vertices are named to people by their number in the file.
-std::array<int, 4> corners_in_mesh(const PartFile& part, const std::array<int, 4>& in_file)
+/// Vertices are named to people by their number in the file; one that the seam or the doctor doubled is several of the mesh.
+/// @returns every choice of four different ones, first copies first
+std::vector<std::array<int, 4>> corners_in_mesh(const PartFile& part, const std::array<int, 4>& in_file)
 {
-    std::array<int, 4> result;
+    std::vector<std::array<int, 4>> choices{{}};
     for (size_t k = 0; k < 4; ++k) {
-        const auto found = std::find(part.source_vertex.begin(), part.source_vertex.end(), in_file[k]);
-        if (found == part.source_vertex.end())
+        const auto [from, to] = std::equal_range(part.source_vertex.begin(), part.source_vertex.end(), in_file[k]);
+        if (from == to)
             throw InputError(
                 fmt::format("corner {} is not a vertex of the part (they count from 0 in the file's order); "
                             "choose four vertices of the outer boundary",
                             in_file[k]));
-        result[k] = int(found - part.source_vertex.begin());
+        std::vector<std::array<int, 4>> longer;
+        for (std::array<int, 4> choice : choices)
+            for (auto copy = from; copy != to; ++copy) {
+                choice[k] = int(copy - part.source_vertex.begin());
+                if (std::find(choice.begin(), choice.begin() + long(k), choice[k]) == choice.begin() + long(k))
+                    longer.push_back(choice);
+            }
+        if (longer.empty())
+            throw InputError(fmt::format("vertex {} is given as a corner {} times; four different ones are needed",
+                                         in_file[k],
+                                         std::count(in_file.begin(), in_file.begin() + long(k) + 1, in_file[k])));
+        choices = std::move(longer);
     }
-    return result;
+    return choices;
+}
+
+/// Whether the four follow each other along the loop, either way round.
+bool in_order(const std::vector<int>& loop, const std::array<int, 4>& corners)
+{
+    std::array<long, 4> place;
+    for (size_t k = 0; k < 4; ++k) {
+        place[k] = std::find(loop.begin(), loop.end(), corners[k]) - loop.begin();
+        if (place[k] == long(loop.size()))
+            return false;
+    }
+    const auto steps = [&](size_t k) { return (place[k] - place[0] + long(loop.size())) % long(loop.size()); };
+    return (steps(1) < steps(2) && steps(2) < steps(3)) || (steps(1) > steps(2) && steps(2) > steps(3));
+}
+
+std::array<int, 4> corners_on_outline(const PartFile& part, const Blank& blank, const std::array<int, 4>& in_file)
+{
+    const auto choices = corners_in_mesh(part, in_file);
+    if (choices.size() == 1)
+        return choices.front();
+    const auto loops = boundary_loops(part.mesh);
+    const std::vector<int>& outline = loops[size_t(outer_loop(loops, blank.position))];
+    const auto fits = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return in_order(outline, c); });
+    return fits != choices.end() ? *fits : choices.front(); // split_boundary() says what is wrong with it
 }
 
 void read(Session& session, const Progress& progress)
@@ -40,7 +77,7 @@ void grid(Session& session, const Progress& progress)
 {
     const TriMesh& part = session.part->mesh;
     const Blank& blank = session.blank->blank;
-    const auto corners = session.options.corners ? corners_in_mesh(*session.part, *session.options.corners)
+    const auto corners = session.options.corners ? corners_on_outline(*session.part, blank, *session.options.corners)
                                                  : propose_corners(blank, part);
     BlankBoundary boundary = split_boundary(blank, part, corners, session.part->source_vertex);
     GridOptions options = session.options.grid;
@@ -91,18 +128,15 @@ void require_possible(const Session& session)
     require(session.part != nullptr, "read a part");
     if (!session.options.corners)
         return;
-    const auto loops = boundary_loops(session.part->mesh);
-    const auto corners = corners_in_mesh(*session.part, *session.options.corners);
-    for (size_t k = 0; k < 4; ++k) {
-        if (std::none_of(loops.begin(), loops.end(), [&](const auto& loop) {
-                return std::find(loop.begin(), loop.end(), corners[k]) != loop.end();
-            }))
+    std::vector<char> on_boundary(size_t(session.part->mesh.vertices()), 0);
+    for (const std::vector<int>& loop : boundary_loops(session.part->mesh))
+        for (const int v : loop)
+            on_boundary[size_t(v)] = 1;
+    const auto choices = corners_in_mesh(*session.part, *session.options.corners);
+    for (size_t k = 0; k < 4; ++k)
+        if (std::none_of(choices.begin(), choices.end(), [&](const auto& c) { return on_boundary[size_t(c[k])]; }))
             throw InputError(fmt::format("corner vertex {} is not on the boundary of the part; pick boundary vertices",
                                          (*session.options.corners)[k]));
-        if (std::count(corners.begin(), corners.end(), corners[k]) > 1)
-            throw InputError(fmt::format("vertex {} is given as a corner twice; four different ones are needed",
-                                         (*session.options.corners)[k]));
-    }
 }
 
 Session judge_limits(Session session)

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/developable.h"
+#include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
@@ -204,6 +205,26 @@ TEST(Flatten, RefusesWhatCannotBeUnfolded)
     tetrahedron.position = Eigen::Matrix<double, 3, 4>{{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     tetrahedron.triangle = Eigen::Matrix<int, 3, 4>{{0, 0, 0, 1}, {2, 1, 3, 2}, {1, 3, 2, 3}};
     EXPECT_THROW(flatten(tetrahedron, mild_steel()), InputError);
+    EXPECT_THROW(flatten(shapes::two_rectangles(), mild_steel()), InputError);
+    TriMesh handle = shapes::torus(60, 20, 400);
+    handle.triangle.conservativeResize(3, handle.triangles() - 1);
+    EXPECT_THROW(flatten(handle, mild_steel()), InputError);
+}
+
+TEST(Flatten, SaysWhereTheBlankLiesOnItself)
+{
+    // A staircase of one and a half turns is a ring of that angle when it is flat: its ends lie on each other.
+    const auto stair = [](double turns) {
+        return shapes::grid_surface({int(60 * turns), 4}, [=](double u, double v) -> Eigen::Vector3d {
+            const double angle = 2 * std::numbers::pi * turns * u, r = 40 + 20 * v;
+            return {r * std::cos(angle), r * std::sin(angle), 4 * turns * u};
+        });
+    };
+    const FlattenResult half = flatten(stair(0.5), mild_steel()), more = flatten(stair(1.5), mild_steel());
+    EXPECT_TRUE(half.overlap.none());
+    EXPECT_FALSE(more.overlap.crossings.empty());
+    EXPECT_TRUE(more.overlap.wound.empty());
+    EXPECT_EQ(more.flipped_triangles, 0);
 }
 
 TEST(Flatten, ShowsTheBlankWhileItConverges)

@@ -14,6 +14,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "tests/support/grid_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -53,6 +54,8 @@ template <class T> void append(std::string& bytes, T value)
 {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
+
+const std::string tetrahedron = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 
 /// A bent sheet with digits that single precision does not hold.
 TriMesh bent_sheet()
@@ -375,14 +378,82 @@ TEST_F(ReadPart, DamageIsRefusedWithItsPlace)
 
 TEST_F(ReadPart, SickPartIsReportedByExamineAndRefusedByRead)
 {
-    // A tetrahedron.
-    const fs::path path =
-        write("part.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
-    const PartFile part = examine_part(path);
+    const fs::path path = write("part.off", tetrahedron);
+    ReadOptions options;
+    options.seam.mode = SeamOptions::Mode::none;
+    const PartFile part = examine_part(path, options);
     EXPECT_FALSE(part.doctor.healthy());
     EXPECT_EQ(part.mesh.triangles(), 4);
     EXPECT_EQ(part.doctor.euler_characteristic, 2);
-    EXPECT_THROW(read_part(path), InputError);
+    EXPECT_THROW(read_part(path, options), InputError);
+}
+
+TEST_F(ReadPart, AClosedPartIsCutOpenAndTheReportSaysWhere)
+{
+    const PartFile part = read_part(write("part.off", tetrahedron));
+    EXPECT_EQ(part.mesh.triangles(), 4);
+    EXPECT_EQ(part.mesh.vertices(), 5);
+    EXPECT_EQ(part.doctor.boundary_loops, 1);
+    EXPECT_EQ(part.doctor.euler_characteristic, 1);
+    EXPECT_EQ(part.doctor.find(Fault::closed_surface)->severity, Severity::repaired);
+    ASSERT_EQ(part.seam.size(), 1u);
+    ASSERT_EQ(part.seam[0].size(), 3u);
+    EXPECT_EQ(std::count(part.source_vertex.begin(), part.source_vertex.end(), part.seam[0][1]), 2);
+    const Finding& seam = *part.doctor.find(Fault::seam);
+    EXPECT_TRUE(counts_vertices(seam.fault));
+    EXPECT_EQ(seam.where, part.seam[0]);
+    EXPECT_EQ(seam.first, part.seam[0][0]);
+    ASSERT_EQ(seam.place.size(), 3u);
+    double length = 0;
+    for (size_t i = 1; i < 3; ++i)
+        length += (seam.place[i] - seam.place[i - 1]).norm();
+    EXPECT_DOUBLE_EQ(part.seam_length, length);
+    EXPECT_NE(seam.text.find(fmt::format("{:.4g} mm", length)), std::string::npos) << seam.text;
+}
+
+TEST_F(ReadPart, TheSeamIsNamedByTheNumbersOfTheFileInItsUnit)
+{
+    // A strip of four squares with a stray vertex before it; in inches.
+    std::string strip = "v 9 9 9\n";
+    for (int i = 0; i < 5; ++i)
+        strip += fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} 2 0\n", i);
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 2; ++j)
+            strip += fmt::format("f {} {} {} {}\n", 3 * i + j + 2, 3 * i + j + 5, 3 * i + j + 6, 3 * i + j + 3);
+    ReadOptions options;
+    options.unit = LengthUnit::inch;
+    options.seam = {SeamOptions::Mode::given, {{7, 8}}}; // from the middle of one long side inwards
+    const PartFile part = read_part(write("strip.obj", strip), options);
+    EXPECT_EQ(part.seam, options.seam.path);
+    EXPECT_NEAR(part.seam_length, 25.4, 1e-9);
+    EXPECT_EQ(std::count(part.source_vertex.begin(), part.source_vertex.end(), 7), 2);
+    EXPECT_EQ(std::count(part.source_vertex.begin(), part.source_vertex.end(), 8), 1);
+    EXPECT_TRUE(std::is_sorted(part.source_vertex.begin(), part.source_vertex.end()));
+    options.seam.path = {{0, 8}};
+    EXPECT_THROW(read_part(write("strip.obj", strip), options), InputError); // the stray
+}
+
+TEST_F(ReadPart, ASheetWithBothSkinsIsNotCutUnlessToldWhere)
+{
+    std::set<shapes::Cell> tiles;
+    for (int i = 0; i < 70; ++i)
+        for (int j = 0; j < 70; ++j)
+            tiles.insert({i, j, 0});
+    TriMesh solid = shapes::body_surface(tiles, 2, 1);
+    const auto off = [&](const TriMesh& mesh) {
+        std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertices(), mesh.triangles());
+        for (const auto& x : mesh.position.colwise())
+            text += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
+        for (const auto& t : mesh.triangle.colwise())
+            text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+        return text;
+    };
+    expect_refused("skins.off", off(solid), "both its skins");
+    ReadOptions options;
+    options.seam = {SeamOptions::Mode::given, {{0, solid.vertices() - 1}}};
+    EXPECT_EQ(read("skins.off", off(solid), options).doctor.boundary_loops, 1);
+    solid.position.row(2) *= 10; // a box
+    EXPECT_EQ(read("box.off", off(solid)).doctor.boundary_loops, 1);
 }
 
 namespace {
@@ -403,7 +474,9 @@ TEST_P(RealPart, HasTheTopologyItsOriginStates)
     const KnownPart known = GetParam();
     if (!fs::exists(data_folder / known.file))
         GTEST_SKIP() << "no " << data_folder / known.file;
-    const PartFile part = examine_part(data_folder / known.file);
+    ReadOptions as_it_is;
+    as_it_is.seam.mode = SeamOptions::Mode::none;
+    const PartFile part = examine_part(data_folder / known.file, as_it_is);
     EXPECT_EQ(part.file_vertices, known.vertices);
     EXPECT_EQ(part.file_faces, known.faces);
     EXPECT_EQ(part.mesh.vertices(), known.vertices);

@@ -3,7 +3,9 @@
 #include <numbers>
 
 #include "engine/mesh/distortion.h"
+#include "engine/mesh/orient2d.h"
 #include "engine/mesh/outline.h"
+#include "engine/mesh/overlap.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/developable.h"
 #include "tests/support/shapes.h"
@@ -57,6 +59,92 @@ TEST(Outline, LoopsThatOverlapCrossEachOther)
     Eigen::Matrix2Xd points(2, 8);
     points << 0, 2, 2, 0, 1, 3, 3, 1, /**/ 0, 0, 2, 2, 1, 1, 3, 3;
     EXPECT_EQ(crossings({{0, 1, 2, 3}, {4, 5, 6, 7}}, points), 2);
+}
+
+TEST(Outline, NamesTheEdgesThatMeetEvenWhereTheyOnlyTouch)
+{
+    // A corner of the second loop lies on an edge of the first one, up to one unit in the last place.
+    Eigen::Matrix2Xd points(2, 6);
+    points << 0, 0.3, 0, /**/ 0.1, 1, 1, /**/ 0, 0.9, 0.9, /**/ 0.3, 0.3, 0.4;
+    const double on = points(1, 3); // 0.1 * 3 is not 0.3: the line through 0 and (0.3, 0.9) passes beside (0.1, 0.3)
+    ASSERT_EQ(on, 0.3);
+    const auto found = outline_crossings({{0, 1, 2}, {3, 4, 5}}, points);
+    const int side = orient2d(points.col(0), points.col(1), points.col(3));
+    EXPECT_EQ(found.size(), side >= 0 ? 2u : 0u);
+    points.col(3) << 0.25, 0.75; // on it, exactly
+    points.col(1) << 0.5, 1.5;
+    for (const double mirror : {1.0, -1.0}) { // either loop comes first in the sweep
+        Eigen::Matrix2Xd seen = points;
+        seen.row(0) *= mirror;
+        const auto touching = outline_crossings({{0, 1, 2}, {3, 4, 5}}, seen);
+        ASSERT_EQ(touching.size(), 2u); // with both edges of the corner
+        EXPECT_EQ(mirror > 0 ? touching[0].edge : touching[0].other, (std::array{0, 1}));
+    }
+}
+
+TEST(Outline, AnEdgeThatGoesBackOnItsNeighbourCounts)
+{
+    Eigen::Matrix2Xd points(2, 4);
+    points << 0, 2, 1, 1, /**/ 0, 0, 0, 1; // 0 -> 2 and back to 1
+    const auto found = outline_crossings({{0, 1, 2, 3}}, points);
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0], (OutlineCrossing{{0, 1}, {1, 2}}));
+    points.col(2) << 3, 0; // straight on
+    EXPECT_TRUE(outline_crossings({{0, 1, 2, 3}}, points).empty());
+}
+
+namespace {
+
+/// A flat fan of triangles around vertex 0, each of the given angle; closed if the last spoke is the first.
+std::pair<TriMesh, Eigen::Matrix2Xd> fan(int triangles, double angle, bool closed)
+{
+    TriMesh mesh;
+    const int spokes = closed ? triangles : triangles + 1;
+    mesh.position = Eigen::Matrix3Xd::Zero(3, spokes + 1);
+    mesh.triangle.resize(3, triangles);
+    for (int i = 0; i < spokes; ++i) // the radius grows, so that an open fan may wind without touching itself
+        mesh.position.col(i + 1) << (1 + 0.1 * i) * std::cos(angle * i), (1 + 0.1 * i) * std::sin(angle * i), 0;
+    for (int i = 0; i < triangles; ++i)
+        mesh.triangle.col(i) << 0, i + 1, (i + 1) % spokes + 1;
+    return {mesh, mesh.position.topRows<2>()};
+}
+
+} // namespace
+
+TEST(OverlapOf, AFanIsFoundWhereItGoesAroundTwice)
+{
+    using std::numbers::pi;
+    const auto [once, flat_once] = fan(6, pi / 3, true);
+    EXPECT_TRUE(overlap(once, flat_once).none());
+    const auto [twice, flat_twice] = fan(12, pi / 3, true); // an inner vertex
+    EXPECT_EQ(overlap(twice, flat_twice).wound, std::vector{0});
+    const auto [nearly, flat_nearly] = fan(11, 2 * pi / 11.5, false);
+    EXPECT_TRUE(overlap(nearly, flat_nearly).none());
+    const auto [more, flat_more] = fan(12, 2 * pi / 11.5, false); // on the boundary: a winding stair
+    EXPECT_EQ(overlap(more, flat_more).wound, std::vector{0});
+}
+
+TEST(OverlapOf, ASpiralStripIsFoundByItsOutline)
+{
+    // A strip that turns by 500 degrees in the plane: no vertex is gone around twice, the outline crosses itself.
+    const auto strip = [](double turn) {
+        TriMesh mesh = shapes::rectangle(1, 1, 60, 2);
+        for (auto x : mesh.position.colwise()) {
+            const double angle = turn * x[0], r = 2 - x[1];
+            x << r * std::sin(angle), -r * std::cos(angle), 0;
+        }
+        mesh.triangle.row(1).swap(mesh.triangle.row(2));
+        return mesh;
+    };
+    for (const auto& [degrees, overlaps] : {std::pair(350.0, false), {500.0, true}}) {
+        TriMesh mesh = strip(degrees * std::numbers::pi / 180);
+        Eigen::Matrix2Xd flat = mesh.position.topRows<2>();
+        if (orient2d(flat.col(mesh.triangle(0, 0)), flat.col(mesh.triangle(1, 0)), flat.col(mesh.triangle(2, 0))) < 0)
+            mesh.triangle.row(1).swap(mesh.triangle.row(2));
+        const Overlap found = overlap(mesh, flat);
+        EXPECT_TRUE(found.wound.empty());
+        EXPECT_EQ(!found.crossings.empty(), overlaps) << degrees;
+    }
 }
 
 } // namespace spia

@@ -154,6 +154,9 @@ TEST(Report, HasTheKeysOfTheContractAndTheFiguresOfTheResult)
                             "/blank/bounding_box_mm",
                             "/blank/flipped_triangles",
                             "/blank/outline_self_intersections",
+                            "/blank/overlap/crossing_edges",
+                            "/blank/overlap/wound_vertices",
+                            "/part/seam",
                             "/result/thinning_max",
                             "/result/thinning_min",
                             "/result/equivalent_strain_max",
@@ -253,6 +256,8 @@ TEST(Report, NamesEveryShortcoming)
     poorer.report.reason = "stalled";
     poorer.necking_triangles = 3;
     poorer.blank.position.row(0) = poorer.blank.position.row(0).cwiseAbs(); // folded over: the outline meets itself
+    poorer.overlap = overlap(session.part->mesh, poorer.blank.position);
+    poorer.overlap.wound = {0};
     session.blank = std::make_shared<FlattenResult>(poorer);
     GridStage folded = *session.grid;
     folded.result.quality.folded_cells = 2;
@@ -265,7 +270,8 @@ TEST(Report, NamesEveryShortcoming)
     std::string all;
     for (const std::string& text : shortcomings(session))
         all += text + "\n";
-    for (const char* part : {"stalled", "3 triangles are strained", "crosses itself", "2 cells of the grid", "column 3, row 2"})
+    for (const char* part : {"stalled", "3 triangles are strained", "crosses itself", "winds around 1 vertex",
+                             "2 cells of the grid", "column 3, row 2"})
         EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
 }
 

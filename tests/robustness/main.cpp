@@ -1,0 +1,114 @@
+// Runs every shape of the family and every mesh of a folder, and prints a table per family: what ended how, and what failed.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fmt/core.h>
+
+#include <map>
+
+#include "engine/forming/material_library.h"
+#include "tests/robustness/shape_run.h"
+#include "tests/support/shape_family.h"
+
+namespace {
+
+using namespace spia;
+
+struct Row {
+    int shapes = 0, blanks = 0, refusals = 0, failures = 0, cut = 0, overlapping = 0;
+    std::map<SolvedSystem, int> system;
+    double seconds = 0, slowest = 0, most_strain = 0;
+};
+
+void count(Row& row, const ShapeRun& run)
+{
+    ++row.shapes;
+    row.blanks += run.end == ShapeRun::End::blank;
+    row.refusals += run.end == ShapeRun::End::refusal;
+    row.failures += run.end == ShapeRun::End::failure;
+    row.cut += run.seam_mm > 0;
+    row.overlapping += run.crossings + run.wound > 0;
+    if (run.end == ShapeRun::End::blank)
+        ++row.system[run.system];
+    row.seconds += run.seconds;
+    row.slowest = std::max(row.slowest, run.seconds);
+    row.most_strain = std::max(row.most_strain, run.most_strain);
+}
+
+std::string line(const std::string& name, Row& row)
+{
+    return fmt::format(
+        "| {:<22} | {:>6} | {:>6} | {:>8} | {:>6} | {:>3} | {:>6} | {:>9} | {:>7} | {:>6} | {:>7} | {:>9.2f} | {:>9.2f} |",
+        name, row.shapes, row.blanks, row.refusals, row.failures, row.cut, row.system[SolvedSystem::strict],
+        row.system[SolvedSystem::continued], row.system[SolvedSystem::relaxed], row.system[SolvedSystem::energy],
+        row.overlapping, row.most_strain, row.slowest);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app{"Runs awkward shapes: 100 % have to end with a valid blank or a refusal that helps."};
+    int triangles = 600;
+    std::uint64_t seed = 1;
+    std::string only;
+    std::filesystem::path folder;
+    bool verbose = false;
+    app.add_option("--triangles", triangles, "about how many each shape has")->capture_default_str();
+    app.add_option("--seed", seed, "of all lots")->capture_default_str();
+    app.add_option("--only", only, "families whose name has this in it");
+    app.add_option("--folder", folder, "meshes to run as well");
+    app.add_flag("--verbose", verbose, "a line per shape");
+    CLI11_PARSE(app, argc, argv);
+
+    const Material material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    std::vector<std::pair<std::string, Row>> rows;
+    Row all;
+    int wrong = 0;
+    const auto take = [&](const std::string& family, const std::string& name, const ShapeRun& run, bool as_expected) {
+        if (rows.empty() || rows.back().first != family)
+            rows.emplace_back(family, Row{});
+        count(rows.back().second, run);
+        count(all, run);
+        wrong += !as_expected;
+        if (verbose || !as_expected)
+            fmt::print("{:<28} {:>7} {} {} strain {:.2f}, seam {:.4g}, {} crossings, {:.2f} s {}\n", name,
+                       run.triangles, as_expected ? "" : "WRONG",
+                       run.end == ShapeRun::End::blank ? spia::name(run.system) : "no blank", run.most_strain,
+                       run.seam_mm, run.crossings, run.seconds, run.why);
+        std::fflush(stdout);
+    };
+    for (const shapes::FamilyShape& shape : shapes::shape_family(triangles, seed)) {
+        if (shape.family.find(only) == std::string::npos)
+            continue;
+        ReadOptions options;
+        options.doctor.keep_largest = shape.keep_largest;
+        const ShapeRun run = run_shape(soup_of(shape.make()), options, material);
+        const bool fits = shape.expected == shapes::Expected::either
+                              ? run.end != ShapeRun::End::failure
+                              : run.end == (shape.expected == shapes::Expected::blank ? ShapeRun::End::blank
+                                                                                      : ShapeRun::End::refusal);
+        take(shape.family, shape.name(), run, fits);
+    }
+    std::vector<std::filesystem::path> files;
+    if (!folder.empty())
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            for (const char* ending : {".obj", ".stl", ".ply", ".off", ".gltf", ".glb"})
+                if (entry.path().extension() == ending)
+                    files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+        const ShapeRun run = run_shape(file, {}, material);
+        take("files", file.filename().string(), run, run.end != ShapeRun::End::failure);
+    }
+
+    fmt::print(
+        "\n| {:<22} | shapes | blanks | refusals | failed | cut | strict | continued | relaxed | energy | overlap | strain up | slowest s |\n",
+        "family");
+    fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (auto& [name, row] : rows)
+        fmt::print("{}\n", line(name, row));
+    fmt::print("{}\n{:.1f} s in all; {} of {} shapes did not end as they should\n", line("all", all), all.seconds,
+               wrong, all.shapes);
+    return wrong == 0 ? 0 : 1;
+}
