@@ -70,6 +70,7 @@ public:
         EquilibriumResult result;
         result.position = start;
         Eigen::Matrix2Xd& X = result.position;
+        work_.steady(X);
         for (int step = 0; step <= options_.most_steps; ++step) {
             work_.set_axes(X);
             const Eigen::VectorXd R = residual(X);
@@ -119,11 +120,12 @@ private:
         const std::optional<Eigen::VectorXd> newton = direction_at(X, R, forcing_term(steps));
         if (!newton)
             return false;
-        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton->data(), 2, X.cols());
+        const Eigen::Matrix2Xd direction = newton->reshaped(2, X.cols());
         double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
         for (int halving = 0; halving < 10; ++halving, length *= 0.5) {
             const Eigen::Matrix2Xd trial = X + length * direction;
             if (residual(trial).norm() <= (1 - 1e-4 * length) * R.norm()) {
+                work_.expect(X, length * direction);
                 X = trial;
                 steps.back().step_length = length;
                 return true;
@@ -149,13 +151,12 @@ private:
     {
         constexpr int most_iterations = 60;
         const double rough = tolerance < worst_forcing ? 0 : 0.3;
-        work_.tangent(X, tangent_);
+        work_.tangents(X, tangent_, preconditioner_);
         const LinearMap A = [&](const Eigen::VectorXd& x) {
             Eigen::VectorXd y;
             tangent_.multiply(x, y);
             return Eigen::VectorXd(y + rigid_.rows() * (spring_ * (rigid_.rows().transpose() * x)));
         };
-        work_.definite_tangent(X, preconditioner_);
         if (cholesky_.factor(preconditioner_)) {
             const GmresResult solved = gmres(
                 A, [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); }, -R, tolerance, most_iterations);

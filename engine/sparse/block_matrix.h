@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -17,6 +18,10 @@ public:
     /// Replaces the values by the sum of the element matrices; element row 2 a + k is component k of corner a.
     /// Summed in the order of the elements, so the bits do not depend on threads.
     void assemble(const std::vector<Matrix6d>& element);
+
+    /// The same piece by piece: all values zero, then each element's matrix added.
+    void clear() { std::fill(value_.begin(), value_.end(), 0.0); }
+    void add(int element, const Matrix6d& matrix);
 
     /// Adds a value on the diagonal of one unknown.
     void add_to_diagonal(int unknown, double value);
