@@ -46,17 +46,6 @@ double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X,
     return largest;
 }
 
-int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X)
-{
-    int count = 0;
-    for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
-        const auto x = corners(X, triangle.col(f));
-        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
-        count += !(p[0] * q[1] - p[1] * q[0] > 0);
-    }
-    return count;
-}
-
 EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
                              const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                              const EnergyOptions& options, const Progress& progress)

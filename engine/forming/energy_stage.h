@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/forming/flips.h"
 #include "engine/forming/membrane.h"
 #include "engine/sparse/block_matrix.h"
 #include "engine/sparse/cholesky.h"
@@ -44,8 +45,5 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
 
 /// The largest step along `direction` that turns no triangle over (its area passing through zero); infinity if none.
 double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction);
-
-/// Triangles of the blank with no or negative area.
-int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X);
 
 } // namespace spia

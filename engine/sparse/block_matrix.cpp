@@ -53,6 +53,13 @@ int BlockMatrix::entry(int unknown_row, int unknown_column) const
     return int(std::lower_bound(begin, end, unknown_row) - row_.begin());
 }
 
+int BlockMatrix::graph_entry(int row, int column) const
+{
+    const auto begin = graph_row_.begin() + graph_start_[size_t(column)];
+    const auto end = graph_row_.begin() + graph_start_[size_t(column) + 1];
+    return int(std::lower_bound(begin, end, row) - graph_row_.begin());
+}
+
 void BlockMatrix::assemble(const std::vector<Matrix6d>& element)
 {
     clear();

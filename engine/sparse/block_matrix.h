@@ -41,6 +41,8 @@ public:
     /// The graph of the vertices (CSC pattern, diagonal included): what fill-reducing orderings work on.
     const std::vector<int>& graph_start() const { return graph_start_; }
     const std::vector<int>& graph_row() const { return graph_row_; }
+    /// Where the entry of two neighbouring vertices stands in graph_row().
+    int graph_entry(int row, int column) const;
 
 private:
     int entry(int unknown_row, int unknown_column) const;
