@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <oneapi/tbb/parallel_for.h>
+#include <vector>
 
 namespace spia {
 
@@ -12,6 +14,21 @@ template <class Body> void parallel_for(int count, const Body& body)
         for (int i = range.begin(); i < range.end(); ++i)
             body(i);
     });
+}
+
+/// Computes compute(i, slot) on the available threads and hands each slot to take(i, slot) in the order of i: a sum over elements
+/// without an array of all their contributions, and with the same bits on any number of threads.
+template <class Slot, class Compute, class Take>
+void parallel_in_order(int count, const Compute& compute, const Take& take)
+{
+    constexpr int chunk = 4096; // a slot of a kilobyte still fits the cache
+    std::vector<Slot> slot(size_t(std::min(count, chunk)));
+    for (int first = 0; first < count; first += chunk) {
+        const int size = std::min(chunk, count - first);
+        parallel_for(size, [&](int i) { compute(first + i, slot[size_t(i)]); });
+        for (int i = 0; i < size; ++i)
+            take(first + i, slot[size_t(i)]);
+    }
 }
 
 } // namespace spia

@@ -7,7 +7,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/mesh/orient2d.h"
 
 namespace spia {
 namespace {
@@ -47,16 +46,6 @@ double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X,
     return largest;
 }
 
-int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X)
-{
-    int count = 0;
-    for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
-        const auto x = corners(X, triangle.col(f));
-        count += orient2d(x.col(0), x.col(1), x.col(2)) <= 0;
-    }
-    return count;
-}
-
 EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
                              const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,
                              const EnergyOptions& options, const Progress& progress)
@@ -74,24 +63,31 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             0.5 * element[size_t(f)].area * sheet.thickness[f] * curve.yield_stress() * curve.yield_strain();
     }
 
-    std::vector<Matrix6d> stiffness(static_cast<size_t>(faces));
-    std::vector<Eigen::Matrix<double, 6, 1>> force(static_cast<size_t>(faces));
+    struct Contribution {
+        Matrix6d stiffness;
+        Eigen::Matrix<double, 2, 3> force;
+    };
+    std::vector<ElementStress> expected(size_t(faces), ElementStress::Zero());
     for (int step = 0; step < options.most_steps; ++step) {
         progress.checkpoint(double(step) / options.most_steps,
                             fmt::format("energy step {}, {:.4g} J", step + 1, E * 1e-3));
-        parallel_for(faces, [&](int f) {
-            const Element& e = element[size_t(f)];
-            const EnergyDensity w = energy_density(sheet.law_of(f), inverse_gradient(e, corners(X, triangle.col(f))));
-            const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
-            const double weight = e.area * sheet.thickness[f];
-            force[size_t(f)] = weight * (B.transpose() * w.gradient.reshaped());
-            stiffness[size_t(f)] = weight * (B.transpose() * w.stiffness * B);
-        });
         Eigen::VectorXd gradient = Eigen::VectorXd::Zero(matrix.size());
-        for (int f = 0; f < faces; ++f)
-            for (int a = 0; a < 3; ++a)
-                gradient.segment<2>(2 * triangle(a, f)) += force[size_t(f)].segment<2>(2 * a);
-        matrix.assemble(stiffness);
+        matrix.clear();
+        parallel_in_order<Contribution>(
+            faces,
+            [&](int f, Contribution& out) {
+                const Element& e = element[size_t(f)];
+                const EnergyDensity w = energy_density(
+                    sheet.law_of(f), inverse_gradient(e, corners(X, triangle.col(f))), expected[size_t(f)]);
+                const double weight = e.area * sheet.thickness[f];
+                out.force = weight * (w.gradient * e.gradient);
+                out.stiffness = element_stiffness(e, weight * w.stiffness);
+            },
+            [&](int f, const Contribution& in) {
+                matrix.add(f, in.stiffness);
+                for (int a = 0; a < 3; ++a)
+                    gradient.segment<2>(2 * triangle(a, f)) += in.force.col(a);
+            });
         // The blank may be moved freely; a shift far below the stiffness fixes it without being felt.
         const double shift = 1e-12 * matrix.diagonal().mean();
         for (int i = 0; i < matrix.size(); ++i)
@@ -99,7 +95,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         if (!cholesky.factor(matrix))
             throw SolveError("the stiffness of the energy stage is not positive definite; the start is too distorted");
         const Eigen::VectorXd newton = -cholesky.solve(gradient);
-        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton.data(), 2, X.cols());
+        const Eigen::Matrix2Xd direction = newton.reshaped(2, X.cols());
         const double decrement = -gradient.dot(newton);
 
         result.steps.push_back({E * 1e-3, decrement / (E + yield_energy), 0});
@@ -120,6 +116,13 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             const Eigen::Matrix2Xd trial = X + length * direction;
             const double E_trial = energy(triangle, element, sheet, trial);
             if (E_trial <= E - 1e-4 * length * decrement) { // Armijo
+                parallel_for(faces, [&](int f) {
+                    const Element& e = element[size_t(f)];
+                    const Svd2 d = svd(inverse_gradient(e, corners(X, triangle.col(f))));
+                    const Eigen::Matrix2d change = length * inverse_gradient(e, corners(direction, triangle.col(f)));
+                    ElementStress& stress = expected[size_t(f)];
+                    stress = expected_stress(sheet.law_of(f).normal(-d.s.array().log().matrix()), d, change, stress);
+                });
                 X = trial;
                 E = E_trial;
                 decreased = true;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/forming/flips.h"
 #include "engine/forming/membrane.h"
 #include "engine/sparse/block_matrix.h"
 #include "engine/sparse/cholesky.h"
@@ -35,7 +36,7 @@ struct EnergyOptions {
 };
 
 /// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held as it was before forming, by projected
-/// Newton steps with a majorising stiffness (energy_density()). W grows without bound as a triangle collapses and no step
+/// Newton steps with the steadied stiffness of energy_density(), the first one majorising. W grows without bound as a triangle collapses and no step
 /// may turn one over: from a flip-free start every iterate is flip-free.
 /// @param matrix work space with the mesh's pattern; @param cholesky its analysis
 EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
@@ -44,8 +45,5 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
 
 /// The largest step along `direction` that turns no triangle over (its area passing through zero); infinity if none.
 double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction);
-
-/// Triangles of the blank with no or negative area, by an exact test (orient2d.h).
-int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X);
 
 } // namespace spia

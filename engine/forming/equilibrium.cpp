@@ -70,6 +70,8 @@ public:
         EquilibriumResult result;
         result.position = start;
         Eigen::Matrix2Xd& X = result.position;
+        work_.steady(X);
+        factored_ = false;
         for (int step = 0; step <= options_.most_steps; ++step) {
             work_.set_axes(X);
             const Eigen::VectorXd R = residual(X);
@@ -86,6 +88,9 @@ public:
             }
             if (step == options_.most_steps)
                 break;
+            // A short step tells that the expected stresses lead astray: begin anew with the ones that are there.
+            if (result.steps.size() > 1 && result.steps[result.steps.size() - 2].step_length < short_step)
+                work_.steady(X);
             if (no_progress(result.steps) || !advance(X, R, result.steps)) {
                 result.ended = Ended::stalled;
                 return result;
@@ -116,14 +121,18 @@ private:
 
     bool advance(Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, std::vector<NewtonStep>& steps)
     {
-        const std::optional<Eigen::VectorXd> newton = direction_at(X, R, forcing_term(steps));
+        const std::optional<Eigen::VectorXd> newton = direction_at(X, R, steps);
         if (!newton)
             return false;
-        const Eigen::Map<const Eigen::Matrix2Xd> direction(newton->data(), 2, X.cols());
+        const Eigen::Matrix2Xd direction = newton->reshaped(2, X.cols());
+        double least = std::numeric_limits<double>::max();
+        for (const NewtonStep& step : steps)
+            least = std::min(least, step.residual);
         double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
         for (int halving = 0; halving < 10; ++halving, length *= 0.5) {
             const Eigen::Matrix2Xd trial = X + length * direction;
-            if (residual(trial).norm() <= (1 - 1e-4 * length) * R.norm()) {
+            if (descends(R, residual(trial), length, least * yield_force_)) {
+                work_.expect(X, length * direction);
                 X = trial;
                 steps.back().step_length = length;
                 return true;
@@ -132,34 +141,64 @@ private:
         return false;
     }
 
-    /// To which part of R the linear system is solved: as exactly as the decrease of the residual deserves. [Eisenstat and
-    /// Walker 1996, choice 2]
-    static double forcing_term(const std::vector<NewtonStep>& steps)
+    /// Whether a step from R to `then` is one forward. A few triangles with a stress turned round can carry more than all of |R|
+    /// while the blank as a whole comes nearer: then the work of R on the step that a linear sheet would answer with
+    /// (Deuflhard's natural level in the norm of energy) falls, and |R| may rise up to a few times the least so far.
+    /// [Deuflhard 2004, sec. 3.3]
+    bool descends(const Eigen::VectorXd& R, const Eigen::VectorXd& then, double length, double least) const
+    {
+        constexpr double most_rise = 4, fall = 0.8;
+        if (then.norm() <= (1 - 1e-4 * length) * R.norm())
+            return true;
+        return factored_ && then.norm() <= most_rise * least &&
+               then.dot(cholesky_.solve(then)) <= fall * fall * R.dot(cholesky_.solve(R));
+    }
+
+    /// To which part of R the linear system is solved: as exactly as the decrease of the residual deserves [Eisenstat and
+    /// Walker 1996, choice 2], and no more exactly than the end of the iteration asks for.
+    double forcing_term(const std::vector<NewtonStep>& steps) const
     {
         if (steps.size() < 2)
             return worst_forcing;
-        const double decrease = steps.back().residual / steps[steps.size() - 2].residual;
-        return std::clamp(0.9 * decrease * decrease, 1e-10, worst_forcing);
+        if (steps[steps.size() - 2].step_length < short_step)
+            return rough_forcing;
+        const double enough = 0.3 * options_.tolerance / steps.back().residual;
+        return std::clamp(0.9 * decrease(steps) * decrease(steps), std::max(1e-10, enough), worst_forcing);
     }
 
-    /// Solves (K + k C C^T) d = -R, the exact tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
-    /// factor of the tangent's definite neighbour preconditions it; where that is not enough, a sparse LU takes its place. None: the tangent is
-    /// singular.
-    std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, double tolerance)
+    /// Of the residual, by the last step.
+    static double decrease(const std::vector<NewtonStep>& steps)
+    {
+        return steps.size() < 2 ? 1 : steps.back().residual / steps[steps.size() - 2].residual;
+    }
+
+    /// Solves (K + k C C^T) d = -R, the tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
+    /// factor of the tangent's definite neighbour preconditions it, near the solution the one of the step before; where
+    /// that is not enough, a sparse LU takes its place. None: the tangent is singular.
+    std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R,
+                                                const std::vector<NewtonStep>& steps)
     {
         constexpr int most_iterations = 60;
+        constexpr double near_solution = 0.1;
+        const double tolerance = forcing_term(steps);
+        // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
         const double rough = tolerance < worst_forcing ? 0 : 0.3;
-        work_.tangent(X, tangent_);
         const LinearMap A = [&](const Eigen::VectorXd& x) {
             Eigen::VectorXd y;
             tangent_.multiply(x, y);
             return Eigen::VectorXd(y + rigid_.rows() * (spring_ * (rigid_.rows().transpose() * x)));
         };
-        work_.definite_tangent(X, preconditioner_);
-        if (cholesky_.factor(preconditioner_)) {
-            const GmresResult solved = gmres(
-                A, [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); }, -R, tolerance, most_iterations);
-            // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
+        const LinearMap by_cholesky = [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); };
+        if (factored_ && decrease(steps) < near_solution) {
+            work_.tangent(X, tangent_);
+            const GmresResult solved = gmres(A, by_cholesky, -R, tolerance, most_iterations / 2);
+            if (solved.relative_residual <= tolerance)
+                return solved.x;
+        }
+        work_.tangents(X, tangent_, preconditioner_);
+        factored_ = cholesky_.factor(preconditioner_);
+        if (factored_) {
+            const GmresResult solved = gmres(A, by_cholesky, -R, tolerance, most_iterations);
             if (solved.relative_residual <= std::max(tolerance, rough))
                 return solved.x;
         }
@@ -176,6 +215,9 @@ private:
     }
 
     static constexpr double worst_forcing = 0.1;
+    // Where a triangle in the way leaves room for a short step only, a direction of few iterations, which is smooth, goes
+    // round it.
+    static constexpr double short_step = 0.1, rough_forcing = 0.5;
 
     const Eigen::Matrix3Xi& triangle_;
     VirtualWork& work_;
@@ -186,6 +228,7 @@ private:
     const EquilibriumOptions& options_;
     double yield_force_;
     double spring_ = 0;
+    bool factored_ = false; ///< cholesky_ holds the factor of a state of this iteration
 };
 
 /// The vertices that carry nine tenths of |R|^2.

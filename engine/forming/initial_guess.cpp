@@ -7,14 +7,15 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/forming/energy_stage.h"
+#include "engine/forming/flips.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
 
 constexpr double steepest_projected = 65 * std::numbers::pi / 180;
-constexpr int power_iterations = 12;
+constexpr int most_power_iterations = 12;
+constexpr double enough = 1e-2; // change of the map in an iteration: shapes are near, scales are off anyway
 
 /// Looks along the stamping direction.
 Eigen::Matrix2Xd projection(const TriMesh& part, const Eigen::Vector3d& direction)
@@ -56,13 +57,15 @@ std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector
             mass[a] += half;
             mass[b] += half;
         }
-    Eigen::Matrix2Xd X = first;
-    for (int iteration = 0; iteration < power_iterations; ++iteration) {
+    Eigen::Matrix2Xd X = first, before = Eigen::Matrix2Xd::Zero(2, first.cols());
+    for (int iteration = 0; iteration < most_power_iterations; ++iteration) {
         X.colwise() -= (X * mass / mass.sum()).eval(); // translations cost no energy: keep them out
-        Eigen::Matrix2Xd weighted = X * mass.asDiagonal();
-        weighted /= std::sqrt((weighted.cwiseProduct(X)).sum());
-        const Eigen::VectorXd next = cholesky.solve(weighted.reshaped());
-        X = Eigen::Map<const Eigen::Matrix2Xd>(next.data(), 2, X.cols());
+        X /= std::sqrt((X * mass.asDiagonal()).cwiseProduct(X).sum());
+        if ((X - before).norm() <= enough * X.norm())
+            break;
+        before = X;
+        const Eigen::VectorXd next = cholesky.solve((X * mass.asDiagonal()).reshaped());
+        X = next.reshaped(2, X.cols());
     }
     return X;
 }
@@ -166,6 +169,10 @@ InitialGuess initial_guess(const TriMesh& part, const std::vector<Element>& elem
         if (X->allFinite() && flipped_triangles(part.triangle, *X) == 0) {
             scale_to_part(part, element, *X);
             return {std::move(*X), StartMethod::conformal};
+        }
+        if (auto without = mended(part, std::move(*X))) {
+            scale_to_part(part, element, *without);
+            return {std::move(*without), StartMethod::conformal};
         }
     }
     progress.checkpoint(0.5, "first guess: harmonic map");

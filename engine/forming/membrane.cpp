@@ -5,30 +5,10 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/forming/log_quotient.h"
 
 namespace spia {
 namespace {
-
-/// ln(x/y) / (x - y) for x >= y > 0, exact also where both are equal.
-double log_difference_quotient(double x, double y)
-{
-    const double relative = (x - y) / y;
-    return relative < 1e-12 ? 1 / y : std::log1p(relative) / (relative * y);
-}
-
-/// Raises the eigenvalues of a symmetric 2 x 2 matrix to at least `floor`.
-Eigen::Matrix2d raised(const Eigen::Matrix2d& A, double floor)
-{
-    const double mean = 0.5 * (A(0, 0) + A(1, 1)), half = 0.5 * (A(0, 0) - A(1, 1));
-    const double radius = std::hypot(half, A(0, 1));
-    if (mean - radius >= floor)
-        return A;
-    if (radius == 0)
-        return floor * Eigen::Matrix2d::Identity();
-    const double high = std::max(mean + radius, floor);
-    Eigen::Matrix2d projector = Eigen::Matrix2d::Identity() * (0.5 - 0.5 * mean / radius) + A * (0.5 / radius);
-    return floor * Eigen::Matrix2d::Identity() + (high - floor) * projector;
-}
 
 using Vector4d = Eigen::Vector4d;
 
@@ -86,19 +66,16 @@ Eigen::Matrix<double, 4, 6> gradient_operator(const Element& e)
     return B;
 }
 
-Svd2 svd(const Eigen::Matrix2d& G)
+Eigen::Matrix<double, 6, 6> element_stiffness(const Element& e, const Eigen::Matrix4d& H)
 {
-    // G = [e+f, g-h; g+h, e-f] is a rotation part (e, h) plus a reflection part (f, g).
-    const double e = 0.5 * (G(0, 0) + G(1, 1)), f = 0.5 * (G(0, 0) - G(1, 1));
-    const double g = 0.5 * (G(1, 0) + G(0, 1)), h = 0.5 * (G(1, 0) - G(0, 1));
-    const double sum = std::atan2(h, e), difference = std::atan2(g, f);
-    const double u = 0.5 * (sum + difference), v = 0.5 * (difference - sum);
-    Svd2 out;
-    out.s[0] = std::hypot(e, h) + std::hypot(f, g);
-    out.s[1] = out.s[0] > 0 ? G.determinant() / out.s[0] : 0; // the difference of the two would cancel
-    out.U << std::cos(u), -std::sin(u), std::sin(u), std::cos(u);
-    out.V << std::cos(v), -std::sin(v), std::sin(v), std::cos(v);
-    return out;
+    Eigen::Matrix<double, 6, 6> K;
+    for (int a = 0; a < 3; ++a) {
+        const Eigen::Matrix<double, 2, 4> row =
+            e.gradient(0, a) * H.topRows<2>() + e.gradient(1, a) * H.bottomRows<2>();
+        for (int b = 0; b < 3; ++b)
+            K.block<2, 2>(2 * a, 2 * b) = e.gradient(0, b) * row.leftCols<2>() + e.gradient(1, b) * row.rightCols<2>();
+    }
+    return K;
 }
 
 double energy_density_value(const MembraneLaw& law, const Eigen::Matrix2d& G)
@@ -109,28 +86,35 @@ double energy_density_value(const MembraneLaw& law, const Eigen::Matrix2d& G)
     return law({-std::log(s1), -std::log(G.determinant() / s1)}).work;
 }
 
-EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
+EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G, const ElementStress& expected)
 {
     const Svd2 d = svd(G);
     const Eigen::Vector2d& s = d.s;
-    const PlaneStress p = law(-s.array().log().matrix());
+    const AxisStress p = law.normal(-s.array().log().matrix());
 
-    // W(-ln s): first and second derivatives with respect to the singular values.
-    const Eigen::Vector2d first = -p.stress.cwiseQuotient(s);
-    Eigen::Matrix2d second;
-    second << (p.majorant(0, 0) + p.stress[0]) / (s[0] * s[0]), p.majorant(0, 1) / (s[0] * s[1]),
-        p.majorant(1, 0) / (s[0] * s[1]), (p.majorant(1, 1) + p.stress[1]) / (s[1] * s[1]);
-    // Mixed directions: twist (antisymmetric in the singular basis) and flip (symmetric). [Smith et al. 2019]
+    // The strain in the axes V, engineering shear, changes with M = U^T dG V: columns M_11, M_22, M_12, M_21.
+    const double q = log_difference_quotient(s[0] * s[0], s[1] * s[1]);
+    Eigen::Matrix<double, 3, 4> strain;
+    strain << -1 / s[0], 0, 0, 0, 0, -1 / s[1], 0, 0, 0, 0, -q * s[0], -q * s[1];
+    Eigen::Matrix4d H = strain.transpose() * steadied_tangent(p, d, expected) * strain;
+    // The rest of the second derivative, stress times the strain's. The mixed directions M_12 - M_21 (twist) and M_12 + M_21
+    // (flip) have closed eigenvalues [Smith et al. 2019]; what the shear modulus adds to them above is taken off again.
+    const Eigen::Vector2d first = -p.stress.head<2>().cwiseQuotient(s); // d W / d s
+    const double shear = p.secant * p.metric(2, 2);
     const double twist = (first[0] + first[1]) / (s[0] + s[1]);
-    const double stress_per_stretch = -p.deviatoric * log_difference_quotient(s[0], s[1]);
+    const double stress_per_stretch = -2 * shear * log_difference_quotient(s[0], s[1]);
     const double flip = (0.5 * (p.stress[0] + p.stress[1]) - stress_per_stretch * 0.5 * (s[0] + s[1])) / (s[0] * s[1]);
-
-    const double floor = 1e-8 * p.deviatoric / (s[0] * s[0]);
-    second = raised(second, floor);
-    const double t = std::max(twist, floor), l = std::max(flip, floor);
-    Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
-    H.topLeftCorner<2, 2>() = second;
-    H.bottomRightCorner<2, 2>() << 0.5 * (t + l), 0.5 * (l - t), 0.5 * (l - t), 0.5 * (t + l);
+    H(0, 0) += p.stress[0] / (s[0] * s[0]);
+    H(1, 1) += p.stress[1] / (s[1] * s[1]);
+    H(2, 2) += 0.5 * (twist + flip) - shear * q * q * s[0] * s[0];
+    H(3, 3) += 0.5 * (twist + flip) - shear * q * q * s[1] * s[1];
+    H(2, 3) += 0.5 * (flip - twist) - shear * q * q * s[0] * s[1];
+    H(3, 2) = H(2, 3);
+    const double floor = 2e-8 * shear / (s[0] * s[0]);
+    if (Eigen::LLT<Eigen::Matrix4d>(H - floor * Eigen::Matrix4d::Identity()).info() != Eigen::Success) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(H);
+        H = modes.eigenvectors() * modes.eigenvalues().cwiseMax(floor).asDiagonal() * modes.eigenvectors().transpose();
+    }
     const Eigen::Matrix4d basis = singular_basis(d);
 
     EnergyDensity out;
@@ -140,7 +124,16 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G)
     return out;
 }
 
-MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G)
+Eigen::Matrix2d membrane_force_value(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G)
+{
+    const Svd2 d = svd(G);
+    const AxisStress p = law(d.U, -d.s.array().log().matrix());
+    Eigen::Matrix2d principal;
+    principal << p.stress[0], p.stress[2], p.stress[2], p.stress[1];
+    return h0 * d.s[0] * d.s[1] * (d.V * principal * d.V.transpose());
+}
+
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G, const ElementStress* expected)
 {
     // With M = U^T dG V and U^T dU, V^T dV the spins of the singular vectors:
     //   strain in the axes U: d eps_k = -M_kk / s_k, 2 d eps_12 = -q (s_2 M_12 + s_1 M_21), q = ln(s_1^2/s_2^2) / (s_1^2 - s_2^2),
@@ -149,6 +142,7 @@ MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Mat
     const Svd2 d = svd(G);
     const Eigen::Vector2d& s = d.s;
     const AxisStress p = law(d.U, -s.array().log().matrix());
+    const Eigen::Matrix3d tangent = expected ? steadied_tangent(p, d, *expected) : p.tangent;
     const double h = h0 * s[0] * s[1];
     const double q = log_difference_quotient(s[0] * s[0], s[1] * s[1]);
     Eigen::Matrix<double, 3, 4> strain; // columns: M_11, M_22, M_12, M_21
@@ -156,7 +150,7 @@ MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Mat
     const Eigen::RowVector4d stretch(1 / s[0], 1 / s[1], 0, 0); // dh / h
     const double spin = 1 / (s[0] + s[1]);
     const Eigen::Vector3d turned(-2 * p.stress[2], 2 * p.stress[2], p.stress[0] - p.stress[1]);
-    Eigen::Matrix<double, 3, 4> in_basis = h * (p.tangent * strain + p.stress * stretch);
+    Eigen::Matrix<double, 3, 4> in_basis = h * (tangent * strain + p.stress * stretch);
     in_basis.col(2) += h * spin * turned;
     in_basis.col(3) -= h * spin * turned;
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "engine/forming/expected_stress.h"
 #include "engine/forming/sheet.h"
+#include "engine/forming/svd2.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -22,6 +24,9 @@ Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<dou
 /// The same as a matrix: from the corners (x_0, y_0, x_1, ...) to G, column by column.
 Eigen::Matrix<double, 4, 6> gradient_operator(const Element& element);
 
+/// B^T H B with that operator and a 4 x 4 matrix H.
+Eigen::Matrix<double, 6, 6> element_stiffness(const Element& element, const Eigen::Matrix4d& H);
+
 /// Corners of a face in the blank.
 inline Eigen::Matrix<double, 2, 3> corners(const Eigen::Matrix2Xd& X, const Eigen::Vector3i& face)
 {
@@ -30,20 +35,11 @@ inline Eigen::Matrix<double, 2, 3> corners(const Eigen::Matrix2Xd& X, const Eige
     return result;
 }
 
-/// G = U diag(s) V^T with rotations U and V, s_1 >= s_2; s_2 has the sign of det G. Logarithmic strains of forming
-/// are -ln s: s_2 belongs to the major strain.
-struct Svd2 {
-    Eigen::Matrix2d U, V;
-    Eigen::Vector2d s;
-};
-Svd2 svd(const Eigen::Matrix2d& G);
-
-/// Energy density of forming (integral of sigma_eq d eps_eq) as a function of G: value, first derivative, and a positive
-/// definite stiffness for descent. It is the second derivative but for two things. Negative eigenvalues are raised to a small
-/// positive one; and along the strain the secant modulus stands where the curve's slope is less. Near yield the work is
-/// nearly a cone, sigma_Y |eps|: the tangent sees no curvature there and overshoots to the other side, while a quadratic
-/// with the secant modulus lies above the work everywhere (it is concave in eps_eq^2), so that full steps descend.
-/// [Kacanov 1959; majorise-minimise] G is stored column by column.
+/// Energy density of forming (integral of sigma_eq d eps_eq, normal anisotropy) as a function of G: value, first derivative, and
+/// a positive definite stiffness for descent. It is the second derivative but for two things. Negative eigenvalues are
+/// raised to a small positive one; and the tangent of the stress is the steadied one. With no stress expected the stiffness
+/// lies above the work everywhere (which is concave in eps_eq^2), so that full steps descend. [Kacanov 1959;
+/// majorise-minimise] G is stored column by column.
 struct EnergyDensity {
     double value;              ///< MPa
     Eigen::Matrix2d gradient;  ///< d value / d G
@@ -51,7 +47,8 @@ struct EnergyDensity {
 };
 /// @pre det G > 0
 double energy_density_value(const MembraneLaw& law, const Eigen::Matrix2d& G);
-EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G);
+EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G,
+                             const ElementStress& expected = ElementStress::Zero());
 
 /// The membrane force h sigma of the formed sheet (N/mm, symmetric, in the frame of the element) and its derivative
 /// with respect to G, column by column of G: force.reshaped() changes by derivative * dG.reshaped().
@@ -60,7 +57,10 @@ struct MembraneForce {
     Eigen::Matrix4d derivative;
 };
 /// @pre det G > 0
-/// @param h0 mm, initial thickness
-MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G);
+Eigen::Matrix2d membrane_force_value(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G);
+/// @param h0       mm, initial thickness
+/// @param expected if given, the derivative has the steadied tangent of the stress in place of the exact one
+MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G,
+                             const ElementStress* expected = nullptr);
 
 } // namespace spia

@@ -55,27 +55,32 @@ PlaneStress MembraneLaw::operator()(const Eigen::Vector2d& strain) const
     out.equivalent_stress = f.stress;
     out.work = f.work;
     out.stress = f.secant * conjugate;
-    out.deviatoric = f.secant * (metric_(0, 0) - metric_(0, 1));
-    out.tangent = out.majorant = f.secant * metric_;
+    out.tangent = f.secant * metric_;
     if (!f.elastic) {
         const Eigen::Vector2d direction = conjugate / out.equivalent_strain;
-        const Eigen::Matrix2d along = direction * direction.transpose();
-        out.tangent += (f.slope - f.secant) * along;
-        out.majorant += std::max(0.0, f.slope - f.secant) * along;
+        out.tangent += (f.slope - f.secant) * direction * direction.transpose();
     }
     return out;
 }
 
 AxisStress MembraneLaw::operator()(const Eigen::Matrix2d& axes, const Eigen::Vector2d& strain) const
 {
+    if (!planar_)
+        return at(normal_metric(), strain);
+    const Eigen::Matrix3d T = strain_rotation(axes);
+    return at(T.transpose() * *planar_ * T, strain);
+}
+
+Eigen::Matrix3d MembraneLaw::normal_metric() const
+{
     Eigen::Matrix3d metric = Eigen::Matrix3d::Zero();
-    if (planar_) {
-        const Eigen::Matrix3d T = strain_rotation(axes);
-        metric = T.transpose() * *planar_ * T;
-    } else {
-        metric.topLeftCorner<2, 2>() = metric_;
-        metric(2, 2) = 0.5 * (metric_(0, 0) - metric_(0, 1));
-    }
+    metric.topLeftCorner<2, 2>() = metric_;
+    metric(2, 2) = 0.5 * (metric_(0, 0) - metric_(0, 1));
+    return metric;
+}
+
+AxisStress MembraneLaw::at(const Eigen::Matrix3d& metric, const Eigen::Vector2d& strain) const
+{
     const Eigen::Vector3d e(strain[0], strain[1], 0);
     const Eigen::Vector3d conjugate = metric * e;
     AxisStress out;
@@ -84,6 +89,10 @@ AxisStress MembraneLaw::operator()(const Eigen::Matrix2d& axes, const Eigen::Vec
     out.equivalent_stress = f.stress;
     out.stress = f.secant * conjugate;
     out.tangent = f.secant * metric;
+    out.metric = metric;
+    out.secant = f.secant;
+    out.slope = f.elastic ? f.secant : f.slope;
+    out.work = f.work;
     if (!f.elastic) {
         const Eigen::Vector3d direction = conjugate / out.equivalent_strain;
         out.tangent += (f.slope - f.secant) * direction * direction.transpose();

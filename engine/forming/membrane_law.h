@@ -13,8 +13,6 @@ struct PlaneStress {
     double equivalent_stress; ///< MPa
     Eigen::Vector2d stress;   ///< MPa, principal, Cauchy
     Eigen::Matrix2d tangent;  ///< MPa, d stress_k / d eps_l, symmetric
-    Eigen::Matrix2d majorant; ///< MPa, the tangent with no less than the secant along the strain: see energy_density()
-    double deviatoric;        ///< MPa, (stress_1 - stress_2) / (eps_1 - eps_2)
     double work;              ///< MPa, integral of sigma_eq d eps_eq
 };
 
@@ -25,6 +23,10 @@ struct AxisStress {
     double equivalent_stress; ///< MPa
     Eigen::Vector3d stress;   ///< MPa, Cauchy
     Eigen::Matrix3d tangent;  ///< MPa, d stress / d strain, symmetric
+    Eigen::Matrix3d metric;   ///< eps_eq^2 = eps^T metric eps
+    double secant;            ///< MPa, sigma_eq / eps_eq
+    double slope;             ///< MPa, d sigma_eq / d eps_eq
+    double work;              ///< MPa, integral of sigma_eq d eps_eq
 };
 
 /// Hill 1948, plane stress, incompressible, total (Hencky) theory. In the sheet's material axes (1 rolling, 2 across),
@@ -49,6 +51,9 @@ public:
     /// @param strain principal logarithmic strains along them
     AxisStress operator()(const Eigen::Matrix2d& axes, const Eigen::Vector2d& strain) const;
 
+    /// With normal anisotropy, whatever the rolling direction; the axes do not matter then.
+    AxisStress normal(const Eigen::Vector2d& strain) const { return at(normal_metric(), strain); }
+
     const StressCurve& curve() const { return curve_; }
     double young() const { return young_; }
 
@@ -58,6 +63,8 @@ private:
         bool elastic;
     };
     Flow flow(double equivalent_strain) const;
+    Eigen::Matrix3d normal_metric() const;
+    AxisStress at(const Eigen::Matrix3d& metric, const Eigen::Vector2d& strain) const;
 
     StressCurve curve_;
     double young_;

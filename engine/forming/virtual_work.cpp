@@ -26,6 +26,20 @@ Eigen::Matrix2d definite(const Eigen::Matrix2d& K)
     return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() * modes.eigenvectors().transpose();
 }
 
+/// Change of M (h sigma) g with G, column by column.
+/// @param relaxed share in which M is F^T, which changes with G
+Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
+                                         const Eigen::Matrix2d& M, double relaxed, const Eigen::Vector2d& g)
+{
+    Eigen::Matrix<double, 2, 4> change = M * (g[0] * m.derivative.topRows<2>() + g[1] * m.derivative.bottomRows<2>());
+    if (relaxed > 0) { // dF^T = -F^T dG^T F^T, and dG has a single one in row k % 2, column k / 2
+        const Eigen::Vector2d pulled = relaxed * (pull_back * (m.force * g));
+        for (int k = 0; k < 4; ++k)
+            change.col(k) -= pull_back.col(k / 2) * pulled[k % 2];
+    }
+    return change;
+}
+
 Eigen::VectorXd areas(const std::vector<Element>& element)
 {
     Eigen::VectorXd area(Eigen::Index(element.size()));
@@ -94,10 +108,27 @@ Eigen::VectorXd VirtualWork::mismatch() const
     return worst;
 }
 
-VirtualWork::Formed VirtualWork::formed(int f, const Eigen::Matrix2Xd& X) const
+VirtualWork::Formed VirtualWork::formed(int f, const Eigen::Matrix2Xd& X, bool steadied) const
 {
     const Eigen::Matrix2d G = inverse_gradient(element_[size_t(f)], corners(X, part_.triangle.col(f)));
-    return {membrane_force(sheet_.law_of(f), sheet_.thickness[f], G), G.inverse().transpose()};
+    const ElementStress* expected = steadied && !expected_.empty() ? &expected_[size_t(f)] : nullptr;
+    return {membrane_force(sheet_.law_of(f), sheet_.thickness[f], G, expected), G.inverse().transpose()};
+}
+
+void VirtualWork::steady(const Eigen::Matrix2Xd& X)
+{
+    expected_.assign(element_.size(), ElementStress::Zero());
+    expect(X, Eigen::Matrix2Xd::Zero(2, X.cols())); // of no step at all: the stress that is there
+}
+
+void VirtualWork::expect(const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& step)
+{
+    parallel_for(int(expected_.size()), [&](int f) {
+        const Element& e = element_[size_t(f)];
+        const Svd2 d = svd(inverse_gradient(e, corners(X, part_.triangle.col(f))));
+        const Eigen::Matrix2d change = inverse_gradient(e, corners(step, part_.triangle.col(f)));
+        expected_[size_t(f)] = expected_stress(stress(f, d), d, change, expected_[size_t(f)]);
+    });
 }
 
 Eigen::Matrix2d VirtualWork::to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const
@@ -108,17 +139,22 @@ Eigen::Matrix2d VirtualWork::to_vertex(int f, int a, const Eigen::Matrix2d& pull
 
 Eigen::VectorXd VirtualWork::residual(const Eigen::Matrix2Xd& X) const
 {
-    std::vector<Eigen::Matrix<double, 2, 3>> force(element_.size());
-    parallel_for(part_.triangles(), [&](int f) {
-        const Element& e = element_[size_t(f)];
-        const auto [m, pull_back] = formed(f, X);
-        for (int a = 0; a < 3; ++a)
-            force[size_t(f)].col(a) = -e.area * (to_vertex(f, a, pull_back) * (m.force * e.gradient.col(a)));
-    });
     Eigen::VectorXd R = Eigen::VectorXd::Zero(2 * X.cols());
-    for (int f = 0; f < part_.triangles(); ++f)
-        for (int a = 0; a < 3; ++a)
-            R.segment<2>(2 * part_.triangle(a, f)) += force[size_t(f)].col(a);
+    parallel_in_order<Eigen::Matrix<double, 2, 3>>(
+        part_.triangles(),
+        [&](int f, Eigen::Matrix<double, 2, 3>& force) {
+            const Element& e = element_[size_t(f)];
+            const Eigen::Matrix2d G = inverse_gradient(e, corners(X, part_.triangle.col(f))),
+                                  pull_back = G.inverse().transpose();
+            const Eigen::Matrix<double, 2, 3> out =
+                -e.area * (membrane_force_value(sheet_.law_of(f), sheet_.thickness[f], G) * e.gradient);
+            for (int a = 0; a < 3; ++a)
+                force.col(a) = to_vertex(f, a, pull_back) * out.col(a);
+        },
+        [&](int f, const Eigen::Matrix<double, 2, 3>& force) {
+            for (int a = 0; a < 3; ++a)
+                R.segment<2>(2 * part_.triangle(a, f)) += force.col(a);
+        });
     for (int v = 0; v < part_.vertices(); ++v)
         if (nodal_.acts_on(v))
             R.segment<2>(2 * v) += axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).force;
@@ -129,64 +165,52 @@ Eigen::VectorXd VirtualWork::residual(const Eigen::Matrix2Xd& X) const
 
 void VirtualWork::tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
 {
-    std::vector<Matrix6d> stiffness(element_.size());
-    parallel_for(part_.triangles(), [&](int f) {
-        const Element& e = element_[size_t(f)];
-        const auto [m, pull_back] = formed(f, X);
-        const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
-        for (int a = 0; a < 3; ++a)
-            stiffness[size_t(f)].middleRows<2>(2 * a) =
-                -e.area * (force_change(m, pull_back, to_vertex(f, a, pull_back),
-                                        relaxed_[size_t(part_.triangle(a, f))], e.gradient.col(a)) *
-                           B);
-        for (int a = 0; a < 3; ++a)
-            if (held_[size_t(part_.triangle(a, f))] >= 0)
-                stiffness[size_t(f)].middleRows<2>(2 * a).setZero();
-    });
-    matrix.assemble(stiffness);
+    matrix.clear();
+    parallel_in_order<Matrix6d>(
+        part_.triangles(), [&](int f, Matrix6d& K) { K = element_tangent(f, formed(f, X, true)); },
+        [&](int f, const Matrix6d& K) { matrix.add(f, K); });
+    add_external_tangent(X, matrix);
+}
+
+void VirtualWork::tangents(const Eigen::Matrix2Xd& X, BlockMatrix& tangent, BlockMatrix& definite_neighbour) const
+{
+    struct Contribution {
+        Matrix6d exact, definite;
+    };
+    tangent.clear();
+    definite_neighbour.clear();
+    parallel_in_order<Contribution>(
+        part_.triangles(),
+        [&](int f, Contribution& out) {
+            const Formed at = formed(f, X, true);
+            out.exact = element_tangent(f, at);
+            out.definite = definite_element(f, at);
+        },
+        [&](int f, const Contribution& in) {
+            tangent.add(f, in.exact);
+            definite_neighbour.add(f, in.definite);
+        });
+    add_external_tangent(X, tangent);
+    for (int v = 0; v < part_.vertices(); ++v)
+        if (nodal_.acts_on(v) && held_[size_t(v)] < 0)
+            definite_neighbour.add_to_diagonal(v,
+                                               definite(axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).derivative));
+    for (const HeldVertex& h : external_.held)
+        definite_neighbour.add_to_diagonal(h.vertex, hold_ * Eigen::Matrix2d::Identity());
+    // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a difference of rank six.
+    const double mean = definite_neighbour.diagonal().mean();
+    definite_neighbour.add_to_diagonal(0, mean);
+    definite_neighbour.add_to_diagonal(1, mean);
+    definite_neighbour.add_to_diagonal(definite_neighbour.size() - 1, mean);
+}
+
+void VirtualWork::add_external_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
+{
     for (int v = 0; v < part_.vertices(); ++v)
         if (nodal_.acts_on(v) && held_[size_t(v)] < 0)
             matrix.add_to_diagonal(v, axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).derivative);
     for (const HeldVertex& h : external_.held)
         matrix.add_to_diagonal(h.vertex, hold_ * Eigen::Matrix2d::Identity());
-}
-
-void VirtualWork::definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const
-{
-    std::vector<Matrix6d> stiffness(element_.size());
-    parallel_for(part_.triangles(), [&](int f) {
-        const Element& e = element_[size_t(f)];
-        const auto [m, pull_back] = formed(f, X);
-        Eigen::Matrix4d K = Eigen::Matrix4d::Zero(); // mean of the three corners
-        for (int a = 0; a < 3; ++a) {
-            const Eigen::Matrix2d M = to_vertex(f, a, pull_back);
-            const bool relaxed = relaxed_[size_t(part_.triangle(a, f))];
-            K.topRows<2>() -= force_change(m, pull_back, M, relaxed, Eigen::Vector2d::UnitX()) / 3;
-            K.bottomRows<2>() -= force_change(m, pull_back, M, relaxed, Eigen::Vector2d::UnitY()) / 3;
-        }
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(0.5 * (K + K.transpose()));
-        Eigen::Vector4d value = modes.eigenvalues().cwiseAbs();
-        value = value.cwiseMax(1e-8 * value.maxCoeff());
-        const Eigen::Matrix<double, 4, 6> B = gradient_operator(e);
-        stiffness[size_t(f)] =
-            e.area * (B.transpose() * modes.eigenvectors() * value.asDiagonal() * modes.eigenvectors().transpose() * B);
-        for (int a = 0; a < 3; ++a)
-            if (held_[size_t(part_.triangle(a, f))] >= 0) {
-                stiffness[size_t(f)].middleRows<2>(2 * a).setZero();
-                stiffness[size_t(f)].middleCols<2>(2 * a).setZero();
-            }
-    });
-    matrix.assemble(stiffness);
-    for (int v = 0; v < part_.vertices(); ++v)
-        if (nodal_.acts_on(v) && held_[size_t(v)] < 0)
-            matrix.add_to_diagonal(v, definite(axes_[size_t(v)].transpose() * nodal_(v, X.col(v)).derivative));
-    for (const HeldVertex& h : external_.held)
-        matrix.add_to_diagonal(h.vertex, hold_ * Eigen::Matrix2d::Identity());
-    // Two vertices hold the rigid motion; the springs that really do are left to GMRES: a difference of rank six.
-    const double mean = matrix.diagonal().mean();
-    matrix.add_to_diagonal(0, mean);
-    matrix.add_to_diagonal(1, mean);
-    matrix.add_to_diagonal(matrix.size() - 1, mean);
 }
 
 double VirtualWork::yield_force() const
@@ -200,19 +224,52 @@ double VirtualWork::yield_force() const
     return force.norm();
 }
 
-Eigen::Matrix<double, 2, 4> VirtualWork::force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
-                                                      const Eigen::Matrix2d& M, bool relaxed,
-                                                      const Eigen::Vector2d& g) const
+Matrix6d VirtualWork::element_tangent(int f, const Formed& at) const
 {
-    Eigen::Matrix<double, 2, 4> change;
-    for (int k = 0; k < 4; ++k)
-        change.col(k) = M * (m.derivative.col(k).reshaped(2, 2) * g);
-    if (relaxed) { // M = F^T: dF^T = -F^T dG^T F^T, and dG has a single one in row k % 2, column k / 2
-        const Eigen::Vector2d pulled = pull_back * (m.force * g);
-        for (int k = 0; k < 4; ++k)
-            change.col(k) -= pull_back.col(k / 2) * pulled[k % 2];
+    const Element& e = element_[size_t(f)];
+    Matrix6d K;
+    for (int a = 0; a < 3; ++a) {
+        const size_t v = size_t(part_.triangle(a, f));
+        if (held_[v] >= 0) {
+            K.middleRows<2>(2 * a).setZero();
+            continue;
+        }
+        const Eigen::Matrix<double, 2, 4> change =
+            -e.area * force_change(at.m, at.pull_back, to_vertex(f, a, at.pull_back), relaxed_[v], e.gradient.col(a));
+        for (int b = 0; b < 3; ++b)
+            K.block<2, 2>(2 * a, 2 * b) =
+                change.leftCols<2>() * e.gradient(0, b) + change.rightCols<2>() * e.gradient(1, b);
     }
-    return change;
+    return K;
+}
+
+Matrix6d VirtualWork::definite_element(int f, const Formed& at) const
+{
+    constexpr double least = 1e-8; // of the largest eigenvalue
+    const Element& e = element_[size_t(f)];
+    Eigen::Matrix2d M = Eigen::Matrix2d::Zero(); // mean of the three corners
+    double relaxed = 0;
+    for (int a = 0; a < 3; ++a) {
+        M += to_vertex(f, a, at.pull_back) / 3;
+        relaxed += relaxed_[size_t(part_.triangle(a, f))] / 3.0;
+    }
+    Eigen::Matrix4d K;
+    K << force_change(at.m, at.pull_back, M, relaxed, Eigen::Vector2d::UnitX()),
+        force_change(at.m, at.pull_back, M, relaxed, Eigen::Vector2d::UnitY());
+    K = (-0.5 * (K + K.transpose())).eval();
+    if (Eigen::LLT<Eigen::Matrix4d>(K - least * K.trace() * Eigen::Matrix4d::Identity()).info() != Eigen::Success) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(K);
+        Eigen::Vector4d value = modes.eigenvalues().cwiseAbs();
+        value = value.cwiseMax(least * value.maxCoeff());
+        K = modes.eigenvectors() * value.asDiagonal() * modes.eigenvectors().transpose();
+    }
+    Matrix6d out = element_stiffness(e, e.area * K);
+    for (int a = 0; a < 3; ++a)
+        if (held_[size_t(part_.triangle(a, f))] >= 0) {
+            out.middleRows<2>(2 * a).setZero();
+            out.middleCols<2>(2 * a).setZero();
+        }
+    return out;
 }
 
 } // namespace spia

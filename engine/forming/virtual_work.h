@@ -38,12 +38,17 @@ public:
     /// Minus internal plus external forces, N: 2 per vertex. Its derivative is nearly positive definite.
     Eigen::VectorXd residual(const Eigen::Matrix2Xd& X) const;
 
-    /// The exact derivative of the residual with the axes held.
+    /// From here on the tangents are steadied (expected_stress.h), the first one being the exact one at X.
+    void steady(const Eigen::Matrix2Xd& X);
+    /// The stresses that a step from X expects go into the next tangents. Without steady() before nothing happens.
+    void expect(const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& step);
+
+    /// The derivative of the residual with the axes held, exact but for the steadying.
     void tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
 
-    /// A positive definite neighbour of the tangent, to precondition with: per triangle the symmetric part of the
-    /// tangent in the space of G, the eigenvalues by their magnitude (they are negative where the sheet softens).
-    void definite_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
+    /// The tangent and a positive definite neighbour of it to precondition with: per triangle the symmetric part of the tangent
+    /// in the space of G, the eigenvalues by their magnitude (they are negative where the sheet softens).
+    void tangents(const Eigen::Matrix2Xd& X, BlockMatrix& tangent, BlockMatrix& definite) const;
 
     const ExternalForces& external() const { return external_; }
 
@@ -56,12 +61,14 @@ private:
         MembraneForce m;           ///< h sigma of the triangle and its derivative
         Eigen::Matrix2d pull_back; ///< F^T
     };
-    Formed formed(int f, const Eigen::Matrix2Xd& X) const;
+    /// @param steadied the derivative is, if steady() was called
+    Formed formed(int f, const Eigen::Matrix2Xd& X, bool steadied) const;
+    AxisStress stress(int f, const Svd2& d) const { return sheet_.law_of(f)(d.U, -d.s.array().log().matrix()); }
     /// How corner a of face f sees its vertex's equations: M in M (h sigma) g_a.
     Eigen::Matrix2d to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const;
-    /// Change of M (h sigma) g with G, column by column; M itself changes with G where the vertex is relaxed.
-    Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
-                                             const Eigen::Matrix2d& M, bool relaxed, const Eigen::Vector2d& g) const;
+    Matrix6d element_tangent(int f, const Formed& formed) const;
+    Matrix6d definite_element(int f, const Formed& formed) const;
+    void add_external_tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
 
     const TriMesh& part_;
     const std::vector<Element>& element_;
@@ -75,6 +82,7 @@ private:
     std::vector<Eigen::Matrix2d> F_;          ///< at the X of set_axes()
     std::vector<Axes> axes_;                  ///< T_a: push-forward of the blank's x and y, tangential
     std::vector<char> relaxed_;
+    std::vector<ElementStress> expected_; ///< by the last step; empty: the tangents are exact
 };
 
 } // namespace spia

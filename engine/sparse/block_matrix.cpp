@@ -53,16 +53,29 @@ int BlockMatrix::entry(int unknown_row, int unknown_column) const
     return int(std::lower_bound(begin, end, unknown_row) - row_.begin());
 }
 
+int BlockMatrix::graph_entry(int row, int column) const
+{
+    const auto begin = graph_row_.begin() + graph_start_[size_t(column)];
+    const auto end = graph_row_.begin() + graph_start_[size_t(column) + 1];
+    return int(std::lower_bound(begin, end, row) - graph_row_.begin());
+}
+
 void BlockMatrix::assemble(const std::vector<Matrix6d>& element)
 {
-    std::fill(value_.begin(), value_.end(), 0.0);
+    clear();
     for (size_t f = 0; f < element.size(); ++f)
-        for (int column = 0; column < 6; ++column)
-            for (int a = 0; a < 3; ++a) {
-                double* to = &value_[size_t(destination_[f][size_t(column * 3 + a)])];
-                to[0] += element[f](2 * a, column);
-                to[1] += element[f](2 * a + 1, column);
-            }
+        add(int(f), element[f]);
+}
+
+void BlockMatrix::add(int element, const Matrix6d& matrix)
+{
+    const std::array<int, 18>& to = destination_[size_t(element)];
+    for (int column = 0; column < 6; ++column)
+        for (int a = 0; a < 3; ++a) {
+            double* value = &value_[size_t(to[size_t(column * 3 + a)])];
+            value[0] += matrix(2 * a, column);
+            value[1] += matrix(2 * a + 1, column);
+        }
 }
 
 void BlockMatrix::add_to_diagonal(int unknown, double value) { value_[size_t(entry(unknown, unknown))] += value; }

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -17,6 +18,10 @@ public:
     /// Replaces the values by the sum of the element matrices; element row 2 a + k is component k of corner a.
     /// Summed in the order of the elements, so the bits do not depend on threads.
     void assemble(const std::vector<Matrix6d>& element);
+
+    /// The same piece by piece: all values zero, then each element's matrix added.
+    void clear() { std::fill(value_.begin(), value_.end(), 0.0); }
+    void add(int element, const Matrix6d& matrix);
 
     /// Adds a value on the diagonal of one unknown.
     void add_to_diagonal(int unknown, double value);
@@ -36,6 +41,8 @@ public:
     /// The graph of the vertices (CSC pattern, diagonal included): what fill-reducing orderings work on.
     const std::vector<int>& graph_start() const { return graph_start_; }
     const std::vector<int>& graph_row() const { return graph_row_; }
+    /// Where the entry of two neighbouring vertices stands in graph_row().
+    int graph_entry(int row, int column) const;
 
 private:
     int entry(int unknown_row, int unknown_column) const;

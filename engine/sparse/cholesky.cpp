@@ -43,11 +43,13 @@ cholmod_sparse view(int size, const std::vector<int>& start, const std::vector<i
 struct Cholesky::State {
     cholmod_common common;
     cholmod_factor* factor = nullptr;
+    std::vector<int> vertex_order;
     // Work space of cholmod_solve2, kept so that a solve allocates nothing.
     cholmod_dense *solution = nullptr, *work_y = nullptr, *work_e = nullptr;
 
     State()
     {
+        one_thread_only();
         cholmod_start(&common);
         common.print = 0;
         common.error_handler = nullptr;
@@ -60,33 +62,58 @@ struct Cholesky::State {
         cholmod_free_factor(&factor, &common);
         cholmod_finish(&common);
     }
+
+    void analyse(cholmod_sparse a, std::vector<int> order)
+    {
+        common.nmethods = 1;
+        common.method[0].ordering = CHOLMOD_GIVEN;
+        common.postorder = 1;
+        common.supernodal = CHOLMOD_SUPERNODAL;
+        common.final_ll = 1;
+        factor = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
+        if (!factor)
+            throw SolveError("the sparse analysis failed; there may not be enough memory for this mesh");
+    }
+
+    bool factorise(cholmod_sparse a)
+    {
+        one_thread_only();
+        cholmod_factorize(&a, factor, &common);
+        if (common.status == CHOLMOD_OUT_OF_MEMORY)
+            throw SolveError("there is not enough memory for the factor of this mesh");
+        return common.status == CHOLMOD_OK && factor->minor == factor->n;
+    }
+
+    const double* solve(const double* right, Eigen::Index rows, Eigen::Index columns)
+    {
+        one_thread_only();
+        cholmod_dense b{};
+        b.nrow = b.d = size_t(rows);
+        b.ncol = size_t(columns);
+        b.nzmax = size_t(rows * columns);
+        b.x = const_cast<double*>(right);
+        b.xtype = CHOLMOD_REAL;
+        b.dtype = CHOLMOD_DOUBLE;
+        cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &solution, nullptr, &work_y, &work_e, &common);
+        return static_cast<const double*>(solution->x);
+    }
 };
 
 Cholesky::Cholesky(const BlockMatrix& pattern) : state_(std::make_unique<State>())
 {
-    one_thread_only();
-    cholmod_common& common = state_->common;
-
     // Order the vertices, then give both unknowns of a vertex neighbouring places: half the graph, better supernodes.
     cholmod_sparse graph = view(pattern.vertices(), pattern.graph_start(), pattern.graph_row(), nullptr);
-    std::vector<int> vertex_order(size_t(pattern.vertices()));
-    if (!cholmod_metis(&graph, nullptr, 0, 1, vertex_order.data(), &common))
+    state_->vertex_order.resize(size_t(pattern.vertices()));
+    if (!cholmod_metis(&graph, nullptr, 0, 1, state_->vertex_order.data(), &state_->common))
         throw SolveError("the sparse ordering failed; there may not be enough memory for this mesh");
     std::vector<int> order;
     order.reserve(size_t(pattern.size()));
-    for (int v : vertex_order) {
+    for (int v : state_->vertex_order) {
         order.push_back(2 * v);
         order.push_back(2 * v + 1);
     }
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_GIVEN;
-    common.postorder = 1;
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.final_ll = 1;
-    cholmod_sparse a = view(pattern.size(), pattern.column_start(), pattern.row(), pattern.value().data());
-    state_->factor = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
-    if (!state_->factor)
-        throw SolveError("the sparse analysis failed; there may not be enough memory for this mesh");
+    state_->analyse(view(pattern.size(), pattern.column_start(), pattern.row(), pattern.value().data()),
+                    std::move(order));
 }
 
 Cholesky::~Cholesky() = default;
@@ -95,26 +122,31 @@ Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 
 bool Cholesky::factor(const BlockMatrix& matrix)
 {
-    one_thread_only();
-    cholmod_sparse a = view(matrix.size(), matrix.column_start(), matrix.row(), matrix.value().data());
-    cholmod_factorize(&a, state_->factor, &state_->common);
-    if (state_->common.status == CHOLMOD_OUT_OF_MEMORY)
-        throw SolveError("there is not enough memory for the factor of this mesh");
-    return state_->common.status == CHOLMOD_OK && state_->factor->minor == state_->factor->n;
+    return state_->factorise(view(matrix.size(), matrix.column_start(), matrix.row(), matrix.value().data()));
 }
 
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& right) const
 {
-    one_thread_only();
-    cholmod_dense b{};
-    b.nrow = b.d = b.nzmax = size_t(right.size());
-    b.ncol = 1;
-    b.x = const_cast<double*>(right.data());
-    b.xtype = CHOLMOD_REAL;
-    b.dtype = CHOLMOD_DOUBLE;
-    State& s = *state_;
-    cholmod_solve2(CHOLMOD_A, s.factor, &b, nullptr, &s.solution, nullptr, &s.work_y, &s.work_e, &s.common);
-    return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(s.solution->x), right.size());
+    return Eigen::Map<const Eigen::VectorXd>(state_->solve(right.data(), right.size(), 1), right.size());
+}
+
+VertexCholesky::VertexCholesky(const BlockMatrix& pattern, const Cholesky& ordered)
+    : state_(std::make_unique<Cholesky::State>())
+{
+    state_->analyse(view(pattern.vertices(), pattern.graph_start(), pattern.graph_row(), nullptr),
+                    ordered.state_->vertex_order);
+}
+
+VertexCholesky::~VertexCholesky() = default;
+
+bool VertexCholesky::factor(const BlockMatrix& pattern, const std::vector<double>& value)
+{
+    return state_->factorise(view(pattern.vertices(), pattern.graph_start(), pattern.graph_row(), value.data()));
+}
+
+Eigen::MatrixX2d VertexCholesky::solve(const Eigen::MatrixX2d& right) const
+{
+    return Eigen::Map<const Eigen::MatrixX2d>(state_->solve(right.data(), right.rows(), 2), right.rows(), 2);
 }
 
 } // namespace spia

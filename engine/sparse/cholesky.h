@@ -22,8 +22,25 @@ public:
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
 private:
+    friend class VertexCholesky;
     struct State;
     std::unique_ptr<State> state_;
+};
+
+/// The same for a matrix with one unknown per vertex on the graph of a block matrix, in the order found for that one.
+class VertexCholesky {
+public:
+    VertexCholesky(const BlockMatrix& pattern, const Cholesky& ordered);
+    ~VertexCholesky();
+
+    /// @param value of graph_row(); its lower triangle is read
+    /// @returns as above
+    bool factor(const BlockMatrix& pattern, const std::vector<double>& value);
+
+    Eigen::MatrixX2d solve(const Eigen::MatrixX2d& right) const;
+
+private:
+    std::unique_ptr<Cholesky::State> state_;
 };
 
 } // namespace spia

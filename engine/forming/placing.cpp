@@ -1,0 +1,56 @@
+#include "engine/forming/placing.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/mesh/topology.h"
+
+namespace spia {
+
+Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction)
+{
+    Eigen::Vector3d x = Eigen::Vector3d::UnitX() - direction[0] * direction;
+    if (x.norm() < 0.1)
+        x = Eigen::Vector3d::UnitY() - direction[1] * direction;
+    Eigen::Matrix<double, 3, 2> plane;
+    plane.col(0) = x.normalized();
+    plane.col(1) = direction.cross(plane.col(0));
+    return plane;
+}
+
+double blank_height(const ProcessConditions& process, const TriMesh& part, const Eigen::Vector3d& direction)
+{
+    double sum = 0, count = 0;
+    const auto take = [&](int v) {
+        sum += part.position.col(v).dot(direction);
+        ++count;
+    };
+    for (const ContactRegion& region : process.contact)
+        if (region.sides == 2)
+            for (const int f : region.faces)
+                for (int a = 0; a < 3 && f >= 0 && f < part.triangles(); ++a)
+                    take(part.triangle(a, f));
+    if (count == 0) {
+        const std::vector<std::vector<int>> loops = boundary_loops(part);
+        std::for_each(loops.front().begin(), loops.front().end(), take);
+    }
+    return sum / count;
+}
+
+void place_under_part(const TriMesh& part, const std::vector<Element>& element,
+                      const Eigen::Matrix<double, 3, 2>& plane, Eigen::Matrix2Xd& X)
+{
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int a = 0; a < 3; ++a)
+            mass[part.triangle(a, f)] += element[size_t(f)].area / 3;
+    mass /= mass.sum();
+    const Eigen::Matrix2Xd below = plane.transpose() * part.position;
+    const Eigen::Vector2d to = below * mass, from = X * mass;
+    const Eigen::Matrix2d moment = (below.colwise() - to) * mass.asDiagonal() * (X.colwise() - from).transpose();
+    const double angle = std::atan2(moment(1, 0) - moment(0, 1), moment(0, 0) + moment(1, 1));
+    X = (Eigen::Rotation2Dd(angle).toRotationMatrix() * (X.colwise() - from)).colwise() + to;
+}
+
+} // namespace spia
