@@ -90,7 +90,7 @@ struct ViewerModel::Apply {
     // --- looking
     void operator()(const SetDisplay& action);
     void operator()(const SetViewSettings& action) { state.view = action.view; }
-    void operator()(const FitView& action) { model.fit(action.view); }
+    void operator()(const FitView& action) { model.fitter_.fit(state, action.view); }
     void operator()(const LookFrom& action);
     void operator()(const FlyTo& action);
     void operator()(const FlyToVertex& action);

@@ -14,6 +14,7 @@ void ViewerModel::Apply::begin_with(Document fresh)
         model.ending_.push_back(std::move(model.chain_job_));
     }
     model.next_.reset();
+    model.unsaved_before_.reset();
     model.project_.reset();
     state.job = JobView{};
     document = std::move(fresh);
@@ -109,8 +110,11 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         model.next_ = std::max(model.next_.value_or(action.stage), action.stage);
         return;
     }
+    const bool unsaved = state.unsaved;
     change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
     model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
+    if (model.chain_job_)
+        model.unsaved_before_ = unsaved;
 }
 
 void ViewerModel::Apply::operator()(const CancelJob&)

@@ -126,6 +126,8 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
             done += share(stage);
             result.session = run_stage(stage, result.session, progress.part(begin, done / whole));
             note(stage, result.session.options, result.made_with);
+            if (stage == Stage::read)
+                result.search = std::make_shared<ClosestPointSearch>(result.session.part->mesh);
         } catch (const Cancelled&) {
             result.cancelled = true;
             return result;

@@ -4,6 +4,7 @@
 
 #include "app/viewer/model/document.h"
 #include "engine/core/progress.h"
+#include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {
 
@@ -24,6 +25,8 @@ struct ChainResult {
     std::optional<Stage> failed; ///< the stage that has no result
     std::string message;         ///< why, in words
     bool cancelled = false;
+    /// Of a part that has just been read, to find the picks of the one before; made here because it takes a while.
+    std::shared_ptr<const ClosestPointSearch> search;
     std::shared_ptr<const PartFile> refused; ///< the part, if its mesh was the reason
 };
 

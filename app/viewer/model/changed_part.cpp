@@ -24,8 +24,8 @@ Eigen::Vector3d unit_normal(const Eigen::Matrix3d& corners)
     return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized();
 }
 
-ChangedPart::ChangedPart(const TriMesh& mesh)
-    : mesh_(mesh), search_(mesh), reach_(reach_of_diagonal * bounding_diagonal(mesh))
+ChangedPart::ChangedPart(const TriMesh& mesh, const ClosestPointSearch& search)
+    : mesh_(mesh), search_(search), reach_(reach_of_diagonal * bounding_diagonal(mesh))
 {
 }
 
@@ -54,9 +54,13 @@ std::vector<int> ChangedPart::find(const StoredPatch& patch, int& lost, Eigen::V
     if (old.triangles() == 0)
         return {};
     const ClosestPointSearch patch_search(old);
-    for (int f = 0; f < mesh_.triangles(); ++f)
-        if (lies_on(old, patch_search, corners_of(mesh_, f)))
+    const Eigen::AlignedBox3d near(old.position.rowwise().minCoeff().array() - reach_,
+                                   old.position.rowwise().maxCoeff().array() + reach_);
+    for (int f = 0; f < mesh_.triangles(); ++f) {
+        const Eigen::Matrix3d corners = corners_of(mesh_, f);
+        if (near.contains(corners.rowwise().mean()) && lies_on(old, patch_search, corners))
             found.insert(f);
+    }
     if (found.empty()) // the new faces are larger than the whole patch
         found = std::move(next);
     return {found.begin(), found.end()};

@@ -16,8 +16,11 @@ Eigen::Vector3d unit_normal(const Eigen::Matrix3d& corners);
 /// old places on it.
 class ChangedPart {
 public:
-    explicit ChangedPart(const TriMesh& mesh);
+    /// @param search  of this mesh
+    ChangedPart(const TriMesh& mesh, const ClosestPointSearch& search);
 
+    const ClosestPointSearch& search() const { return search_; }
+    double reach() const { return reach_; } ///< mm, how far a surface may have moved and still be the same place
     /// The place on the new part that an old one has become. Face -1 if there is none.
     ClosestPoint find(const Eigen::Vector3d& at, const Eigen::Vector3d& normal) const;
     /// The new faces of an old patch. @param lost how many of its triangles have no counterpart, and where the first was
@@ -35,7 +38,7 @@ private:
     bool lies_on(const TriMesh& old, const ClosestPointSearch& search, const Eigen::Matrix3d& corners) const;
 
     const TriMesh& mesh_;
-    ClosestPointSearch search_;
+    const ClosestPointSearch& search_;
     double reach_; ///< mm
     mutable std::optional<std::vector<std::vector<int>>> loops_;
 };

@@ -32,6 +32,12 @@ public:
             alter(entry.document);
     }
 
+    /// The last change has come to nothing: what is there now is what was there before.
+    void forget_last()
+    {
+        if (!past_.empty())
+            past_.pop_back();
+    }
     /// The next change is not merged with the last one, whatever its name.
     void close() { open_ = false; }
 

@@ -42,16 +42,15 @@ std::string near(const Eigen::Vector3d& at) { return fmt::format("({:.4g}, {:.4g
 /// Finds picks again, on the same part by number, and says what is lost.
 class Restorer {
 public:
-    Restorer(const PartFile& part, bool same) : part_(part)
+    Restorer(const PartFile& part, bool same, std::shared_ptr<const ClosestPointSearch> search)
+        : part_(part), same_(same), search_(std::move(search))
     {
-        if (!same)
-            changed_.emplace(part.mesh);
     }
 
     std::vector<int> faces(const StoredPatch& patch, const std::string& what)
     {
         require_sound(patch, what);
-        if (!changed_)
+        if (same_)
             if (auto found = by_number(part_, patch))
                 return *found;
         int lost;
@@ -67,7 +66,7 @@ public:
 
     std::optional<Probe> probe(const StoredProbe& stored, size_t number)
     {
-        if (!changed_)
+        if (same_)
             if (const int triangle = FaceNumbers(part_).triangle(stored.face, stored.piece); triangle >= 0)
                 return Probe{triangle, stored.barycentric};
         const ClosestPoint found = changed().find(stored.at, stored.normal);
@@ -83,7 +82,7 @@ public:
         std::set<int> found;
         std::vector<Eigen::Vector3d> lost;
         for (const StoredVertex& each : stored) {
-            const int vertex = changed_ ? -1 : numbered(each.vertex);
+            const int vertex = same_ ? numbered(each.vertex) : -1;
             if (const int now = vertex >= 0 ? vertex : changed().find_vertex(each); now >= 0)
                 found.insert(now);
             else
@@ -103,15 +102,12 @@ public:
 
     std::vector<ProcessLine> lines(const std::vector<ProcessLine>& stored)
     {
-        if (!changed_ || stored.empty())
+        if (same_ || stored.empty())
             return stored;
-        const Eigen::Matrix3Xd& p = part_.mesh.position;
-        const double reach = 0.01 * (p.rowwise().maxCoeff() - p.rowwise().minCoeff()).norm(); // mm
-        const ClosestPointSearch search(part_.mesh);
         std::vector<ProcessLine> result;
         for (ProcessLine line : stored) {
             const auto off = std::find_if(line.point.begin(), line.point.end(), [&](Eigen::Vector3d& point) {
-                const ClosestPoint found = search.nearest(point, reach);
+                const ClosestPoint found = changed().search().nearest(point, changed().reach());
                 if (found.face >= 0)
                     point = found.position;
                 return found.face < 0;
@@ -132,7 +128,7 @@ public:
         for (size_t k = 0; k < 4; ++k) {
             const bool known =
                 std::binary_search(part_.source_vertex.begin(), part_.source_vertex.end(), stored[k].vertex);
-            if (!changed_ && known) {
+            if (same_ && known) {
                 result[k] = stored[k].vertex;
                 continue;
             }
@@ -167,21 +163,26 @@ private:
 
     const ChangedPart& changed()
     {
+        if (!search_)
+            search_ = std::make_shared<ClosestPointSearch>(part_.mesh);
         if (!changed_)
-            changed_.emplace(part_.mesh);
+            changed_.emplace(part_.mesh, *search_);
         return *changed_;
     }
 
     const PartFile& part_;
+    bool same_;
+    std::shared_ptr<const ClosestPointSearch> search_;
     std::optional<ChangedPart> changed_;
 };
 
 } // namespace
 
-std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks)
+std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks,
+                                       std::shared_ptr<const ClosestPointSearch> search)
 {
     const PartFile& part = picked_part(document);
-    Restorer restorer(part, picks.fingerprint == fingerprint(part));
+    Restorer restorer(part, picks.fingerprint == fingerprint(part), std::move(search));
     Document restored = document; // all or nothing
     restored.selected = restorer.faces(picks.selected, "the selection");
     restored.vertices = restorer.vertices(picks.vertices);

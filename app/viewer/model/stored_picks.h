@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/viewer/model/document.h"
+#include "engine/mesh/closest_point.h"
 
 /// What the user picked on a part, kept so that it is found again: on the same part exactly, by the numbers of the
 /// part's file; on a part that was changed (meshed anew, renumbered, a flange moved) by its geometry.
@@ -70,8 +72,10 @@ StoredPicks store_picks(const Document& document);
 /// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
 /// the outer boundary. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
 /// to its place. A line of the process moves to the nearest places of the part, if all are within those 1 %.
+/// @param search  of that part's mesh; null: made if need be
 /// @returns in words what was not found (again); empty if the part is the same, or all was found
 /// @throws InputError if the document has no part, or the picks make no sense
-std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks);
+std::vector<std::string> restore_picks(Document& document, const StoredPicks& picks,
+                                       std::shared_ptr<const ClosestPointSearch> search = nullptr);
 
 } // namespace spia::viewer

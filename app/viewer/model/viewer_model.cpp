@@ -39,7 +39,6 @@ struct ViewerModel::Live {
 ViewerModel::ViewerModel(std::filesystem::path assets, std::function<void()> wake)
     : assets_(std::move(assets)), wake_(std::move(wake)), pickers_(wake_)
 {
-    size_.fill({800, 600});
     Document& document = state_.document;
     document.session.options.flatten.material = find_material(document.material, assets_ / "materials");
     state_.view.camera[size_t(View::blank)].flat = true;
@@ -113,9 +112,8 @@ bool ViewerModel::poll()
         if (auto blank = live_->blank.fetch()) {
             const bool first = !view.blank && !state_.document.session.blank;
             view.blank = std::move(*blank);
-            const size_t flat = size_t(View::blank);
-            if ((first && !keep_cameras_) || fitted_[flat] == state_.view.camera[flat])
-                fit(View::blank); // it moves and grows until it has converged
+            if ((first && !keep_cameras_) || fitter_.is_fitted(state_, View::blank))
+                fitter_.fit(state_, View::blank); // it moves and grows until it has converged
             news = true;
         }
         {
@@ -155,24 +153,24 @@ void ViewerModel::take_chain_result()
     Document& document = state_.document;
     const bool had_blank = document.session.blank != nullptr;
     result.made_with.flatten.watch = nullptr;
-    const std::shared_ptr<const PartFile> part_before = document.session.part;
+    const Session before = document.session;
     const LaterResults quads = quads_shown(state_), surface = surface_shown(state_);
     for (const std::string& lost : take_over(document, result))
         say(Severity::warning, lost);
     // What was picked during the run is taken back without it.
     state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
     keep_before(result, quads, surface);
+    forget_run_without_result(result, before);
     opening_ = false;
-    if (document.session.part != part_before) {
+    if (document.session.part != before.part) {
         state_.refused.reset();
         state_.fault.reset();
         part_opened();
     }
     if (project_)
-        project_opened();
-    const size_t flat = size_t(View::blank);
-    if (document.session.blank && ((!had_blank && !keep_cameras_) || fitted_[flat] == state_.view.camera[flat]))
-        fit(View::blank);
+        project_opened(result.search);
+    if (document.session.blank && ((!had_blank && !keep_cameras_) || fitter_.is_fitted(state_, View::blank)))
+        fitter_.fit(state_, View::blank);
     if (document.session.blank)
         keep_cameras_ = false;
     if (result.cancelled)
@@ -184,6 +182,18 @@ void ViewerModel::take_chain_result()
             say(Severity::warning, text);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
+}
+
+/// A run that was cancelled or failed before it had anything new is no change: nothing to take back or to save.
+void ViewerModel::forget_run_without_result(const ChainResult& result, const Session& before)
+{
+    const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
+    const Session& now = result.session;
+    if (!unsaved_before || !(result.cancelled || result.failed) || state_.history.depth() != depth_at_start_ ||
+        now.part != before.part || now.blank != before.blank || now.grid != before.grid)
+        return;
+    state_.history.forget_last();
+    state_.unsaved &= *unsaved_before;
 }
 
 /// A run that has made another grid and went no further leaves the quad mesh and the surface of the last one to be looked at;
@@ -227,15 +237,16 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     document.probes.clear();
     document.regions.clear();
     document.lines.clear();
-    return restore(document, *picks);
+    return restore(document, *picks, result.search);
 }
 
 /// Picks and, made of them, the process. @returns in words what was not found again, or why nothing was
-std::vector<std::string> ViewerModel::restore(Document& document, const StoredPicks& picks) const
+std::vector<std::string> ViewerModel::restore(Document& document, const StoredPicks& picks,
+                                              const std::shared_ptr<const ClosestPointSearch>& search) const
 {
     std::vector<std::string> lost;
     try {
-        lost = restore_picks(document, picks);
+        lost = restore_picks(document, picks, search);
         document.session.options.flatten.process = process_of(document, assets() / "materials");
     } catch (const InputError& error) {
         lost.push_back(error.what());
@@ -267,7 +278,7 @@ void ViewerModel::say_failed(const ChainResult& result)
                                     [](const Finding& f) { return f.severity == spia::Severity::fatal; });
     say(Severity::error, fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(),
                                      worst->text, advice(*result.failed)));
-    fit(View::part);
+    fitter_.fit(state_, View::part);
 }
 
 void ViewerModel::take_export_result()
@@ -291,7 +302,7 @@ void ViewerModel::part_opened()
     if (!document.session.part)
         return;
     state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
-    fit(std::nullopt);
+    fitter_.fit(state_);
     for (const std::string& note : document.session.part->notes)
         say(Severity::hint, as_sentence(note));
     for (const Finding& finding : document.session.part->doctor.findings)
@@ -300,13 +311,13 @@ void ViewerModel::part_opened()
 }
 
 /// The picks of a project on its part, which may have changed since; then the stages it had.
-void ViewerModel::project_opened()
+void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>& search)
 {
     const Project project = std::move(*std::exchange(project_, std::nullopt));
     Document& document = state_.document;
     if (!document.session.part)
         return;
-    for (const std::string& lost : restore(document, project.picks)) // the rest of the project is sound
+    for (const std::string& lost : restore(document, project.picks, search)) // the rest of the project is sound
         say(Severity::warning, lost);
     state_.view = project.view;
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
@@ -337,59 +348,6 @@ void ViewerModel::hover_nothing()
     state_.hovered.reset();
     state_.hovered_vertex.reset();
     under_mouse_.reset();
-}
-
-void ViewerModel::fit(std::optional<View> only)
-{
-    const Session& session = state_.document.session;
-    const PartFile* part = session.part ? session.part.get() : state_.refused.get();
-    if (!part)
-        return;
-    for (const View view : all_views) {
-        if (only && *only != view)
-            continue;
-        Camera& camera = state_.view.camera[size_t(view)];
-        if (view == View::blank) {
-            if (!session.blank && !state_.job.blank)
-                continue;
-            const Eigen::Matrix2Xd& plane = state_.job.blank ? *state_.job.blank : session.blank->blank.position;
-            Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, plane.cols());
-            flat.topRows<2>() = plane;
-            camera = spia::viewer::fit(camera, flat, size_[size_t(view)], margins(view));
-        } else {
-            if (state_.view.linked && view != View::part)
-                camera = state_.view.camera[size_t(View::part)];
-            camera = spia::viewer::fit(camera, part->mesh.position, size_[size_t(view)], margins(view));
-        }
-        fitted_[size_t(view)] = camera;
-    }
-}
-
-void ViewerModel::resized(View view, glm::dvec2 size, double scale)
-{
-    scale_ = scale;
-    const Margins now = margins(view); // the legend may have come or gone
-    if (size_[size_t(view)] == size && margins_[size_t(view)] == now)
-        return;
-    size_[size_t(view)] = size;
-    margins_[size_t(view)] = now;
-    if (fitted_[size_t(view)] == state_.view.camera[size_t(view)])
-        fit(view);
-}
-
-/// Beside what is shown there is room for the legend if there is one.
-Margins ViewerModel::margins(View view) const
-{
-    constexpr double around = 24; // pixels
-    const Document& document = state_.document;
-    const bool of_sheet = view == View::part || view == View::blank;
-    const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
-                          : view == View::quads                             ? 92  // its title is long
-                                                                            : 72;
-    const bool coloured = view == View::quads     ? state_.view.quad_quality
-                          : view == View::surface ? state_.view.surface_deviation
-                                                  : document.display.field != Field::none;
-    return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};
 }
 
 } // namespace spia::viewer

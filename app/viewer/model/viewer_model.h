@@ -8,6 +8,7 @@
 #include "app/viewer/model/chain.h"
 #include "app/viewer/model/pickers.h"
 #include "app/viewer/model/project_file.h"
+#include "app/viewer/model/view_fitter.h"
 #include "engine/core/job.h"
 #include "engine/core/mailbox.h"
 
@@ -53,7 +54,7 @@ public:
     int openings() const { return openings_; }
     /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
     /// has not been moved since it was fitted is so again.
-    void resized(View view, glm::dvec2 size, double scale = 1);
+    void resized(View view, glm::dvec2 size, double scale = 1) { fitter_.resized(state_, view, size, scale); }
 
 private:
     struct Live; ///< what the solver tells while it runs
@@ -64,22 +65,19 @@ private:
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
     std::vector<std::string> take_over(Document& document, const ChainResult& result) const;
-    std::vector<std::string> restore(Document& document, const StoredPicks& picks) const;
+    std::vector<std::string> restore(Document& document, const StoredPicks& picks,
+                                     const std::shared_ptr<const ClosestPointSearch>& search) const;
     void keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface);
+    void forget_run_without_result(const ChainResult& result, const Session& before);
     void say_failed(const ChainResult& result);
     void take_export_result();
-    void fit(std::optional<View> view);
-    Margins margins(View view) const;
     void part_opened();
-    void project_opened();
+    void project_opened(const std::shared_ptr<const ClosestPointSearch>& search);
 
     std::filesystem::path assets_;
     std::function<void()> wake_;
     ViewerState state_;
-    std::array<glm::dvec2, 4> size_;
-    double scale_ = 1;                            ///< of the screen
-    std::array<Margins, 4> margins_{};            ///< by View
-    std::array<std::optional<Camera>, 4> fitted_; ///< by View, what "fit" has made of it
+    ViewFitter fitter_;
     std::shared_ptr<Live> live_;
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::vector<std::unique_ptr<Job<ChainResult>>>
@@ -88,6 +86,7 @@ private:
     bool keep_cameras_ = false; ///< those of a project
     size_t depth_at_start_ = 0; ///< of the history, when the running job began
     bool dragging_ = false;     ///< a corner: the grid is coarse
+    std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
     std::optional<Stage> next_; ///< run this far when the running job has ended
     int said_ = 0;              ///< messages so far
     int openings_ = 0;

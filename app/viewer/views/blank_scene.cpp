@@ -91,6 +91,35 @@ LineList outline_lines(const Eigen::Matrix3Xd& position, const Eigen::Matrix<uin
     return {lines};
 }
 
+/// The edges of the outline that cross, and the vertices that the sheet winds around more than once.
+OverlapShape overlap_shape(const Overlap& overlap, const Eigen::Matrix3Xd& position)
+{
+    OverlapShape made;
+    Eigen::Matrix2Xi ends(2, 2 * Eigen::Index(overlap.crossings.size()));
+    for (size_t i = 0; i < overlap.crossings.size(); ++i) {
+        const auto& [edge, other] = overlap.crossings[i];
+        ends.col(2 * Eigen::Index(i)) << edge[0], edge[1];
+        ends.col(2 * Eigen::Index(i) + 1) << other[0], other[1];
+    }
+    for (const auto& [colour, width] : {std::pair(palette::casing, 7.f), {palette::folded, 4.5f}})
+        if (ends.cols() > 0) {
+            const auto line = scene_lines(position, ends);
+            line->colour = colour;
+            line->width = width;
+            made.lines.push_back(line);
+        }
+    if (!overlap.wound.empty()) {
+        made.dots = scene_points(position(Eigen::all, overlap.wound));
+        made.dots->colour = palette::folded;
+        made.dots->size = 10;
+    }
+    if (!overlap.crossings.empty())
+        made.place.push_back(position.col(overlap.crossings.front().edge[0]));
+    if (!overlap.wound.empty())
+        made.place.push_back(position.col(overlap.wound.front()));
+    return made;
+}
+
 } // namespace
 
 Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
@@ -133,6 +162,16 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
               cache.on_blank, cache);
     if (live)
         return result;
+    const Overlap& overlap = session.blank->overlap;
+    if (const OverlapShape& shown =
+            cache.overlap.of({session.blank}, [&] { return overlap_shape(overlap, flat.position); });
+        !overlap.none()) {
+        add(shown.lines);
+        if (shown.dots)
+            result.points.push_back(shown.dots);
+        for (const Eigen::Vector3d& place : shown.place)
+            result.labels.push_back({place, "lies on itself", palette::text(state.view.dark)});
+    }
     if (const auto corner = corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
     add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);

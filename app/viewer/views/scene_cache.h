@@ -78,6 +78,13 @@ struct LineShapes {
     std::vector<std::shared_ptr<const ScenePoints>> points; ///< of single pins
 };
 
+/// Where the blank lies on itself.
+struct OverlapShape {
+    LineList lines;
+    std::shared_ptr<ScenePoints> dots; ///< null: none
+    std::vector<Eigen::Vector3d> place; ///< mm, of what has a name
+};
+
 /// What is shown on the sheet, once for the part and once for the blank.
 struct SheetCache {
     using Mesh = std::shared_ptr<const SceneMesh>;
@@ -121,6 +128,7 @@ struct SceneCache {
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
+    Memo<OverlapShape, Blank> overlap;
     Memo<StageShape, Grid, bool> planar_grid;
     Memo<StageShape, Grid, Lifted, bool> quads;
     Memo<GridFigures, Grid, Blank> grid_figures;

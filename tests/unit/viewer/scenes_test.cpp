@@ -79,6 +79,30 @@ TEST_F(Scenes, WithoutWhatTheyShowTheySayWhatToDo)
     }
 }
 
+TEST_F(Scenes, TheBlankShowsWhereItLiesOnItself)
+{
+    const auto red = [&] {
+        std::pair<Eigen::Index, int> found{0, 0}; // pieces of line, dots
+        const Scene shown = scene(View::blank, state, cache);
+        for (const auto& lines : shown.lines)
+            if (lines->colour == palette::folded)
+                found.first += lines->point.cols() / 2;
+        for (const auto& points : shown.points)
+            if (points->colour == palette::folded)
+                found.second += int(points->point.cols());
+        const auto names = std::count_if(shown.labels.begin(), shown.labels.end(),
+                                         [](const SceneLabel& label) { return label.text == "lies on itself"; });
+        EXPECT_EQ(names, (found.first > 0) + (found.second > 0));
+        return found;
+    };
+    ASSERT_TRUE(session->blank->overlap.none());
+    EXPECT_EQ(red(), std::pair(Eigen::Index(0), 0));
+    FlattenResult crossed = *session->blank;
+    crossed.overlap = {{{{0, 1}, {2, 3}}, {{4, 5}, {6, 7}}}, {8}};
+    state.document.session.blank = std::make_shared<FlattenResult>(crossed);
+    EXPECT_EQ(red(), std::pair(Eigen::Index(4), 1));
+}
+
 TEST_F(Scenes, AreNotMadeAgainWhenNothingHasChanged)
 {
     state.document.selected = {1, 2, 3};

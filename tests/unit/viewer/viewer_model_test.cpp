@@ -99,6 +99,65 @@ TEST_F(ViewerModelTest, CancellingKeepsWhatWasThere)
     EXPECT_TRUE(says(Severity::hint, "cancelled"));
 }
 
+TEST_F(ViewerModelTest, AFirstRunThatIsCancelledLeavesNothingToSaveOrToTakeBack)
+{
+    open("square-cup.obj");
+    model.apply(RunTo{Stage::solve});
+    model.apply(CancelJob{});
+    wait();
+    ASSERT_EQ(document.session.blank, nullptr);
+    EXPECT_FALSE(state.unsaved);
+    EXPECT_EQ(state.history.undo_name(), "");
+
+    model.apply(SetThickness{0.7});
+    model.apply(RunTo{Stage::solve});
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_TRUE(state.unsaved);
+    EXPECT_EQ(state.history.undo_name(), "Change thickness");
+
+    model.apply(RunTo{Stage::solve});
+    model.apply(SelectFaces{{3}}); // meanwhile
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_EQ(state.history.undo_name(), "Select faces");
+    model.apply(Undo{});
+    EXPECT_EQ(state.history.undo_name(), "Unfold");
+}
+
+TEST_F(ViewerModelTest, ViewsThatTurnTogetherAreFittedWithOneCameraThatShowsThePartInEach)
+{
+    const std::pair<View, glm::dvec2> sizes[] = {
+        {View::part, {900, 300}}, {View::quads, {320, 500}}, {View::surface, {700, 700}}};
+    for (const auto& [view, size] : sizes)
+        model.resized(view, size);
+    open("square-cup.obj");
+    const auto check = [&] {
+        const Camera& one = state.view.camera[size_t(View::part)];
+        double least_air = 1e9; // pixels beside the part, where there is least
+        for (const auto& [view, size] : sizes) {
+            EXPECT_EQ(state.view.camera[size_t(view)], one) << name(view);
+            const Eigen::Matrix3Xd& place = document.session.part->mesh.position;
+            for (Eigen::Index v = 0; v < place.cols(); ++v) {
+                const glm::dvec3 pixel = pixel_of(one, place.col(v), size);
+                for (int k = 0; k < 2; ++k)
+                    least_air = std::min({least_air, pixel[k], size[k] - pixel[k]});
+            }
+        }
+        EXPECT_GT(least_air, 20);
+        EXPECT_LT(least_air, 30);
+    };
+    check();
+    model.resized(View::quads, {200, 500}); // narrower: the others follow
+    EXPECT_EQ(state.view.camera[size_t(View::surface)], state.view.camera[size_t(View::quads)]);
+
+    ViewSettings apart = state.view;
+    apart.linked = false;
+    model.apply(SetViewSettings{apart});
+    model.apply(FitView{});
+    EXPECT_NE(state.view.camera[size_t(View::quads)].height, state.view.camera[size_t(View::part)].height);
+}
+
 TEST_F(ViewerModelTest, UndoBringsBackEveryKindOfChangeByItsName)
 {
     open();
@@ -307,7 +366,8 @@ TEST_F(ViewerModelTest, AViewThatShowsAllOfThePartStillDoesSoInAnotherSize)
         return result;
     };
     for (const glm::dvec2 size : {glm::dvec2(400, 300), {1400, 500}, {500, 1200}}) {
-        model.resized(View::part, size);
+        for (const View view : {View::part, View::quads, View::surface}) // they turn together
+            model.resized(view, size);
         const auto [left, right, top, bottom] = free(size);
         EXPECT_GT(left, 90) << "room for the legend";
         EXPECT_NEAR(std::min(right, std::min(top, bottom)), 24, 1e-6);

@@ -1,0 +1,84 @@
+#include "app/viewer/model/view_fitter.h"
+
+namespace spia::viewer {
+
+void ViewFitter::fit(ViewerState& state, std::optional<View> only)
+{
+    const Session& session = state.document.session;
+    const PartFile* part = session.part ? session.part.get() : state.refused.get();
+    if (!part)
+        return;
+    if (!only || *only == View::blank)
+        fit_blank(state);
+    if (only != View::blank)
+        fit_space(state, *part, only);
+}
+
+void ViewFitter::fit_blank(ViewerState& state)
+{
+    const auto& blank = state.document.session.blank;
+    if (!blank && !state.job.blank)
+        return;
+    const Eigen::Matrix2Xd& plane = state.job.blank ? *state.job.blank : blank->blank.position;
+    Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, plane.cols());
+    flat.topRows<2>() = plane;
+    Camera& camera = state.view.camera[size_t(View::blank)];
+    camera = viewer::fit(camera, flat, size_[size_t(View::blank)], margins(state, View::blank));
+    fitted_[size_t(View::blank)] = camera;
+}
+
+void ViewFitter::fit_space(ViewerState& state, const PartFile& part, std::optional<View> only)
+{
+    const auto fitted = [&](View view, const Camera& camera) {
+        return viewer::fit(camera, part.mesh.position, size_[size_t(view)], margins(state, view));
+    };
+    const auto set = [&](View view, const Camera& camera) {
+        fitted_[size_t(view)] = state.view.camera[size_t(view)] = camera;
+    };
+    constexpr View in_space[] = {View::part, View::quads, View::surface};
+    if (!state.view.linked) {
+        for (const View view : in_space)
+            if (!only || *only == view)
+                set(view, fitted(view, state.view.camera[size_t(view)]));
+        return;
+    }
+    // What fits in the view that has the least room fits in the others. Views behind a maximised one do not count.
+    const Camera& leader = state.view.camera[size_t(only.value_or(View::part))];
+    const std::optional<View> alone = state.view.maximised;
+    std::optional<Camera> widest;
+    for (const View view : in_space)
+        if (!alone || *alone == view || *alone == View::blank)
+            if (const Camera camera = fitted(view, leader); !widest || camera.height > widest->height)
+                widest = camera;
+    for (const View view : in_space)
+        set(view, *widest);
+}
+
+void ViewFitter::resized(ViewerState& state, View view, glm::dvec2 size, double scale)
+{
+    scale_ = scale;
+    const Margins now = margins(state, view); // the legend may have come or gone
+    if (size_[size_t(view)] == size && margins_[size_t(view)] == now)
+        return;
+    size_[size_t(view)] = size;
+    margins_[size_t(view)] = now;
+    if (is_fitted(state, view))
+        fit(state, view);
+}
+
+/// Beside what is shown there is room for the legend if there is one.
+Margins ViewFitter::margins(const ViewerState& state, View view) const
+{
+    constexpr double around = 24; // pixels
+    const Document& document = state.document;
+    const bool of_sheet = view == View::part || view == View::blank;
+    const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
+                          : view == View::quads                             ? 92  // its title is long
+                                                                            : 72;
+    const bool coloured = view == View::quads     ? state.view.quad_quality
+                          : view == View::surface ? state.view.surface_deviation
+                                                  : document.display.field != Field::none;
+    return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};
+}
+
+} // namespace spia::viewer
