@@ -29,7 +29,7 @@ void rolling_input(Frame& frame)
 {
     const Document& document = frame.state.document;
     const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    static constexpr const char* names[] = {"no matter", "x", "y", "z", "own"};
+    static constexpr const char* names[] = {"isotropic", "x", "y", "z", "own"};
     int now = document.rolling ? 4 : 0;
     for (int k = 0; k < 3 && document.rolling; ++k)
         if (*document.rolling == axes.col(k))
@@ -43,7 +43,7 @@ void rolling_input(Frame& frame)
                                                               : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
     tooltip(
         "Rolling direction of the sheet, seen along the stamping direction: the r-values along, across and between then count "
-        "each for itself. No matter: their mean in all directions.");
+        "each for itself. Isotropic: their mean in all directions.");
     if (now != 4)
         return;
     Eigen::Vector3d edited = *document.rolling;

@@ -79,6 +79,8 @@ void sheet_inputs(Frame& frame, int number, const FaceRegion& region)
 void edit_region(Frame& frame, int number, const FaceRegion& region)
 {
     EditedRegion& edited = *frame.ui.edited_region;
+    if (edited.name.empty() && !ImGui::IsAnyItemActive())
+        edited.name = region.name;
     const float gap = 4 * frame.ui.scale, done = ImGui::CalcTextSize("ok").x + 2 * ImGui::GetStyle().FramePadding.x,
                 kind_width = 92 * frame.ui.scale;
     ImGui::SetNextItemWidth(
@@ -163,10 +165,14 @@ void regions_section(Frame& frame)
     }
     if (document.selected.empty()) {
         coloured(p.muted, document.regions.empty()
-                              ? "Select faces with a picking tool, then name them here: fixed region, binder, pad."
+                              ? "Select faces with a picking tool, then say here what they are: fixed, binder, pad."
                               : "Select faces to make another region.");
         return;
     }
+    const bool made = std::any_of(document.regions.begin(), document.regions.end(),
+                                  [&](const FaceRegion& region) { return region.faces == document.selected; });
+    if (made)
+        return coloured(p.muted, "Select other faces to make another region.");
     int kind = int(frame.ui.region_kind);
     ImGui::SetNextItemWidth(90 * frame.ui.scale);
     if (ImGui::Combo("##kind", &kind, kinds, int(std::size(kinds))))
@@ -176,6 +182,9 @@ void regions_section(Frame& frame)
     text_input("##regionname", frame.ui.region_name, false, "name (optional)");
     if (ImGui::Button(fmt::format("Make region of {} faces", document.selected.size()).c_str(), {-1, 0})) {
         frame.actions.push(MakeRegion{frame.ui.region_name, frame.ui.region_kind});
+        if (is_tool(frame.ui.region_kind) || frame.ui.region_kind == RegionKind::material) // what it does comes next
+            frame.ui.edited_region = EditedRegion{int(document.regions.size()), frame.ui.region_name, false,
+                                                  document.session.part, document.selected};
         frame.ui.region_name.clear();
     }
 }

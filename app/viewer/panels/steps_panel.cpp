@@ -284,6 +284,7 @@ void steps_panel(Frame& frame)
     ImGui::Dummy({0, 4 * frame.ui.scale});
     regions_section(frame);
     process_section(frame);
+    ImGui::Dummy({0, 4 * frame.ui.scale});
     ImGui::EndChild();
     const Document& document = frame.state.document;
     ImGui::Dummy({0, 1});

@@ -109,8 +109,7 @@ void add_process_lines(Scene& scene, const ViewerState& state, const Eigen::Matr
         if (!places[k].empty()) {
             const ClosestPoint& middle = places[k][places[k].size() / 2];
             scene.labels.push_back({place_on(position, part->mesh.triangle, middle.face, middle.barycentric),
-                                    words(document.lines[k], document), palette::text(state.view.dark),
-                                    LabelKind::region});
+                                    words(document.lines[k], document), palette::text(state.view.dark)});
         }
 }
 
