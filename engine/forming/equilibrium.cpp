@@ -143,19 +143,19 @@ private:
 
     /// Whether a step from R to `then` is one forward. A few triangles with a stress turned round can carry more than all of |R|
     /// while the blank as a whole comes nearer: then the work of R on the step that a linear sheet would answer with
-    /// (Deuflhard's natural level in the norm of energy) falls, and |R| may rise up to a few times the least so far.
+    /// (Deuflhard's natural level in the norm of energy) falls, and |R| may rise up to twice the least so far.
     /// [Deuflhard 2004, sec. 3.3]
     bool descends(const Eigen::VectorXd& R, const Eigen::VectorXd& then, double length, double least) const
     {
-        constexpr double most_rise = 4, fall = 0.8;
+        constexpr double most_rise = 2, fall = 0.8;
         if (then.norm() <= (1 - 1e-4 * length) * R.norm())
             return true;
         return factored_ && then.norm() <= most_rise * least &&
-               then.dot(cholesky_.solve(then)) <= fall * fall * R.dot(cholesky_.solve(R));
+               then.dot(cholesky_.precondition(then)) <= fall * fall * R.dot(cholesky_.precondition(R));
     }
 
     /// To which part of R the linear system is solved: as exactly as the decrease of the residual deserves [Eisenstat and
-    /// Walker 1996, choice 2], and no more exactly than the end of the iteration asks for.
+    /// Walker 1996, choice 2], near the end as exactly as the end asks for.
     double forcing_term(const std::vector<NewtonStep>& steps) const
     {
         if (steps.size() < 2)
@@ -163,7 +163,10 @@ private:
         if (steps[steps.size() - 2].step_length < short_step)
             return rough_forcing;
         const double enough = 0.3 * options_.tolerance / steps.back().residual;
-        return std::clamp(0.9 * decrease(steps) * decrease(steps), std::max(1e-10, enough), worst_forcing);
+        const double deserved = 0.9 * decrease(steps) * decrease(steps);
+        // Where the end is within reach of this step it is worth a few iterations more.
+        constexpr double reach = 300;
+        return deserved < reach * enough ? std::clamp(enough, 1e-10, worst_forcing) : std::min(deserved, worst_forcing);
     }
 
     /// Of the residual, by the last step.
@@ -174,7 +177,7 @@ private:
 
     /// Solves (K + k C C^T) d = -R, the tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
     /// factor of the tangent's definite neighbour preconditions it, near the solution the one of the step before; where
-    /// that is not enough, a sparse LU takes its place. None: the tangent is singular.
+    /// that is not enough, a sparse LU takes its place. None: the tangent is singular, or there is no patience for an LU.
     std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R,
                                                 const std::vector<NewtonStep>& steps)
     {
@@ -188,7 +191,7 @@ private:
             tangent_.multiply(x, y);
             return Eigen::VectorXd(y + rigid_.rows() * (spring_ * (rigid_.rows().transpose() * x)));
         };
-        const LinearMap by_cholesky = [&](const Eigen::VectorXd& x) { return cholesky_.solve(x); };
+        const LinearMap by_cholesky = [&](const Eigen::VectorXd& x) { return cholesky_.precondition(x); };
         if (factored_ && decrease(steps) < near_solution) {
             work_.tangent(X, tangent_);
             const GmresResult solved = gmres(A, by_cholesky, -R, tolerance, most_iterations / 2);
@@ -202,6 +205,8 @@ private:
             if (solved.relative_residual <= std::max(tolerance, rough))
                 return solved.x;
         }
+        if (!options_.patient)
+            return std::nullopt;
         preconditioner_ = tangent_;
         preconditioner_.add_to_diagonal(0, spring_);
         preconditioner_.add_to_diagonal(1, spring_);

@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <optional>
 
 #include "engine/mesh/tri_mesh.h"
 
@@ -12,9 +11,5 @@ int flipped_triangles(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& 
 /// No triangle is flipped and none of the fans around the vertices winds round twice: jumps from map to map may end in
 /// such a double cover, of which no energy finds the way out.
 bool one_to_one_around_vertices(const TriMesh& part, const Eigen::Matrix2Xd& X);
-
-/// A map with a few flipped triangles mended: the inner vertices near them move to the middle of their neighbours, over ever wider
-/// surroundings. None: that did not help.
-std::optional<Eigen::Matrix2Xd> mended(const TriMesh& part, Eigen::Matrix2Xd X);
 
 } // namespace spia

@@ -14,8 +14,7 @@ namespace spia {
 namespace {
 
 constexpr double steepest_projected = 65 * std::numbers::pi / 180;
-constexpr int most_power_iterations = 12;
-constexpr double enough = 1e-2; // change of the map in an iteration: shapes are near, scales are off anyway
+constexpr int few_iterations = 4, most_iterations = 12;
 
 /// Looks along the stamping direction.
 Eigen::Matrix2Xd projection(const TriMesh& part, const Eigen::Vector3d& direction)
@@ -27,7 +26,7 @@ Eigen::Matrix2Xd projection(const TriMesh& part, const Eigen::Vector3d& directio
 }
 
 /// The smallest eigenvector of the conformal energy sum A (|G|^2 / 2 - det G) against the mass of the boundary, found
-/// by inverse iteration on one factor.
+/// by inverse iteration on one factor. None: triangles have flipped, or are too thin.
 std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector<Element>& element,
                                           const Eigen::Matrix2Xd& first, BlockMatrix& matrix, Cholesky& cholesky)
 {
@@ -57,17 +56,19 @@ std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector
             mass[a] += half;
             mass[b] += half;
         }
-    Eigen::Matrix2Xd X = first, before = Eigen::Matrix2Xd::Zero(2, first.cols());
-    for (int iteration = 0; iteration < most_power_iterations; ++iteration) {
+    // The map is conformal inside after the first iteration; the others turn its border to the eigenvector, slowly where
+    // several are near each other. A start needs no more than a few, and the last of them that is one-to-one.
+    std::optional<Eigen::Matrix2Xd> best;
+    Eigen::Matrix2Xd X = first;
+    for (int iteration = 0; iteration < (best ? few_iterations : most_iterations); ++iteration) {
         X.colwise() -= (X * mass / mass.sum()).eval(); // translations cost no energy: keep them out
         X /= std::sqrt((X * mass.asDiagonal()).cwiseProduct(X).sum());
-        if ((X - before).norm() <= enough * X.norm())
-            break;
-        before = X;
         const Eigen::VectorXd next = cholesky.solve((X * mass.asDiagonal()).reshaped());
         X = next.reshaped(2, X.cols());
+        if (one_to_one_around_vertices(part, X))
+            best = X;
     }
-    return X;
+    return best;
 }
 
 /// Mean value weights are positive [Floater 2003], so with a convex border and the holes closed no triangle flips.
@@ -166,14 +167,8 @@ InitialGuess initial_guess(const TriMesh& part, const std::vector<Element>& elem
         return {seen, StartMethod::projection};
     progress.checkpoint(0.1, "first guess: conformal map");
     if (auto X = conformal(part, element, seen, matrix, cholesky)) {
-        if (X->allFinite() && flipped_triangles(part.triangle, *X) == 0) {
-            scale_to_part(part, element, *X);
-            return {std::move(*X), StartMethod::conformal};
-        }
-        if (auto without = mended(part, std::move(*X))) {
-            scale_to_part(part, element, *without);
-            return {std::move(*without), StartMethod::conformal};
-        }
+        scale_to_part(part, element, *X);
+        return {std::move(*X), StartMethod::conformal};
     }
     progress.checkpoint(0.5, "first guess: harmonic map");
     Eigen::Matrix2Xd X = harmonic(part);

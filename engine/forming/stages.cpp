@@ -115,6 +115,7 @@ Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, 
     report.trusted_strain = options.curve.trusted_strain;
     EquilibriumOptions quick = newton;
     quick.most_steps = std::min(20, newton.most_steps);
+    quick.patient = false;
     X = energy_stage(job, hardening, std::move(X), first_try, options.most_energy_steps, report, progress.part(0, 0.2))
             .position;
     if (std::optional<Eigen::Matrix2Xd> solved = strict_equilibrium(job, X, quick, report, progress.part(0.2, 0.4)))

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "engine/core/error.h"
+#include "engine/sparse/rounded_factor.h"
 
 extern "C" void openblas_set_num_threads(int);
 
@@ -44,6 +45,8 @@ struct Cholesky::State {
     cholmod_common common;
     cholmod_factor* factor = nullptr;
     std::vector<int> vertex_order;
+    RoundedFactor rounded;
+    bool rounded_is_new = false;
     // Work space of cholmod_solve2, kept so that a solve allocates nothing.
     cholmod_dense *solution = nullptr, *work_y = nullptr, *work_e = nullptr;
 
@@ -78,10 +81,24 @@ struct Cholesky::State {
     bool factorise(cholmod_sparse a)
     {
         one_thread_only();
+        rounded_is_new = false;
         cholmod_factorize(&a, factor, &common);
         if (common.status == CHOLMOD_OUT_OF_MEMORY)
             throw SolveError("there is not enough memory for the factor of this mesh");
         return common.status == CHOLMOD_OK && factor->minor == factor->n;
+    }
+
+    Supernodes supernodes() const
+    {
+        return {int(factor->nsuper),
+                int(factor->n),
+                static_cast<const int*>(factor->super),
+                static_cast<const int*>(factor->pi),
+                static_cast<const int*>(factor->s),
+                static_cast<const int*>(factor->px),
+                static_cast<const double*>(factor->x),
+                factor->xsize,
+                static_cast<const int*>(factor->Perm)};
     }
 
     const double* solve(const double* right, Eigen::Index rows, Eigen::Index columns)
@@ -128,6 +145,16 @@ bool Cholesky::factor(const BlockMatrix& matrix)
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& right) const
 {
     return Eigen::Map<const Eigen::VectorXd>(state_->solve(right.data(), right.size(), 1), right.size());
+}
+
+Eigen::VectorXd Cholesky::precondition(const Eigen::VectorXd& right) const
+{
+    State& s = *state_;
+    if (!s.rounded_is_new) {
+        s.rounded.assign(s.supernodes());
+        s.rounded_is_new = true;
+    }
+    return s.rounded.solve(s.supernodes(), right);
 }
 
 VertexCholesky::VertexCholesky(const BlockMatrix& pattern, const Cholesky& ordered)

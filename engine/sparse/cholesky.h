@@ -21,6 +21,9 @@ public:
 
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
+    /// About the same by a factor rounded to single precision, in two thirds of the time.
+    Eigen::VectorXd precondition(const Eigen::VectorXd& right) const;
+
 private:
     friend class VertexCholesky;
     struct State;
