@@ -182,7 +182,7 @@ private:
                                                 const std::vector<NewtonStep>& steps)
     {
         constexpr int most_iterations = 60;
-        constexpr double near_solution = 0.1;
+        constexpr double near_solution = 0.3;
         const double tolerance = forcing_term(steps);
         // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
         const double rough = tolerance < worst_forcing ? 0 : 0.3;

@@ -39,7 +39,7 @@ RigidSteps::RigidSteps(const TriMesh& part, const std::vector<Element>& element,
         trace += value[size_t(matrix.graph_entry(v, v))];
     for (int v = 0; v < part.vertices(); ++v) // holds the translation without being felt
         value[size_t(matrix.graph_entry(v, v))] += 1e-12 * trace / part.vertices();
-    possible_ = laplacian_.factor(matrix, value);
+    possible_ = laplacian_.factor(value);
 }
 
 Eigen::Matrix2Xd RigidSteps::step(const Eigen::Matrix2Xd& X) const

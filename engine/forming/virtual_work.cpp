@@ -26,6 +26,34 @@ Eigen::Matrix2d definite(const Eigen::Matrix2d& K)
     return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() * modes.eigenvectors().transpose();
 }
 
+/// Of symmetric K, with the eigenvalues by their size. [Cayley and Hamilton: |K| = (K^2 + |det K|) / tr |K|]
+Eigen::Matrix2d magnitude(const Eigen::Matrix2d& K)
+{
+    const Eigen::Matrix2d square = K * K;
+    const double determinant = std::abs(K.determinant()), trace = std::sqrt(square.trace() + 2 * determinant);
+    return trace > 0 ? Eigen::Matrix2d((square + determinant * Eigen::Matrix2d::Identity()) / trace)
+                     : Eigen::Matrix2d::Zero();
+}
+
+/// A symmetric 4 by 4 tangent over the entries of G, column by column, with the eigenvalues by their size. In the principal
+/// axes of G the changes of its singular values have nothing to do with shear and rotation; how planar anisotropy couples
+/// them is left out.
+Eigen::Matrix4d definite(const Eigen::Matrix4d& K, const Svd2& G)
+{
+    constexpr double least = 1e-8; // of the trace, so that nothing is left without stiffness
+    Eigen::Matrix4d axes;          // columns: stretches, then the entries off the diagonal
+    for (int k = 0; k < 4; ++k) {
+        const int i = k == 1 || k == 2, j = k == 1 || k == 3;
+        axes.col(k) = (G.U.col(i) * G.V.col(j).transpose()).reshaped();
+    }
+    const Eigen::Matrix4d principal = axes.transpose() * K * axes;
+    Eigen::Matrix4d magnitudes = Eigen::Matrix4d::Zero();
+    magnitudes.topLeftCorner<2, 2>() = magnitude(principal.topLeftCorner<2, 2>());
+    magnitudes.bottomRightCorner<2, 2>() = magnitude(principal.bottomRightCorner<2, 2>());
+    magnitudes.diagonal().array() += least * magnitudes.trace();
+    return axes * magnitudes * axes.transpose();
+}
+
 /// Change of M (h sigma) g with G, column by column.
 /// @param relaxed share in which M is F^T, which changes with G
 Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
@@ -245,24 +273,15 @@ Matrix6d VirtualWork::element_tangent(int f, const Formed& at) const
 
 Matrix6d VirtualWork::definite_element(int f, const Formed& at) const
 {
-    constexpr double least = 1e-8; // of the largest eigenvalue
     const Element& e = element_[size_t(f)];
-    Eigen::Matrix2d M = Eigen::Matrix2d::Zero(); // mean of the three corners
     double relaxed = 0;
-    for (int a = 0; a < 3; ++a) {
-        M += to_vertex(f, a, at.pull_back) / 3;
+    for (int a = 0; a < 3; ++a)
         relaxed += relaxed_[size_t(part_.triangle(a, f))] / 3.0;
-    }
+    // With the triangle's own push-forward of the axes for those of its vertices.
     Eigen::Matrix4d K;
-    K << force_change(at.m, at.pull_back, M, relaxed, Eigen::Vector2d::UnitX()),
-        force_change(at.m, at.pull_back, M, relaxed, Eigen::Vector2d::UnitY());
-    K = (-0.5 * (K + K.transpose())).eval();
-    if (Eigen::LLT<Eigen::Matrix4d>(K - least * K.trace() * Eigen::Matrix4d::Identity()).info() != Eigen::Success) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(K);
-        Eigen::Vector4d value = modes.eigenvalues().cwiseAbs();
-        value = value.cwiseMax(least * value.maxCoeff());
-        K = modes.eigenvectors() * value.asDiagonal() * modes.eigenvectors().transpose();
-    }
+    K << force_change(at.m, at.pull_back, at.pull_back, relaxed, Eigen::Vector2d::UnitX()),
+        force_change(at.m, at.pull_back, at.pull_back, relaxed, Eigen::Vector2d::UnitY());
+    K = definite(Eigen::Matrix4d(-0.5 * (K + K.transpose())), svd(at.pull_back));
     Matrix6d out = element_stiffness(e, e.area * K);
     for (int a = 0; a < 3; ++a)
         if (held_[size_t(part_.triangle(a, f))] >= 0) {

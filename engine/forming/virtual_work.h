@@ -47,7 +47,8 @@ public:
     void tangent(const Eigen::Matrix2Xd& X, BlockMatrix& matrix) const;
 
     /// The tangent and a positive definite neighbour of it to precondition with: per triangle the symmetric part of the tangent
-    /// in the space of G, the eigenvalues by their magnitude (they are negative where the sheet softens).
+    /// in the space of G with its own push-forward of the axes, the eigenvalues by their magnitude (they are negative where the
+    /// sheet softens), without the coupling of stretch and shear by planar anisotropy.
     void tangents(const Eigen::Matrix2Xd& X, BlockMatrix& tangent, BlockMatrix& definite) const;
 
     const ExternalForces& external() const { return external_; }

@@ -26,31 +26,31 @@ BlockMatrix::BlockMatrix(const Eigen::Matrix3Xi& triangle, int vertices) : verti
         graph_start_.push_back(int(graph_row_.size()));
     }
     start_.assign(1, 0);
-    row_.reserve(4 * graph_row_.size());
+    column_.reserve(4 * graph_row_.size());
     for (int v = 0; v < vertices; ++v)
         for (int k = 0; k < 2; ++k) {
             for (int w : neighbour[size_t(v)]) {
-                row_.push_back(2 * w);
-                row_.push_back(2 * w + 1);
+                column_.push_back(2 * w);
+                column_.push_back(2 * w + 1);
             }
-            start_.push_back(int(row_.size()));
+            start_.push_back(int(column_.size()));
         }
-    value_.assign(row_.size(), 0);
+    value_.assign(column_.size(), 0);
 
     destination_.resize(size_t(triangle.cols()));
     for (Eigen::Index f = 0; f < triangle.cols(); ++f)
-        for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a)
             for (int k = 0; k < 2; ++k)
-                for (int a = 0; a < 3; ++a)
-                    destination_[size_t(f)][size_t((2 * b + k) * 3 + a)] =
-                        entry(2 * triangle(a, f), 2 * triangle(b, f) + k);
+                for (int b = 0; b < 3; ++b)
+                    destination_[size_t(f)][size_t((2 * a + k) * 3 + b)] =
+                        entry(2 * triangle(a, f) + k, 2 * triangle(b, f));
 }
 
 int BlockMatrix::entry(int unknown_row, int unknown_column) const
 {
-    const auto begin = row_.begin() + start_[size_t(unknown_column)];
-    const auto end = row_.begin() + start_[size_t(unknown_column) + 1];
-    return int(std::lower_bound(begin, end, unknown_row) - row_.begin());
+    const auto begin = column_.begin() + start_[size_t(unknown_row)];
+    const auto end = column_.begin() + start_[size_t(unknown_row) + 1];
+    return int(std::lower_bound(begin, end, unknown_column) - column_.begin());
 }
 
 int BlockMatrix::graph_entry(int row, int column) const
@@ -70,11 +70,11 @@ void BlockMatrix::assemble(const std::vector<Matrix6d>& element)
 void BlockMatrix::add(int element, const Matrix6d& matrix)
 {
     const std::array<int, 18>& to = destination_[size_t(element)];
-    for (int column = 0; column < 6; ++column)
-        for (int a = 0; a < 3; ++a) {
-            double* value = &value_[size_t(to[size_t(column * 3 + a)])];
-            value[0] += matrix(2 * a, column);
-            value[1] += matrix(2 * a + 1, column);
+    for (int row = 0; row < 6; ++row)
+        for (int b = 0; b < 3; ++b) {
+            double* value = &value_[size_t(to[size_t(row * 3 + b)])];
+            value[0] += matrix(row, 2 * b);
+            value[1] += matrix(row, 2 * b + 1);
         }
 }
 
@@ -83,9 +83,9 @@ void BlockMatrix::add_to_diagonal(int unknown, double value) { value_[size_t(ent
 void BlockMatrix::add_to_diagonal(int vertex, const Eigen::Matrix2d& block)
 {
     for (int k = 0; k < 2; ++k) {
-        double* to = &value_[size_t(entry(2 * vertex, 2 * vertex + k))];
-        to[0] += block(0, k);
-        to[1] += block(1, k);
+        double* to = &value_[size_t(entry(2 * vertex + k, 2 * vertex))];
+        to[0] += block(k, 0);
+        to[1] += block(k, 1);
     }
 }
 
@@ -99,12 +99,20 @@ Eigen::VectorXd BlockMatrix::diagonal() const
 
 void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 {
-    y.setZero(size());
-    for (int column = 0; column < size(); ++column) {
-        const double factor = x[column];
-        for (int i = start_[size_t(column)]; i < start_[size_t(column) + 1]; ++i)
-            y[row_[size_t(i)]] += value_[size_t(i)] * factor;
-    }
+    y.resize(size());
+    parallel_for(vertices_, [&](int v) { // both rows have the same columns
+        const int first = start_[size_t(2 * v)], count = start_[size_t(2 * v) + 1] - first;
+        const double *upper = &value_[size_t(first)], *lower = upper + count;
+        const int* column = &column_[size_t(first)];
+        double sum_0 = 0, sum_1 = 0;
+        for (int i = 0; i < count; ++i) {
+            const double factor = x[column[i]];
+            sum_0 += upper[i] * factor;
+            sum_1 += lower[i] * factor;
+        }
+        y[2 * v] = sum_0;
+        y[2 * v + 1] = sum_1;
+    });
 }
 
 } // namespace spia

@@ -9,7 +9,7 @@ namespace spia {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// A sparse matrix of 2 x 2 blocks on the graph of a triangle mesh, with a pattern that is fixed once. Unknown
-/// 2 v + k is component k of vertex v. Stored by columns (CSC), full pattern, rows sorted.
+/// 2 v + k is component k of vertex v. Stored by rows (CSR), full pattern, columns sorted.
 class BlockMatrix {
 public:
     /// @param triangle 3 by #F vertex indices; every vertex must belong to a triangle
@@ -34,8 +34,8 @@ public:
 
     int vertices() const { return vertices_; }
     int size() const { return 2 * vertices_; }
-    const std::vector<int>& column_start() const { return start_; }
-    const std::vector<int>& row() const { return row_; }
+    const std::vector<int>& row_start() const { return start_; }
+    const std::vector<int>& column() const { return column_; }
     const std::vector<double>& value() const { return value_; }
 
     /// The graph of the vertices (CSC pattern, diagonal included): what fill-reducing orderings work on.
@@ -49,9 +49,9 @@ private:
 
     int vertices_;
     std::vector<int> graph_start_, graph_row_;
-    std::vector<int> start_, row_;
+    std::vector<int> start_, column_;
     std::vector<double> value_;
-    /// Per element and block (a, b): where its two columns begin in value_.
+    /// Per element and block (a, b): where its two rows begin in value_.
     std::vector<std::array<int, 18>> destination_;
 };
 

@@ -15,13 +15,13 @@ public:
     Cholesky(Cholesky&&) noexcept;
     Cholesky& operator=(Cholesky&&) noexcept;
 
-    /// Factors a symmetric matrix of the analysed pattern (its lower triangle is read).
+    /// Factors a symmetric matrix of the analysed pattern (its upper triangle is read).
     /// @returns false if the matrix is not positive definite to rounding; there is no factor then
     bool factor(const BlockMatrix& matrix);
 
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
-    /// About the same by a factor rounded to single precision, in two thirds of the time.
+    /// About the same by a factor rounded to single precision, in a third of the time on two threads.
     Eigen::VectorXd precondition(const Eigen::VectorXd& right) const;
 
 private:
@@ -36,9 +36,9 @@ public:
     VertexCholesky(const BlockMatrix& pattern, const Cholesky& ordered);
     ~VertexCholesky();
 
-    /// @param value of graph_row(); its lower triangle is read
+    /// @param value of graph_row() of the pattern; its lower triangle is read
     /// @returns as above
-    bool factor(const BlockMatrix& pattern, const std::vector<double>& value);
+    bool factor(const std::vector<double>& value);
 
     Eigen::MatrixX2d solve(const Eigen::MatrixX2d& right) const;
 

@@ -20,8 +20,9 @@ Lu::Lu(const BlockMatrix& matrix) : state_(new State{matrix, {}, nullptr})
     umfpack_di_defaults(s.control);
     s.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     s.control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-    const int* start = s.matrix.column_start().data();
-    const int* row = s.matrix.row().data();
+    // By rows it is the transposed matrix by columns.
+    const int* start = s.matrix.row_start().data();
+    const int* row = s.matrix.column().data();
     const double* value = s.matrix.value().data();
     void* symbolic = nullptr;
     int status =
@@ -42,7 +43,7 @@ Eigen::VectorXd Lu::solve(const Eigen::VectorXd& right) const
 {
     const State& s = *state_;
     Eigen::VectorXd x(right.size());
-    umfpack_di_solve(UMFPACK_A, s.matrix.column_start().data(), s.matrix.row().data(), s.matrix.value().data(),
+    umfpack_di_solve(UMFPACK_At, s.matrix.row_start().data(), s.matrix.column().data(), s.matrix.value().data(),
                      x.data(), right.data(), s.numeric, s.control, nullptr);
     return x;
 }

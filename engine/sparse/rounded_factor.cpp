@@ -1,6 +1,15 @@
 #include "engine/sparse/rounded_factor.h"
 
 #include <algorithm>
+#include <array>
+#include <oneapi/tbb/parallel_for.h>
+
+// The processor's widest registers, chosen when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define SPIA_WIDE __attribute__((target_clones("arch=haswell", "default")))
+#else
+#define SPIA_WIDE
+#endif
 
 namespace spia {
 namespace {
@@ -22,7 +31,7 @@ Block block(const Supernodes& L, const std::vector<float>& value, int s)
 }
 
 /// sum += L_below x, four columns at a time: the sum is read and written once for all of them.
-void add_product(const Block& b, const double* x, double* sum)
+SPIA_WIDE void add_product(const Block& b, const double* x, double* sum)
 {
     const int n = b.below();
     int j = 0;
@@ -51,7 +60,7 @@ double dot(const float* a, const double* b, int n)
 }
 
 /// x -= L_below^T y, four columns at a time.
-void subtract_transposed_product(const Block& b, const double* y, double* x)
+SPIA_WIDE void subtract_transposed_product(const Block& b, const double* y, double* x)
 {
     const int n = b.below();
     int j = 0;
@@ -74,22 +83,94 @@ void subtract_transposed_product(const Block& b, const double* y, double* x)
         x[j] -= dot(b.column(j) + b.columns, y, n);
 }
 
+/// Calls visit(k) for the columns of some supernodes.
+template <class Visit> void each_column(const Supernodes& L, const std::vector<int>& supernodes, const Visit& visit)
+{
+    for (const int s : supernodes)
+        for (int k = L.column[s]; k < L.column[s + 1]; ++k)
+            visit(k);
+}
+
+/// The supernode in which the first row below a supernode is a column; -1: it is a root.
+std::vector<int> parents(const Supernodes& L)
+{
+    std::vector<int> of_column(size_t(L.size)), parent(size_t(L.count), -1);
+    for (int s = 0; s < L.count; ++s)
+        std::fill(&of_column[size_t(L.column[s])], &of_column[size_t(L.column[s])] + L.column[s + 1] - L.column[s], s);
+    for (int s = 0; s < L.count; ++s)
+        if (const int columns = L.column[s + 1] - L.column[s], first = L.row_start[s] + columns;
+            first < L.row_start[s + 1])
+            parent[size_t(s)] = of_column[size_t(L.row[first])];
+    return parent;
+}
+
 } // namespace
+
+/// Splits the elimination tree from its top until what hangs below can be shared out evenly.
+void RoundedFactor::divide(const Supernodes& L)
+{
+    constexpr int parts = 4;
+    const std::vector<int> parent = parents(L);
+    const auto count = size_t(L.count);
+    std::vector<double> work(count, 0); // of the subtree
+    std::vector<std::vector<int>> children(count);
+    std::vector<int> root;
+    for (int s = 0; s < L.count; ++s) {
+        work[size_t(s)] += double(L.column[s + 1] - L.column[s]) * (L.row_start[s + 1] - L.row_start[s]);
+        if (const int p = parent[size_t(s)]; p >= 0) {
+            work[size_t(p)] += work[size_t(s)];
+            children[size_t(p)].push_back(s);
+        } else
+            root.push_back(s);
+    }
+    double whole = 0;
+    for (const int s : root)
+        whole += work[size_t(s)];
+    const auto lighter = [&](int a, int b) { return std::pair(work[size_t(a)], a) < std::pair(work[size_t(b)], b); };
+    std::vector<int> part_of(count, -2); // -1: the top, -2: that of the parent
+    std::make_heap(root.begin(), root.end(), lighter);
+    while (!root.empty() && work[size_t(root.front())] > whole / (2 * parts)) {
+        std::pop_heap(root.begin(), root.end(), lighter);
+        const int split = root.back();
+        root.pop_back();
+        part_of[size_t(split)] = -1;
+        for (const int child : children[size_t(split)]) {
+            root.push_back(child);
+            std::push_heap(root.begin(), root.end(), lighter);
+        }
+    }
+    std::sort_heap(root.begin(), root.end(), lighter);
+    std::array<double, parts> load{};
+    for (auto s = root.rbegin(); s != root.rend(); ++s) { // the heaviest first
+        const auto least = std::min_element(load.begin(), load.end());
+        *least += work[size_t(*s)];
+        part_of[size_t(*s)] = int(least - load.begin());
+    }
+    part_.assign(parts, {});
+    top_ = {};
+    for (int s = L.count - 1; s >= 0; --s)
+        if (part_of[size_t(s)] == -2)
+            part_of[size_t(s)] = part_of[size_t(parent[size_t(s)])];
+    for (int s = 0; s < L.count; ++s)
+        (part_of[size_t(s)] < 0 ? top_ : part_[size_t(part_of[size_t(s)])]).supernode.push_back(s);
+    for (Part* part : {&top_, &part_[0], &part_[1], &part_[2], &part_[3]}) {
+        part->x.setZero(L.size);
+        part->sum.setZero(L.size);
+    }
+}
 
 void RoundedFactor::assign(const Supernodes& factor)
 {
+    if (value_.size() != factor.values || part_.empty())
+        divide(factor);
     value_.resize(factor.values);
     std::copy(factor.value, factor.value + factor.values, value_.begin());
-    x_.resize(factor.size);
-    sum_.resize(factor.size);
 }
 
-Eigen::VectorXd RoundedFactor::solve(const Supernodes& L, const Eigen::VectorXd& b)
+void RoundedFactor::forward(const Supernodes& L, Part& part)
 {
-    double *x = x_.data(), *sum = sum_.data();
-    for (int k = 0; k < L.size; ++k)
-        x[k] = b[L.permutation[k]];
-    for (int s = 0; s < L.count; ++s) {
+    double *x = part.x.data(), *sum = part.sum.data();
+    for (const int s : part.supernode) {
         const Block at = block(L, value_, s);
         double* xs = x + L.column[s];
         for (int j = 0; j < at.columns; ++j) {
@@ -103,9 +184,14 @@ Eigen::VectorXd RoundedFactor::solve(const Supernodes& L, const Eigen::VectorXd&
         for (int i = 0; i < at.below(); ++i)
             x[at.row[i]] -= sum[i];
     }
-    for (int s = L.count - 1; s >= 0; --s) {
-        const Block at = block(L, value_, s);
-        double* xs = x + L.column[s];
+}
+
+void RoundedFactor::backward(const Supernodes& L, Part& part)
+{
+    double *x = part.x.data(), *sum = part.sum.data();
+    for (auto s = part.supernode.rbegin(); s != part.supernode.rend(); ++s) {
+        const Block at = block(L, value_, *s);
+        double* xs = x + L.column[*s];
         for (int i = 0; i < at.below(); ++i)
             sum[i] = x[at.row[i]];
         subtract_transposed_product(at, sum, xs);
@@ -114,9 +200,37 @@ Eigen::VectorXd RoundedFactor::solve(const Supernodes& L, const Eigen::VectorXd&
             xs[j] = (xs[j] - dot(a + j + 1, xs + j + 1, at.columns - j - 1)) / a[j];
         }
     }
+}
+
+Eigen::VectorXd RoundedFactor::solve(const Supernodes& L, const Eigen::VectorXd& b)
+{
     Eigen::VectorXd result(L.size);
-    for (int k = 0; k < L.size; ++k)
-        result[L.permutation[k]] = x[k];
+    const auto take = [&](Part& part) {
+        each_column(L, part.supernode, [&](int k) { part.x[k] = b[L.permutation[k]]; });
+    };
+    const auto give = [&](const Part& part) {
+        each_column(L, part.supernode, [&](int k) { result[L.permutation[k]] = part.x[k]; });
+    };
+    tbb::parallel_for(size_t(0), part_.size(), [&](size_t p) {
+        Part& part = part_[p];
+        each_column(L, top_.supernode, [&](int k) { part.x[k] = 0; });
+        take(part);
+        forward(L, part);
+    });
+    take(top_);
+    each_column(L, top_.supernode, [&](int k) {
+        for (const Part& part : part_)
+            top_.x[k] += part.x[k];
+    });
+    forward(L, top_);
+    backward(L, top_);
+    give(top_);
+    tbb::parallel_for(size_t(0), part_.size(), [&](size_t p) {
+        Part& part = part_[p];
+        each_column(L, top_.supernode, [&](int k) { part.x[k] = top_.x[k]; });
+        backward(L, part);
+        give(part);
+    });
     return result;
 }
 

@@ -100,7 +100,7 @@ void grid_lift_fit(benchmark::State& state)
 
 void sizes(benchmark::internal::Benchmark* bench)
 {
-    for (int triangles : {2000, 20000, 50000, 105000, 207000, 500000})
+    for (int triangles : {2000, 20000, 50000, 105000, 207000, 500000, 1000000})
         bench->Arg(triangles);
     bench->Unit(benchmark::kMillisecond)->Iterations(1);
 }

@@ -1,7 +1,7 @@
-// Our LSCM and ARAP beside those of CGAL's Surface_mesh_parameterization [Saboret, Alliez, Levy, Rouxel-Labbe, Fabri]
-// on the same mesh in the same run, judged by the same ruler; times are those of the processor, all threads together.
-// CGAL has no ABF++ (5.5). Usage: spia-peers [PART] [LARGEST]; without a part the inner panel at several sizes up to
-// LARGEST triangles.
+// Our LSCM, ARAP and one-step inverse forming (with plasticity) beside the LSCM and ARAP of CGAL's
+// Surface_mesh_parameterization [Saboret, Alliez, Levy, Rouxel-Labbe, Fabri] on the same mesh in the same run, judged by the
+// same ruler; times are those of the processor, all threads together. CGAL has no ABF++ (5.5).
+// Usage: spia-peers [PART] [LARGEST]; without a part the inner panel at several sizes up to LARGEST triangles.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
@@ -18,6 +18,8 @@
 #include "engine/compare/lscm.h"
 #include "engine/compare/map_quality.h"
 #include "engine/exchange/read_part.h"
+#include "engine/forming/flatten.h"
+#include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/inner_panel.h"
 
@@ -119,6 +121,12 @@ void beside_each_other(const TriMesh& part)
     const double conformal = difference(part, theirs, ours);
     row(
         part, "ARAP, ours", [&] { return arap(part).position; }, ours);
+    FlattenOptions sheet;
+    sheet.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    sheet.thickness = 0.8;
+    Eigen::Matrix2Xd blank;
+    row(
+        part, "one-step inverse forming, ours", [&] { return flatten(part, sheet).blank.position; }, blank);
     row(
         part, "ARAP, CGAL", [&] { return parameterized(part, mesh, smp::ARAP_parameterizer_3<Mesh>()); }, theirs);
     fmt::print("differences after the best similarity: LSCM {:.1e}, ARAP {:.1e}\n", conformal,
@@ -136,7 +144,7 @@ int main(int count, char** values)
         return 0;
     }
     const int largest = count > 1 ? std::atoi(values[1]) : 105000;
-    for (int triangles : {2000, 20000, 50000, 105000, 207000}) {
+    for (int triangles : {2000, 20000, 50000, 105000, 207000, 500000}) {
         shapes::InnerPanel shape;
         shape.triangles = triangles;
         if (triangles <= largest)

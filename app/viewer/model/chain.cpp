@@ -9,8 +9,7 @@ namespace {
 
 bool same(const ReadOptions& a, const ReadOptions& b)
 {
-    return a.unit == b.unit && a.weld == b.weld && a.doctor.keep_largest == b.doctor.keep_largest &&
-           a.seam == b.seam;
+    return a.unit == b.unit && a.weld == b.weld && a.doctor.keep_largest == b.doctor.keep_largest && a.seam == b.seam;
 }
 
 bool same(const FlattenOptions& a, const FlattenOptions& b)

@@ -225,13 +225,13 @@ std::string process_rows(const ProcessConditions& process)
     for (const Drawbead& bead : process.drawbeads)
         rows += row("Drawbead: " + bead.name, significant(bead.force_N_mm) + " N/mm");
     if (process.edge_restraint > 0)
-        rows += row("Outer edge", fmt::format("restrained with {:.3g} % of the lock force", 100 * process.edge_restraint));
+        rows +=
+            row("Outer edge", fmt::format("restrained with {:.3g} % of the lock force", 100 * process.edge_restraint));
     for (const Pilot& pilot : process.pilots)
         rows += row("Pilot: " + pilot.name, pilot.line.size() == 1 ? "a point is held" : "a curve is held");
     for (const TailoredPiece& piece : process.tailored)
-        rows += row("Tailored piece: " + piece.name,
-                    fmt::format("{}, {} mm, {} faces", piece.material.name, significant(piece.thickness),
-                                piece.faces.size()));
+        rows += row("Tailored piece: " + piece.name, fmt::format("{}, {} mm, {} faces", piece.material.name,
+                                                                 significant(piece.thickness), piece.faces.size()));
     return rows;
 }
 
@@ -244,12 +244,13 @@ std::string assumptions(const Session& session)
     rows += html_row("Hardening", law(material.hardening));
     rows +=
         row("Elasticity", fmt::format("E = {} MPa, \u03bd = {:.3g}", grouped(material.young_MPa), material.poisson));
-    rows += row("Anisotropy", fmt::format("Hill 1948, r = {:.3g} / {:.3g} / {:.3g} at 0\u00b0 / 45\u00b0 / 90\u00b0; "
-                                          "{}",
-                                          material.r0, material.r45, material.r90,
-                                          options.process.rolling
-                                              ? "rolling direction " + vector(*options.process.rolling)
-                                              : fmt::format("their mean {:.3g} is used", material.normal_anisotropy())));
+    rows +=
+        row("Anisotropy", fmt::format("Hill 1948, r = {:.3g} / {:.3g} / {:.3g} at 0\u00b0 / 45\u00b0 / 90\u00b0; "
+                                      "{}",
+                                      material.r0, material.r45, material.r90,
+                                      options.process.rolling
+                                          ? "rolling direction " + vector(*options.process.rolling)
+                                          : fmt::format("their mean {:.3g} is used", material.normal_anisotropy())));
     rows += row("Sheet thickness", significant(options.thickness) + " mm");
     rows += row("Stamping direction", vector(session.blank->stamping.direction) +
                                           (options.direction ? ", as given" : ", found automatically"));

@@ -83,12 +83,12 @@ private:
     std::vector<std::unique_ptr<Job<ChainResult>>>
         ending_; ///< cancelled, nobody waits for them; they end by themselves
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
-    bool keep_cameras_ = false; ///< those of a project
-    size_t depth_at_start_ = 0; ///< of the history, when the running job began
-    bool dragging_ = false;     ///< a corner: the grid is coarse
+    bool keep_cameras_ = false;          ///< those of a project
+    size_t depth_at_start_ = 0;          ///< of the history, when the running job began
+    bool dragging_ = false;              ///< a corner: the grid is coarse
     std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
-    std::optional<Stage> next_; ///< run this far when the running job has ended
-    int said_ = 0;              ///< messages so far
+    std::optional<Stage> next_;          ///< run this far when the running job has ended
+    int said_ = 0;                       ///< messages so far
     int openings_ = 0;
     bool opening_ = false;           ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part

@@ -81,7 +81,7 @@ struct LineShapes {
 /// Where the blank lies on itself.
 struct OverlapShape {
     LineList lines;
-    std::shared_ptr<ScenePoints> dots; ///< null: none
+    std::shared_ptr<ScenePoints> dots;  ///< null: none
     std::vector<Eigen::Vector3d> place; ///< mm, of what has a name
 };
 

@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 #include <random>
 
 #include "engine/core/error.h"
@@ -87,6 +88,36 @@ TEST(Cholesky, SaysWhenAMatrixIsNotDefiniteAndRecovers)
     indefinite.add_to_diagonal(4, -1e4);
     EXPECT_FALSE(cholesky.factor(indefinite));
     EXPECT_TRUE(cholesky.factor(A.sparse));
+}
+
+TEST(Cholesky, PreconditionsAboutAsItSolvesWithTheSameBitsOnAnyNumberOfThreads)
+{
+    const TriMesh mesh = shapes::rectangle(90, 40, 90, 40);
+    BlockMatrix A(mesh.triangle, mesh.vertices());
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    const auto fill = [&] {
+        std::vector<Matrix6d> element;
+        for (int f = 0; f < mesh.triangles(); ++f) {
+            const Matrix6d K = Matrix6d::NullaryExpr([&] { return normal(random); });
+            element.push_back(K * K.transpose() + 0.1 * Matrix6d::Identity());
+        }
+        A.assemble(element);
+    };
+    fill();
+    Cholesky cholesky(A);
+    const Eigen::VectorXd b = some_vector(A.size());
+    for (int factor = 0; factor < 2; ++factor, fill()) {
+        ASSERT_TRUE(cholesky.factor(A));
+        const Eigen::VectorXd exact = cholesky.solve(b);
+        EXPECT_LT((cholesky.precondition(b) - exact).norm(), 1e-4 * exact.norm());
+        std::vector<Eigen::VectorXd> on_threads;
+        for (const size_t threads : {1, 2}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            on_threads.push_back(cholesky.precondition(b));
+        }
+        EXPECT_EQ(on_threads[0], on_threads[1]);
+    }
 }
 
 TEST(Lu, SolvesAnUnsymmetricMatrix)
