@@ -181,7 +181,7 @@ private:
     std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R,
                                                 const std::vector<NewtonStep>& steps)
     {
-        constexpr int most_iterations = 60;
+        constexpr int most_iterations = 60, most_by_old_factor = 20;
         constexpr double near_solution = 0.3;
         const double tolerance = forcing_term(steps);
         // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
@@ -192,18 +192,22 @@ private:
             return Eigen::VectorXd(y + rigid_.rows() * (spring_ * (rigid_.rows().transpose() * x)));
         };
         const LinearMap by_cholesky = [&](const Eigen::VectorXd& x) { return cholesky_.precondition(x); };
+        GmresResult old{Eigen::VectorXd::Zero(R.size())};
+        Eigen::VectorXd rest = -R; // what the old factor has not solved is left to the new one
         if (factored_ && decrease(steps) < near_solution) {
             work_.tangent(X, tangent_);
-            const GmresResult solved = gmres(A, by_cholesky, -R, tolerance, most_iterations / 2);
-            if (solved.relative_residual <= tolerance)
-                return solved.x;
+            old = gmres(A, by_cholesky, rest, tolerance, most_by_old_factor);
+            if (old.relative_residual <= tolerance)
+                return old.x;
+            rest -= A(old.x);
         }
         work_.tangents(X, tangent_, preconditioner_);
         factored_ = cholesky_.factor(preconditioner_);
         if (factored_) {
-            const GmresResult solved = gmres(A, by_cholesky, -R, tolerance, most_iterations);
-            if (solved.relative_residual <= std::max(tolerance, rough))
-                return solved.x;
+            const double left = rest.norm() / R.norm();
+            const GmresResult solved = gmres(A, by_cholesky, rest, tolerance / left, most_iterations);
+            if (left * solved.relative_residual <= std::max(tolerance, rough))
+                return old.x + solved.x;
         }
         if (!options_.patient)
             return std::nullopt;

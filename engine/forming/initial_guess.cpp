@@ -14,7 +14,7 @@ namespace spia {
 namespace {
 
 constexpr double steepest_projected = 65 * std::numbers::pi / 180;
-constexpr int few_iterations = 4, most_iterations = 12;
+constexpr int few_iterations = 2, most_iterations = 12;
 
 /// Looks along the stamping direction.
 Eigen::Matrix2Xd projection(const TriMesh& part, const Eigen::Vector3d& direction)

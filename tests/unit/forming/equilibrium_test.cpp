@@ -67,6 +67,72 @@ TEST(Equilibrium, TangentAgreesWithCentralDifferencesWithFriction)
     }
 }
 
+TEST(Equilibrium, TheDefiniteNeighbourIsTheSymmetricTangentWithItsElementsEigenvaluesByTheirSize)
+{
+    const TriMesh part = shapes::rectangle(8, 6, 4, 3); // flat and strained evenly: all axes agree
+    const MembraneLaw law(mild_steel());
+    const std::vector<Element> element = elements(part);
+    const ExternalForces none;
+    const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
+    Eigen::Matrix2d stretched, squeezed;
+    stretched << 0.93, 0.02, -0.01, 0.95; // blank to part: tension both ways
+    squeezed << 1.3, 0.1, 0.05, 0.8;
+    for (const Eigen::Matrix2d& G : {stretched, squeezed}) {
+        const Eigen::Matrix2Xd X = G * part.position.topRows<2>();
+        VirtualWork work(part, element, sheet, none);
+        work.set_axes(X);
+        BlockMatrix tangent(part.triangle, part.vertices()), definite(tangent);
+        work.tangents(X, tangent, definite);
+        Eigen::MatrixXd K(X.size(), X.size()), N(K), expected = Eigen::MatrixXd::Zero(X.size(), X.size());
+        for (Eigen::Index i = 0; i < X.size(); ++i) {
+            Eigen::VectorXd column;
+            tangent.multiply(Eigen::VectorXd::Unit(X.size(), i), column);
+            K.col(i) = column;
+            definite.multiply(Eigen::VectorXd::Unit(X.size(), i), column);
+            N.col(i) = column;
+        }
+        for (const Eigen::Index pinned : {Eigen::Index(0), Eigen::Index(1), X.size() - 1})
+            N.row(pinned).setZero(), N.col(pinned).setZero(), K.row(pinned).setZero(), K.col(pinned).setZero();
+        // The second route: element by element from the tangent of that triangle alone.
+        for (int f = 0; f < part.triangles(); ++f) {
+            TriMesh alone;
+            alone.position = part.position(Eigen::all, part.triangle.col(f));
+            alone.triangle.resize(3, 1);
+            alone.triangle << 0, 1, 2;
+            const std::vector<Element> one = elements(alone);
+            const Eigen::Matrix2Xd x = X(Eigen::all, part.triangle.col(f));
+            VirtualWork single(alone, one, sheet, none);
+            single.set_axes(x);
+            BlockMatrix matrix(alone.triangle, 3);
+            single.tangent(x, matrix);
+            Matrix6d k;
+            for (int i = 0; i < 6; ++i) {
+                Eigen::VectorXd column;
+                matrix.multiply(Eigen::VectorXd::Unit(6, i), column);
+                k.col(i) = column;
+            }
+            // Over the entries of G: B^+ takes them to displacements.
+            const Eigen::Matrix<double, 4, 6> B = gradient_operator(one[0]);
+            const Eigen::Matrix<double, 6, 4> back = B.completeOrthogonalDecomposition().pseudoInverse();
+            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(back.transpose() * (k + k.transpose()) * back /
+                                                                       2);
+            const Matrix6d magnitude = B.transpose() * modes.eigenvectors() *
+                                       modes.eigenvalues().cwiseAbs().asDiagonal() * modes.eigenvectors().transpose() *
+                                       B;
+            for (int i = 0; i < 6; ++i)
+                for (int j = 0; j < 6; ++j)
+                    expected(2 * part.triangle(i / 2, f) + i % 2, 2 * part.triangle(j / 2, f) + j % 2) +=
+                        magnitude(i, j);
+        }
+        for (const Eigen::Index pinned : {Eigen::Index(0), Eigen::Index(1), X.size() - 1})
+            expected.row(pinned).setZero(), expected.col(pinned).setZero();
+        EXPECT_LT((N - expected).norm(), 1e-6 * N.norm());
+        if (G == squeezed) { // else there is nothing to see
+            EXPECT_GT((0.5 * (K + K.transpose()) - expected).norm(), 0.01 * N.norm());
+        }
+    }
+}
+
 TEST(Equilibrium, MovingTheBlankChangesNothing)
 {
     const TriMesh part = wavy();

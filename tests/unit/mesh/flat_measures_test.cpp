@@ -27,7 +27,8 @@ TEST(Distortion, OfAShearedEquilateralTriangleIsTheHandComputedOne)
     TriMesh triangle;
     triangle.position.resize(3, 3);
     triangle.position << 0, 1, 0.5, 0, 0, std::sqrt(3) / 2, 0, 0, 0;
-    triangle.triangle = Eigen::Vector3i(0, 1, 2);
+    triangle.triangle.resize(3, 1);
+    triangle.triangle << 0, 1, 2;
     Eigen::Matrix2Xd flat(2, 3);
     flat << 0, 1, 0, 0, 0, 1; // angles 90, 45, 45 degrees against 60 each
     const double expected = std::sqrt((0.25 + 0.0625 + 0.0625) / 3);
