@@ -25,7 +25,7 @@ struct RunArguments {
     std::optional<double> marginal;                ///< percent
     double max_thinning = 25, max_thickening = 10; ///< percent
     std::string seam = "auto";                     ///< auto, none, or a file of paths
-    bool strict = false, weld = false, keep_largest = false;
+    bool strict = false, weld = false, keep_largest = false, skins = false;
 };
 
 /// Runs the whole chain on a part, writes the files and prints a summary.

@@ -61,6 +61,8 @@ int main(int count, char** values)
         ->type_name("NAME|FILE")
         ->capture_default_str();
     run_command->add_option("--thickness", run.thickness, "of the flat sheet")->type_name("MM")->capture_default_str();
+    run_command->add_flag("--skins", run.skins,
+                          "also the strains of both skins: bending over radii added to those of the middle surface");
     run_command
         ->add_option("--flc", run.flc,
                      "forming limit curve: keeler-brazier, none, a file of minor and major strains, or automatic: "

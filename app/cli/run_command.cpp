@@ -50,6 +50,7 @@ SessionOptions options(const RunArguments& arguments)
     result.read.seam = seam_options(arguments.seam);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     result.flatten.thickness = arguments.thickness;
+    result.flatten.skins = arguments.skins;
     if (!arguments.direction.empty())
         result.flatten.direction =
             Eigen::Vector3d(arguments.direction[0], arguments.direction[1], arguments.direction[2]);
@@ -126,6 +127,9 @@ void print_summary(const Session& session)
     fmt::print("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
                100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
                flat.face.strain_equivalent.maxCoeff());
+    if (flat.skins)
+        fmt::print("skins     major strain up to {:.3f} outside, {:.3f} inside\n",
+                   flat.skins->outer.strain_major.maxCoeff(), flat.skins->inner.strain_major.maxCoeff());
     print_limits(*session.limits);
     if (!session.grid)
         return;

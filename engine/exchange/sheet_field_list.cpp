@@ -23,6 +23,17 @@ std::vector<NamedField> stress_fields(const SheetFields& fields)
             {"stress_equivalent", &fields.stress_equivalent}};
 }
 
+std::vector<NamedField> skin_fields(const SkinStrains& skins)
+{
+    std::vector<NamedField> fields;
+    for (const auto& [side, skin] : {std::pair("outer", &skins.outer), {"inner", &skins.inner}}) {
+        fields.push_back({fmt::format("{}_strain_major", side), &skin->strain_major});
+        fields.push_back({fmt::format("{}_strain_minor", side), &skin->strain_minor});
+        fields.push_back({fmt::format("{}_strain_equivalent", side), &skin->strain_equivalent});
+    }
+    return fields;
+}
+
 void require_blank_of(const TriMesh& part, const Blank& blank)
 {
     if (part.triangles() == 0)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/forming/blank.h"
+#include "engine/forming/skin_strain.h"
 #include "engine/limits/limits.h"
 #include "engine/mesh/tri_mesh.h"
 
@@ -20,6 +21,9 @@ std::vector<NamedField> forming_fields(const SheetFields& fields);
 
 /// stress_major, stress_minor, stress_equivalent.
 std::vector<NamedField> stress_fields(const SheetFields& fields);
+
+/// outer_strain_major, ..., inner_strain_equivalent, one value per face.
+std::vector<NamedField> skin_fields(const SkinStrains& skins);
 
 /// @throws InputError unless the blank has one finite point for each finite vertex of the part, and faces name vertices
 void require_blank_of(const TriMesh& part, const Blank& blank);

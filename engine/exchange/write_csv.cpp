@@ -45,7 +45,7 @@ void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, co
 }
 
 void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, const SheetFields& face_fields,
-                     const Zones* zones, const std::vector<int>& number, LengthUnit unit)
+                     const Zones* zones, const std::vector<int>& number, LengthUnit unit, const SkinStrains* skins)
 {
     if (!number.empty() && int(number.size()) != part.triangles())
         throw InputError(fmt::format("{} face numbers were given for {} faces", number.size(), part.triangles()));
@@ -59,7 +59,13 @@ void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, con
         require_finite(field, part.triangles(), "face");
         content += "," + field.name + (is_length(field) ? in : "");
     }
-    content += fmt::format("{}{}\n", zones ? ",zone" : "", distance ? ",limit_distance" : "");
+    content += fmt::format("{}{}", zones ? ",zone" : "", distance ? ",limit_distance" : "");
+    const auto bent = skins ? skin_fields(*skins) : std::vector<NamedField>{};
+    for (const NamedField& field : bent) {
+        require_finite(field, part.triangles(), "face");
+        content += "," + field.name;
+    }
+    content += '\n';
     auto end = std::back_inserter(content);
     for (int f = 0; f < part.triangles(); ++f) {
         const Eigen::Vector3d middle = part.position(Eigen::all, part.triangle.col(f)).rowwise().mean() / mm;
@@ -70,6 +76,8 @@ void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, con
             fmt::format_to(end, ",{}", name(zones->zone[size_t(f)]));
         if (distance)
             fmt::format_to(end, ",{}", zones->distance[f]);
+        for (const NamedField& field : bent)
+            fmt::format_to(end, ",{}", (*field.value)[f]);
         content += '\n';
     }
     write_atomically(path, content);

@@ -3,6 +3,7 @@
 
 #include "engine/exchange/blank_outline.h"
 #include "engine/exchange/length_unit.h"
+#include "engine/forming/skin_strain.h"
 #include "engine/limits/limits.h"
 
 namespace spia {
@@ -18,11 +19,12 @@ void write_fields_csv(const std::filesystem::path& path, const TriMesh& part, co
 
 /// face,x,y,z,thickness,thinning,strain_major,strain_minor,strain_equivalent,zone,limit_distance - one row per face;
 /// x, y, z is its middle on the part. Without zones the last two columns are left out, without a forming limit curve
-/// the last one.
+/// the last one. With skins their six strains follow (skin_fields()).
 /// @param number what each face is called in the first column; empty: 0, 1, 2, ...
 /// @throws InputError if fields or zones do not match the part; ExchangeError if the file cannot be written
 void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, const SheetFields& face_fields,
-                     const Zones* zones, const std::vector<int>& number = {}, LengthUnit unit = LengthUnit::mm);
+                     const Zones* zones, const std::vector<int>& number = {}, LengthUnit unit = LengthUnit::mm,
+                     const SkinStrains* skins = nullptr);
 
 /// loop,index,x,y - one row per point; loop 0 is the outer one. Numbers as above.
 /// @throws InputError if there is no outline; ExchangeError if the file cannot be written

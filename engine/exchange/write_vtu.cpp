@@ -95,7 +95,7 @@ std::string cells(const TriMesh& part)
 
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra,
-               LengthUnit unit, const Zones* zones)
+               LengthUnit unit, const Zones* zones, const SkinStrains* skins)
 {
     const double mm = millimetres(unit);
     require_blank_of(part, blank);
@@ -106,6 +106,11 @@ void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Bla
     for (const NamedField& field : extra) {
         require_finite(field, part.vertices(), "vertex");
         point_data += array(field.name, Eigen::VectorXd(*field.value / mm));
+    }
+    std::string face_data = sheet_fields(face_fields, mm) + (zones ? zone_fields(*zones) : "");
+    for (const NamedField& field : skins ? skin_fields(*skins) : std::vector<NamedField>{}) {
+        require_finite(field, part.triangles(), "face");
+        face_data += array(field.name, *field.value);
     }
     write_atomically(
         path,
@@ -118,8 +123,7 @@ void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Bla
             "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
             "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
             program_name(), name(unit), text_array("length_unit", name(unit)) + (zones ? zone_names() : ""),
-            part.vertices(), part.triangles(), point_data,
-            sheet_fields(face_fields, mm) + (zones ? zone_fields(*zones) : ""),
+            part.vertices(), part.triangles(), point_data, face_data,
             array("Points", Eigen::Matrix3Xd(part.position / mm), 3), cells(part)));
 }
 

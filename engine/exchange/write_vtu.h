@@ -14,11 +14,12 @@ namespace spia {
 /// length_unit, the name of the unit of points, displacement, thickness and extra fields.
 /// With zones the cell data have their numbers, `zone`, and limit_distance where there is a forming limit curve; the
 /// field data zone_names say which is which.
+/// With skins the cell data have their strains (skin_fields()).
 /// @param extra one length per vertex each, mm
 /// @throws InputError if the fields do not match the part or are not finite; ExchangeError if the file cannot
 /// be written
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {},
-               LengthUnit unit = LengthUnit::mm, const Zones* zones = nullptr);
+               LengthUnit unit = LengthUnit::mm, const Zones* zones = nullptr, const SkinStrains* skins = nullptr);
 
 } // namespace spia

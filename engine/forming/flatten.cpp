@@ -128,6 +128,8 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     const Sheet sheet = sheet_with(job, curve);
     result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
+    if (options.skins)
+        result.skins = skin_strains(part, element, result.blank, sheet);
     result.necking_triangles = result.face.necking.sum();
     result.volume_error = volume_error(part, result, sheet);
     result.blank.position.colwise() += plane.transpose() * centre;

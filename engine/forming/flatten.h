@@ -8,6 +8,7 @@
 #include "engine/forming/initial_guess.h"
 #include "engine/forming/material.h"
 #include "engine/forming/process.h"
+#include "engine/forming/skin_strain.h"
 #include "engine/forming/stamping_direction.h"
 #include "engine/mesh/overlap.h"
 #include "engine/mesh/tri_mesh.h"
@@ -20,6 +21,7 @@ struct FlattenOptions {
     std::optional<Eigen::Vector3d> direction; ///< stamping direction; chosen automatically if not given
     ProcessConditions process;                ///< what the tools do; none: the sheet is free
     StressCurve::Options curve;               ///< where the hardening curve is trusted and how it goes on
+    bool skins = false;                       ///< also the strains of both skins, with bending
     int most_energy_steps = 200;
     int most_newton_steps = 60;
     double tolerance = 1e-9; ///< on |R| relative to the nodal forces at the yield stress
@@ -53,8 +55,9 @@ struct SolveReport {
 
 struct FlattenResult {
     Blank blank;
-    SheetFields face; ///< one entry per face
-    SheetFields node; ///< one entry per vertex
+    SheetFields face;                 ///< one entry per face
+    SheetFields node;                 ///< one entry per vertex
+    std::optional<SkinStrains> skins; ///< where asked for
     StampingDirection stamping;
     SolveReport report;
     int necking_triangles = 0; ///< faces beyond the trusted strain: extrapolated, where the part tears

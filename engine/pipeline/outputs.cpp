@@ -167,7 +167,8 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
                 deviation = session.surface->deviation.at_vertex.head(part.vertices());
                 extra.push_back({"deviation", &deviation});
             }
-            write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit, zones);
+            write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit, zones,
+                      flat.skins ? &*flat.skins : nullptr);
         } else if (format == "dxf")
             write_dxf(path, blank_outline(part, flat.blank), unit);
         else if (format == "csv") {
@@ -177,7 +178,8 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
             if (options.csv.outline)
                 write_outline_csv(files[table++], blank_outline(part, flat.blank), unit);
             if (options.csv.faces)
-                write_faces_csv(files[table], part, flat.face, zones, session.part->source_face, unit);
+                write_faces_csv(files[table], part, flat.face, zones, session.part->source_face, unit,
+                                flat.skins ? &*flat.skins : nullptr);
         } else
             write_picture(path, scene);
     }

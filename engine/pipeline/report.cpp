@@ -135,6 +135,20 @@ Json blank_json(const PartFile& file, const FlattenResult& flat)
             {"overlap", overlap_json(flat.overlap, file)}};
 }
 
+Json skins_json(const SkinStrains& skins)
+{
+    const auto skin = [](const SkinFields& fields) -> Json {
+        return {{"strain_major_max", fields.strain_major.maxCoeff()},
+                {"strain_minor_min", fields.strain_minor.minCoeff()},
+                {"strain_equivalent_max", fields.strain_equivalent.maxCoeff()}};
+    };
+    const double sharpest = skins.curvature.cwiseAbs().maxCoeff();
+    return {{"outer", skin(skins.outer)},
+            {"inner", skin(skins.inner)},
+            {"smallest_radius_mm", sharpest > 0 ? Json(1 / sharpest) : Json(nullptr)},
+            {"sharp_faces", skins.sharp_faces}};
+}
+
 Json result_json(const FlattenResult& flat)
 {
     return {{"thinning_max", flat.face.thinning.maxCoeff()},
@@ -272,6 +286,11 @@ std::vector<std::string> shortcomings(const Session& session)
                 "overlap; cut the part open to there",
                 counted(int(wound.size()), "vertex", "vertices"), session.part->source_vertex[size_t(wound[0])]));
     }
+    if (session.blank && session.blank->skins && session.blank->skins->sharp_faces > 0)
+        list.push_back(fmt::format(
+            "{} bent sharper than a radius of one thickness: the skin strains there are those of that radius",
+            session.blank->skins->sharp_faces == 1 ? "1 face is"
+                                                   : fmt::format("{} faces are", session.blank->skins->sharp_faces)));
     if (session.grid && session.grid->result.quality.folded_cells > 0) {
         const CellQuality& quality = session.grid->result.quality;
         const auto [column, row] = worst_cell(session.grid->result.planar);
@@ -298,6 +317,8 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["solve"] = solve_json(session.blank->report, session.blank->stamping);
         json["blank"] = blank_json(*session.part, *session.blank);
         json["result"] = result_json(*session.blank);
+        if (session.blank->skins)
+            json["skins"] = skins_json(*session.blank->skins);
         if (session.limits)
             json["limits"] = limits_json(*session.limits, *session.part);
         json["distortion"] = {

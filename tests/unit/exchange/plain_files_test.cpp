@@ -259,6 +259,36 @@ TEST(FacesCsv, RowsFollowTheFacesWithTheirZones)
     EXPECT_THROW(write_faces_csv(folder / "w.csv", chain.part, chain.face, &judged), InputError);
 }
 
+TEST(SkinsInFiles, AreSixColumnsMoreAndCellDataAndHaveToFit)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const Zones judged = zones_of(chain);
+    SkinStrains skins;
+    double next = 0.01;
+    for (SkinFields* skin : {&skins.outer, &skins.inner})
+        for (Eigen::VectorXd* field : {&skin->strain_major, &skin->strain_minor, &skin->strain_equivalent})
+            *field = Eigen::VectorXd::LinSpaced(chain.part.triangles(), next, next + 0.005), next += 0.01;
+    write_faces_csv(folder / "x.csv", chain.part, chain.face, &judged, {}, LengthUnit::inch, &skins);
+    const auto rows = split(content_of(folder / "x.csv"), '\n');
+    EXPECT_TRUE(rows[0].ends_with(",limit_distance,outer_strain_major,outer_strain_minor,outer_strain_equivalent,"
+                                  "inner_strain_major,inner_strain_minor,inner_strain_equivalent"));
+    const auto cell = split(rows.back(), ',');
+    ASSERT_EQ(cell.size(), 17u);
+    EXPECT_EQ(std::stod(cell[11]), skins.outer.strain_major[chain.part.triangles() - 1]);
+    EXPECT_EQ(std::stod(cell[15]), skins.inner.strain_minor[chain.part.triangles() - 1]);
+    write_vtu(folder / "x.vtu", chain.part, chain.blank, chain.face, chain.node, {}, LengthUnit::inch, nullptr, &skins);
+    const auto data = arrays_of(content_of(folder / "x.vtu"), "CellData");
+    expect_array(data, "outer_strain_minor", skins.outer.strain_minor);
+    expect_array(data, "inner_strain_equivalent", skins.inner.strain_equivalent);
+    skins.inner.strain_minor[3] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(write_faces_csv(folder / "y.csv", chain.part, chain.face, nullptr, {}, LengthUnit::mm, &skins),
+                 InputError);
+    EXPECT_THROW(write_vtu(folder / "y.vtu", chain.part, chain.blank, chain.face, chain.node, {}, LengthUnit::mm,
+                           nullptr, &skins),
+                 InputError);
+}
+
 TEST(Vtu, WarpingByTheDisplacementGivesTheBlank)
 {
     const ScratchFolder folder;

@@ -247,6 +247,27 @@ TEST(Report, GivesTheFiguresOfTheResult)
     EXPECT_EQ(figure("/surface/deviation_p95_mm"), std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95));
 }
 
+TEST(Report, HasTheStrainsOfTheSkinsWhereTheyWereAskedFor)
+{
+    const auto solved = [](bool skins) {
+        Session session = sample("square-cup.obj");
+        session.options.flatten.skins = skins;
+        return run_stage(Stage::solve, run_stage(Stage::read, std::move(session)));
+    };
+    const Session without = solved(false), with = solved(true);
+    EXPECT_EQ(with.blank->blank.position, without.blank->blank.position) << "nothing else depends on them";
+    EXPECT_FALSE(nlohmann::json::parse(report_json(without, {}, 0)).contains("skins"));
+    const auto json = nlohmann::json::parse(report_json(with, {}, 0)).at("skins");
+    const SkinStrains& skins = *with.blank->skins;
+    EXPECT_EQ(json["outer"]["strain_major_max"], skins.outer.strain_major.maxCoeff());
+    EXPECT_EQ(json["inner"]["strain_minor_min"], skins.inner.strain_minor.minCoeff());
+    EXPECT_EQ(json["smallest_radius_mm"], 1 / skins.curvature.cwiseAbs().maxCoeff());
+    EXPECT_EQ(json["sharp_faces"], skins.sharp_faces);
+    // A bend stretches one skin beyond the middle, the other less.
+    EXPECT_GT(std::max(skins.outer.strain_major.maxCoeff(), skins.inner.strain_major.maxCoeff()),
+              with.blank->face.strain_major.maxCoeff());
+}
+
 TEST(Report, NamesEveryShortcoming)
 {
     Session session = finished("dome.obj");
