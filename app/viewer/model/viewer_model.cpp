@@ -179,7 +179,7 @@ void ViewerModel::take_chain_result()
         say_failed(result);
     else
         for (const std::string& text : shortcomings(document.session))
-            say(Severity::warning, text);
+            say(Severity::warning, as_sentence(text));
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
 }
