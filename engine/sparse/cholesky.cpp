@@ -43,8 +43,8 @@ cholmod_sparse view(int size, const std::vector<int>& start, const std::vector<i
 struct Cholesky::State {
     cholmod_common common;
     cholmod_factor* factor = nullptr;
-    // The matrix in the order of the factor, and where each of its values stands in ours: to copy them costs a third of what
-    // cholmod_factorize() takes to sort them in anew each time.
+    // The matrix in the order of the factor, and where each of its values stands in ours: cholmod_factorize() would sort
+    // the whole pattern into that order anew each time.
     cholmod_sparse* ordered = nullptr;
     std::vector<int> source;
     std::vector<int> vertex_order;

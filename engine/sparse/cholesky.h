@@ -21,7 +21,7 @@ public:
 
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
-    /// About the same by a factor rounded to single precision, in a third of the time on two threads.
+    /// About the same by a factor rounded to single precision, in less than half of the time on two threads.
     Eigen::VectorXd precondition(const Eigen::VectorXd& right) const;
 
 private:

@@ -9,31 +9,15 @@
 #include "app/viewer/views/process_lines.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
+#include "tests/unit/viewer/model_fixture.h"
 
 namespace spia::viewer {
 namespace {
 
-const std::filesystem::path assets = SPIA_SOURCE_DIR "/assets";
-
-struct ProcessChoice : testing::Test {
-    ViewerModel model{assets};
-    const ViewerState& state = model.state();
-    const Document& document = state.document;
+struct ProcessChoice : ModelFixture {
     const ProcessConditions& process = document.session.options.flatten.process;
 
-    void wait()
-    {
-        while (model.busy()) {
-            model.poll();
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-    }
-    void SetUp() override
-    {
-        model.apply(OpenPart{assets / "parts" / "dome.obj", ""});
-        wait();
-        ASSERT_NE(document.session.part, nullptr);
-    }
+    void SetUp() override { open(); }
     void make_region(RegionKind kind)
     {
         model.apply(SelectFaces{{3, 5, 8}});

@@ -9,30 +9,12 @@
 #include "app/viewer/model/names.h"
 #include "app/viewer/views/views.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/viewer/model_fixture.h"
 
 namespace spia::viewer {
 namespace {
 
-const std::filesystem::path assets = SPIA_SOURCE_DIR "/assets";
-
-struct ViewerModelTest : testing::Test {
-    ViewerModel model{assets};
-    const ViewerState& state = model.state();
-    const Document& document = state.document;
-
-    void wait()
-    {
-        while (model.busy()) {
-            model.poll();
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-    }
-    void open(const char* part = "dome.obj")
-    {
-        model.apply(OpenPart{assets / "parts" / part, ""});
-        wait();
-        ASSERT_NE(document.session.part, nullptr);
-    }
+struct ViewerModelTest : ModelFixture {
     bool says(Severity severity, const std::string& text) const
     {
         return std::any_of(state.messages.begin(), state.messages.end(), [&](const Message& m) {

@@ -1,0 +1,32 @@
+#pragma once
+#include <chrono>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "app/viewer/model/viewer_model.h"
+
+namespace spia::viewer {
+
+/// A model without a window, driven by actions alone.
+struct ModelFixture : testing::Test {
+    const std::filesystem::path assets = SPIA_SOURCE_DIR "/assets";
+    ViewerModel model{assets};
+    const ViewerState& state = model.state();
+    const Document& document = state.document;
+
+    void wait()
+    {
+        while (model.busy()) {
+            model.poll();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    void open(const char* part = "dome.obj")
+    {
+        model.apply(OpenPart{assets / "parts" / part, ""});
+        wait();
+        ASSERT_NE(document.session.part, nullptr);
+    }
+};
+
+} // namespace spia::viewer
