@@ -1,36 +1,30 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "app/cli/commands.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
-#include "engine/forming/fit_hardening.h"
+#include "engine/forming/material_fit.h"
 #include "engine/forming/material_text.h"
-#include "engine/forming/tensile_test.h"
 
 namespace spia::cli {
 namespace {
 
-TensileOptions options(const FitArguments& arguments)
+MaterialFitOptions options(const FitArguments& arguments)
 {
-    TensileOptions result;
+    MaterialFitOptions result;
     if (!arguments.data.empty())
-        result.kind = arguments.data == "true" ? TensileOptions::Kind::truly : TensileOptions::Kind::engineering;
+        result.test.kind = arguments.data == "true" ? TensileOptions::Kind::truly : TensileOptions::Kind::engineering;
     if (!arguments.strain.empty())
-        result.in_percent = arguments.strain == "percent";
-    result.young_MPa = arguments.young;
+        result.test.in_percent = arguments.strain == "percent";
+    result.test.young_MPa = arguments.young;
+    result.law = arguments.law;
+    result.name = arguments.name.empty() ? arguments.out.stem().string() : arguments.name;
+    result.poisson = arguments.poisson;
+    result.density_kg_m3 = arguments.density;
+    result.r0 = arguments.r[0];
+    result.r45 = arguments.r[1];
+    result.r90 = arguments.r[2];
     return result;
-}
-
-const LawFit& chosen(const std::vector<LawFit>& fits, const std::string& law)
-{
-    if (law == "best")
-        return best_fit(fits);
-    const LawFit& fit = *std::find_if(fits.begin(), fits.end(), [&](const LawFit& f) { return f.name == law; });
-    if (!fit.law)
-        throw InputError(fmt::format("{} does not fit: {}; choose another law or --law best", law, fit.reason));
-    return fit;
 }
 
 void print_test(const TensileTest& test)
@@ -64,27 +58,11 @@ int fit_material(const FitArguments& arguments)
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.table, arguments.out, ignored))
         throw InputError(fmt::format("{} would be overwritten; choose another --out", arguments.table.string()));
-    const TensileTest test =
-        tensile_test(read_two_columns(arguments.table), arguments.table.string(), options(arguments));
-    const auto fits = fit_hardening(test.plastic_strain, test.stress_MPa);
-    const LawFit& fit = chosen(fits, arguments.law);
+    const MaterialFit fit = spia::fit_material(arguments.table, options(arguments));
+    write_atomically(arguments.out, material_text(fit.material));
 
-    Material material;
-    material.name = arguments.name.empty() ? arguments.out.stem().string() : arguments.name;
-    material.young_MPa = test.young_MPa;
-    material.poisson = arguments.poisson;
-    material.density_kg_m3 = arguments.density;
-    material.hardening = *fit.law;
-    material.r0 = arguments.r[0];
-    material.r45 = arguments.r[1];
-    material.r90 = arguments.r[2];
-    material.source =
-        fmt::format("fitted to the tensile test {}: {} with an rms error of {:.2f} MPa, uniform strain {:.3f}",
-                    arguments.table.filename().string(), fit.name, fit.rms_MPa, test.uniform_strain);
-    write_atomically(arguments.out, material_text(material));
-
-    print_test(test);
-    print_fits(fits, fit);
+    print_test(fit.test);
+    print_fits(fit.fits, fit.fits[fit.taken]);
     fmt::print("wrote     {}\n", arguments.out.string());
     return 0;
 }

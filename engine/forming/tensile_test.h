@@ -13,6 +13,7 @@ struct TensileOptions {
     std::optional<Kind> kind = {};       ///< of stress and strain; else the heading must say it
     std::optional<bool> in_percent = {}; ///< of strain; else by the heading, else by its size: above 2 it is in percent
     std::optional<double> young_MPa = {}; ///< takes the place of the slope of the first points
+    friend bool operator==(const TensileOptions&, const TensileOptions&) = default;
 };
 
 /// What a tensile test says of a sheet. Strains are logarithmic unless said otherwise.

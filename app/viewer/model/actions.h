@@ -9,6 +9,7 @@
 
 #include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
+#include "engine/forming/material_fit.h"
 #include "engine/pipeline/outputs.h"
 
 /// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply() carries them out
@@ -29,6 +30,10 @@ struct SetReading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
 };
+/// "set_seam": mode ("automatic", "none", "given"), path [[vertex of the file, ...], ...]; reads the part again.
+struct SetSeam {
+    SeamOptions seam;
+};
 struct RunTo {
     Stage stage = Stage::fit;
 };                   ///< "run_to": what is missing up to this stage, in the background
@@ -36,9 +41,18 @@ struct CancelJob {}; ///< "cancel_job"
 struct SetMaterial {
     std::string material;
 }; ///< "set_material": a grade or a file
+/// "fit_material": of a tensile test (table) the material file `out`, which becomes the material; fit {law, name, test {kind,
+/// in_percent, young_MPa}, poisson, density_kg_m3, r0, r45, r90}.
+struct FitMaterial {
+    std::filesystem::path table, out;
+    MaterialFitOptions fit;
+};
 struct SetThickness {
     double thickness = 1;
 }; ///< "set_thickness", mm
+struct SetSkins {
+    bool skins = true;
+}; ///< "set_skins": whether the blank also tells the strains of both skins
 struct SetDirection {
     std::optional<Eigen::Vector3d> direction;
 }; ///< "set_direction"; not given: automatic
@@ -228,13 +242,14 @@ struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
 using Action =
-    std::variant<OpenPart, SetUnit, SetReading, RunTo, CancelJob, SetMaterial, SetThickness, SetDirection, SetCorner,
-                 ProposeCorners, SetGrid, SetEnds, SetLimits, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices,
-                 PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
-                 MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine,
-                 PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
-                 SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo,
-                 OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+    std::variant<OpenPart, SetUnit, SetReading, SetSeam, RunTo, CancelJob, SetMaterial, FitMaterial, SetThickness,
+                 SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits, SelectFaces, PickAt,
+                 PickArea, PickBrush, SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection,
+                 InvertSelection, ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet,
+                 AddLine, ChangeLine, RemoveLine, PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe,
+                 ClearProbes, DrawSection, ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo,
+                 FlyToVertex, ShowFault, HideFault, Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport,
+                 Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

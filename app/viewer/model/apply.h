@@ -29,12 +29,17 @@ struct ViewerModel::Apply {
     void begin_with(Document fresh);
     void require_no_export() const;
     void operator()(const OpenPart& action);
+    /// Reads the part anew with other options; undo brings the old ones back.
+    template <class Edit> void read_again(std::string name, const Edit& edit);
     void operator()(const SetUnit& action);
     void operator()(const SetReading& action);
+    void operator()(const SetSeam& action);
     void operator()(const RunTo& action);
     void operator()(const CancelJob&);
     void operator()(const SetMaterial& action);
+    void operator()(const FitMaterial& action);
     void operator()(const SetThickness& action);
+    void operator()(const SetSkins& action);
     void operator()(const SetDirection& action);
     /// Numbers in the file, chosen or proposed.
     std::array<int, 4> corners_now() const;

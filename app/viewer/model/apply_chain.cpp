@@ -58,35 +58,44 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     begin_with(std::move(fresh));
 }
 
-void ViewerModel::Apply::operator()(const SetUnit& action)
-{
-    const LengthUnit unit = length_unit(action.unit);
-    if (part().unit == unit)
-        return;
-    if (model.busy())
-        throw InputError("Cancel the running job first; then change the unit.");
-    change("Change unit");
-    (*this)(DismissMessages{}); // of the part as it was read before
-    session.options.read.unit = unit;
-    model.opening_ = true;
-    model.run_to(Stage::read, "Reading the part again");
-}
-
-void ViewerModel::Apply::operator()(const SetReading& action)
+template <class Edit> void ViewerModel::Apply::read_again(std::string name, const Edit& edit)
 {
     if (session.file.empty())
         throw InputError("Open a part first.");
     if (model.busy())
         throw InputError("Cancel the running job first; then read the part otherwise.");
-    ReadOptions& read = session.options.read;
-    if (read.weld == action.weld && read.doctor.keep_largest == action.keep_largest)
-        return;
-    change("Read the part otherwise");
+    change(std::move(name));
     (*this)(DismissMessages{}); // of the part as it was read before
-    read.weld = action.weld;
-    read.doctor.keep_largest = action.keep_largest;
+    edit(session.options.read);
     model.opening_ = true;
     model.run_to(Stage::read, "Reading the part again");
+}
+
+void ViewerModel::Apply::operator()(const SetUnit& action)
+{
+    const LengthUnit unit = length_unit(action.unit);
+    if (part().unit != unit)
+        read_again("Change unit", [&](ReadOptions& read) { read.unit = unit; });
+}
+
+void ViewerModel::Apply::operator()(const SetReading& action)
+{
+    const ReadOptions& now = session.options.read;
+    if (now.weld == action.weld && now.doctor.keep_largest == action.keep_largest)
+        return;
+    read_again("Read the part otherwise", [&](ReadOptions& read) {
+        read.weld = action.weld;
+        read.doctor.keep_largest = action.keep_largest;
+    });
+}
+
+void ViewerModel::Apply::operator()(const SetSeam& action)
+{
+    if ((action.seam.mode == SeamOptions::Mode::given) == action.seam.path.empty())
+        throw InputError("A seam that is given needs a path, any other has none.");
+    if (session.options.read.seam == action.seam)
+        return;
+    read_again("Change seam", [&](ReadOptions& read) { read.seam = action.seam; });
 }
 
 void ViewerModel::Apply::operator()(const RunTo& action)
@@ -124,6 +133,12 @@ void ViewerModel::Apply::operator()(const CancelJob&)
         model.chain_job_->cancel();
     if (model.export_job_)
         model.export_job_->cancel();
+}
+
+void ViewerModel::Apply::operator()(const SetSkins& action)
+{
+    change("Strains of the skins");
+    session.options.flatten.skins = action.skins;
 }
 
 void ViewerModel::Apply::operator()(const SetDirection& action)

@@ -3,7 +3,9 @@
 
 #include "app/viewer/model/apply.h"
 #include "app/viewer/model/names.h"
+#include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_library.h"
+#include "engine/forming/material_text.h"
 
 namespace spia::viewer {
 
@@ -23,6 +25,21 @@ void ViewerModel::Apply::operator()(const SetMaterial& action)
         edited.material = action.material;
         edited.session.options.flatten.material = material;
     });
+}
+
+void ViewerModel::Apply::operator()(const FitMaterial& action)
+{
+    const std::filesystem::path out = std::filesystem::absolute(action.out);
+    if (out == std::filesystem::absolute(action.table))
+        throw InputError(fmt::format("{} would be overwritten; choose another file for the material.", out.string()));
+    MaterialFitOptions options = action.fit;
+    if (options.name.empty())
+        options.name = out.stem().string();
+    const MaterialFit fit = fit_material(action.table, options);
+    write_atomically(out, material_text(fit.material));
+    (*this)(SetMaterial{out.string()});
+    model.say(Severity::hint,
+              fmt::format("The material {} was written to {}: {}.", options.name, out.string(), fit.material.source));
 }
 
 void ViewerModel::Apply::operator()(const SetThickness& action)

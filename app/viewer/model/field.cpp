@@ -81,6 +81,19 @@ Eigen::VectorXd of_sheet(const SheetFields& sheet, Field field)
     }
 }
 
+const Eigen::VectorXd& of_skin(const SkinStrains& skins, Field field)
+{
+    switch (field) {
+    case Field::outer_strain_major: return skins.outer.strain_major;
+    case Field::outer_strain_minor: return skins.outer.strain_minor;
+    case Field::outer_strain_equivalent: return skins.outer.strain_equivalent;
+    case Field::inner_strain_major: return skins.inner.strain_major;
+    case Field::inner_strain_minor: return skins.inner.strain_minor;
+    case Field::inner_strain_equivalent: return skins.inner.strain_equivalent;
+    default: return skins.curvature;
+    }
+}
+
 } // namespace
 
 const std::vector<FieldInfo>& all_fields()
@@ -112,6 +125,20 @@ const std::vector<FieldInfo>& all_fields()
          "Largest change of a corner's angle of the triangle from blank to part: how much the sheet was sheared."},
         {Field::necking, "necking", "Necking", "", false,
          "1 where the strain is beyond what the hardening curve is trusted for and the sheet is likely to neck, else 0."},
+        {Field::outer_strain_major, "outer_strain_major", "Outer skin, major strain", "", false,
+         "Major strain of the skin seen from outside, with bending over radii."},
+        {Field::outer_strain_minor, "outer_strain_minor", "Outer skin, minor strain", "", true,
+         "Minor strain of the skin seen from outside, with bending over radii."},
+        {Field::outer_strain_equivalent, "outer_strain_equivalent", "Outer skin, equivalent strain", "", false,
+         "Equivalent strain of the skin seen from outside, with bending over radii."},
+        {Field::inner_strain_major, "inner_strain_major", "Inner skin, major strain", "", false,
+         "Major strain of the skin that lies behind, with bending over radii."},
+        {Field::inner_strain_minor, "inner_strain_minor", "Inner skin, minor strain", "", true,
+         "Minor strain of the skin that lies behind, with bending over radii."},
+        {Field::inner_strain_equivalent, "inner_strain_equivalent", "Inner skin, equivalent strain", "", false,
+         "Equivalent strain of the skin that lies behind, with bending over radii."},
+        {Field::curvature, "curvature", "Curvature", "1/mm", true,
+         "The principal curvature of the part of greatest size; positive where it stretches the outer skin."},
         {Field::zone, "zone", "Forming zone", "zone", false,
          "What forming does to the place: cracks, at risk, thinned or thickened too much, may wrinkle, hardly stretched, "
          "safe. See Forming limits."},
@@ -136,8 +163,12 @@ Field field_by_name(std::string_view name)
     throw InputError(fmt::format("there is no field \"{}\"; choose one of {}", name, names));
 }
 
+bool of_skins(Field field) { return field >= Field::outer_strain_major && field <= Field::curvature; }
+
 bool available(const Session& session, Field field)
 {
+    if (of_skins(field))
+        return session.part && session.blank && session.blank->skins;
     switch (field) {
     case Field::none: return true;
     case Field::zone: return session.part && session.limits;
@@ -154,7 +185,8 @@ Eigen::VectorXd values(const Session& session, Field field, bool per_face)
                                      !session.part                                      ? "open a part"
                                      : field == Field::deviation                        ? "make the NURBS surface"
                                      : field == Field::limit_distance && session.limits ? "choose a forming limit curve"
-                                                                                        : "solve for the blank"));
+                                     : of_skins(field) && session.blank ? "ask for the strains of both skins and unfold"
+                                                                        : "solve for the blank"));
     if (field == Field::none)
         return {};
     const TriMesh& part = session.part->mesh;
@@ -178,6 +210,10 @@ Eigen::VectorXd values(const Session& session, Field field, bool per_face)
         const Blank& blank = session.blank->blank;
         const Eigen::VectorXd of_face =
             field == Field::area_change ? area_change(part, blank) : angle_distortion(part, blank);
+        return per_face ? of_face : vertex_mean(part, of_face);
+    }
+    if (of_skins(field)) {
+        const Eigen::VectorXd& of_face = of_skin(*session.blank->skins, field);
         return per_face ? of_face : vertex_mean(part, of_face);
     }
     return of_sheet(per_face ? session.blank->face : session.blank->node, field);

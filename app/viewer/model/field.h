@@ -23,6 +23,13 @@ enum class Field {
     area_change,
     angle_distortion,
     necking,
+    outer_strain_major,
+    outer_strain_minor,
+    outer_strain_equivalent,
+    inner_strain_major,
+    inner_strain_minor,
+    inner_strain_equivalent,
+    curvature,
     zone,
     limit_distance,
     deviation
@@ -45,6 +52,8 @@ Field field_by_name(std::string_view name); ///< @throws InputError
 
 /// Whether the session has what the field needs.
 bool available(const Session& session, Field field);
+/// Whether it belongs to the strains of both skins, which are made only where asked for (FlattenOptions::skins).
+bool of_skins(Field field);
 
 /// Values in the unit of the field, one per vertex of the part or one per face; empty for Field::none. The deviation has no values per
 /// face of its own: the mean of its corners.

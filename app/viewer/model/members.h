@@ -57,6 +57,30 @@ inline constexpr auto members_of<ReportOptions> =
                member("pictures", &ReportOptions::pictures), member("standard_look", &ReportOptions::standard_look),
                member("tables", &ReportOptions::tables)};
 
+inline constexpr auto is_path = [](const std::vector<std::vector<int>>& path, const Place& place) {
+    for (size_t i = 0; i < path.size(); ++i)
+        if (path[i].size() < 2)
+            place.entry(i).fail("must be a list of two or more vertices");
+};
+template <>
+inline constexpr auto members_of<SeamOptions> =
+    std::tuple{member("mode", &SeamOptions::mode), member("path", &SeamOptions::path, is_path)};
+
+template <>
+inline constexpr auto members_of<TensileOptions> =
+    std::tuple{member("kind", &TensileOptions::kind), member("in_percent", &TensileOptions::in_percent),
+               member("young_MPa", &TensileOptions::young_MPa, Between{1e3, 1e6})};
+template <>
+inline constexpr auto members_of<MaterialFitOptions> =
+    std::tuple{member("law", &MaterialFitOptions::law),
+               member("name", &MaterialFitOptions::name),
+               member("test", &MaterialFitOptions::test),
+               member("poisson", &MaterialFitOptions::poisson, Between{-0.99, 0.5}),
+               member("density_kg_m3", &MaterialFitOptions::density_kg_m3, Between{1, 9e4}),
+               member("r0", &MaterialFitOptions::r0, Between{1e-3, 99}),
+               member("r45", &MaterialFitOptions::r45, Between{1e-3, 99}),
+               member("r90", &MaterialFitOptions::r90, Between{1e-3, 99})};
+
 template <>
 inline constexpr auto members_of<GridOptions> = std::tuple{
     member("columns", &GridOptions::columns, Between{0, 2000}), member("rows", &GridOptions::rows, Between{0, 2000}),

@@ -64,6 +64,15 @@ inline constexpr std::array names_of<LengthUnit>{
     Names<LengthUnit>{LengthUnit::mm, "mm"}, Names<LengthUnit>{LengthUnit::cm, "cm"},
     Names<LengthUnit>{LengthUnit::m, "m"}, Names<LengthUnit>{LengthUnit::inch, "inch"}};
 template <>
+inline constexpr std::array names_of<SeamOptions::Mode>{
+    Names<SeamOptions::Mode>{SeamOptions::Mode::automatic, "automatic"},
+    Names<SeamOptions::Mode>{SeamOptions::Mode::none, "none"},
+    Names<SeamOptions::Mode>{SeamOptions::Mode::given, "given"}};
+template <>
+inline constexpr std::array names_of<TensileOptions::Kind>{
+    Names<TensileOptions::Kind>{TensileOptions::Kind::engineering, "engineering"},
+    Names<TensileOptions::Kind>{TensileOptions::Kind::truly, "true"}};
+template <>
 inline constexpr std::array names_of<PickMode>{Names<PickMode>{PickMode::replace, "replace"},
                                                Names<PickMode>{PickMode::add, "add"},
                                                Names<PickMode>{PickMode::remove, "remove"}};

@@ -28,6 +28,7 @@ struct StoredPart {
     std::optional<LengthUnit> unit;
     std::optional<bool> weld;
     bool keep_largest = false;
+    SeamOptions seam;
 };
 
 struct StoredProject {
@@ -36,6 +37,7 @@ struct StoredProject {
     std::string material; ///< a grade; empty: of the file
     std::optional<StoredPath> material_file;
     double thickness = 1;
+    bool skins = false;
     std::optional<Eigen::Vector3d> direction;
     GridOptions grid;
     bool natural_ends = false;
@@ -97,7 +99,8 @@ inline constexpr auto members_of<StoredPath> =
 template <>
 inline constexpr auto members_of<StoredPart> =
     std::tuple{required("path", &StoredPart::path), member("unit", &StoredPart::unit),
-               member("weld", &StoredPart::weld), member("keep_largest", &StoredPart::keep_largest)};
+               member("weld", &StoredPart::weld), member("keep_largest", &StoredPart::keep_largest),
+               member("seam", &StoredPart::seam)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -106,6 +109,7 @@ inline constexpr auto members_of<StoredProject> =
                member("material", &StoredProject::material),
                member("material_file", &StoredProject::material_file),
                required("thickness", &StoredProject::thickness, Between{1e-6, 1e6}),
+               member("skins", &StoredProject::skins),
                member("direction", &StoredProject::direction),
                member("grid", &StoredProject::grid),
                member("natural_ends", &StoredProject::natural_ends),
@@ -197,6 +201,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.read.unit = stored.part.unit;
     session.options.read.weld = stored.part.weld;
     session.options.read.doctor.keep_largest = stored.part.keep_largest;
+    session.options.read.seam = stored.part.seam;
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -204,6 +209,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
         throw InputError(fmt::format("{}: its material is not to be had: {}", file.string(), error.what()));
     }
     session.options.flatten.thickness = stored.thickness;
+    session.options.flatten.skins = stored.skins;
     session.options.flatten.direction = stored.direction;
     session.options.grid = stored.grid;
     session.options.interpolate.ends =
@@ -235,12 +241,13 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.program = program_name();
     stored.picks = store_picks(document);
     stored.part = {stored_path(session.file, folder), session.options.read.unit, session.options.read.weld,
-                   session.options.read.doctor.keep_largest};
+                   session.options.read.doctor.keep_largest, session.options.read.seam};
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else
         stored.material = document.material;
     stored.thickness = session.options.flatten.thickness;
+    stored.skins = session.options.flatten.skins;
     stored.direction = session.options.flatten.direction;
     stored.grid = session.options.grid;
     stored.natural_ends = session.options.interpolate.ends == InterpolateOptions::Ends::natural;

@@ -14,8 +14,9 @@
 /// |---|---|
 /// | `part.path` | `file`: relative to the project's folder; `was_at`: where it was when saved, tried second |
 /// | `part.unit`, `part.weld` | of the file; null: as its format has it |
+/// | `part.keep_largest`, `part.seam` | as in the script actions set_reading and set_seam |
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
-/// | `thickness`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
+/// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
 /// | `ran` | the last stage that had been run, or null |
 /// | `edge_restraint`, `rolling` | as in the script action set_process |
 /// | `limits`, `limits_table` | as in the script action set_limits; the table given like the file of the part |

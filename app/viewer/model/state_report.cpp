@@ -29,7 +29,9 @@ Json part_json(const Session& session)
             {"vertices", session.part->mesh.vertices()},
             {"triangles", session.part->mesh.triangles()},
             {"format", session.part->format},
-            {"unit", name(session.part->unit)}};
+            {"unit", name(session.part->unit)},
+            {"seam", session.part->seam},
+            {"seam_length", session.part->seam_length}};
 }
 
 Json options_json(const Document& document)
@@ -37,6 +39,8 @@ Json options_json(const Document& document)
     const SessionOptions& options = document.session.options;
     return {{"material", document.material},
             {"thickness", options.flatten.thickness},
+            {"skins", options.flatten.skins},
+            {"seam", written(options.read.seam)},
             {"direction", written(options.flatten.direction)},
             {"corners", written(options.corners)},
             {"grid", written(options.grid)},

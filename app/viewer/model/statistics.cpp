@@ -39,7 +39,10 @@ double badness(Field field, double value)
     switch (field) {
     case Field::thickness:
     case Field::strain_minor:
+    case Field::outer_strain_minor:
+    case Field::inner_strain_minor:
     case Field::limit_distance: return -value;
+    case Field::curvature:
     case Field::deviation: return std::abs(value);
     default: return value;
     }

@@ -9,7 +9,10 @@ std::string in_viewer_words(std::string text)
 {
     constexpr std::string_view words[][2] = {{"--weld", "\"Join them\" in the step Part"},
                                              {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
-                                             {"--unit", "in the step Part"}};
+                                             {"--unit", "in the step Part"},
+                                             {"--young", "in the field above"},
+                                             {"--data engineering or --data true", "above"},
+                                             {"--data", "above"}};
     for (const auto& [flag, button] : words)
         for (size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + button.size()))
             text.replace(at, flag.size(), button);

@@ -127,6 +127,7 @@ void dialogs(Frame& frame)
     export_dialog(frame);
     picture_dialog(frame);
     report_dialog(frame);
+    material_dialog(frame);
     shortcuts_window(frame);
     messages_window(frame);
     const auto path = frame.ui.files.show(frame);
@@ -151,6 +152,15 @@ void dialogs(Frame& frame)
         break;
     }
     case FileDialog::Purpose::open_material: frame.actions.push(SetMaterial{path->string()}); break;
+    case FileDialog::Purpose::open_tensile_test:
+        frame.ui.fitting.table = path->string();
+        frame.ui.fitting.options.law = "best"; // of this test
+        frame.ui.show_material = true;
+        break;
+    case FileDialog::Purpose::save_material:
+        frame.ui.fitting.file = path->string();
+        frame.ui.show_material = true;
+        break;
     case FileDialog::Purpose::save_report:
         frame.ui.reporting.file = path->string();
         frame.ui.show_report = true;

@@ -29,6 +29,8 @@ const Wording& wording(FileDialog::Purpose purpose)
     static const Wording part{"Open a part", "Open", {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"}, false, false};
     static const Wording project{"Open a project", "Open", {".spia"}, false, false};
     static const Wording material{"Choose a material file", "Choose", {".json"}, false, false};
+    static const Wording test{"Choose a tensile test", "Choose", {".csv", ".txt", ".tsv", ".dat"}, false, false};
+    static const Wording grade{"Save the material", "Save", {".json"}, true, false};
     static const Wording limits{"Choose a forming limit curve", "Choose", {".csv", ".txt"}, false, false};
     static const Wording save{"Save the project", "Save", {".spia"}, true, false};
     static const Wording folder{"Choose a folder", "Choose this folder", {}, false, true};
@@ -38,6 +40,8 @@ const Wording& wording(FileDialog::Purpose purpose)
     case P::open_part: return part;
     case P::open_project: return project;
     case P::open_material: return material;
+    case P::open_tensile_test: return test;
+    case P::save_material: return grade;
     case P::open_limit_curve: return limits;
     case P::save_project: return save;
     case P::export_folder: return folder;

@@ -20,6 +20,8 @@ public:
         save_report,
         save_picture,
         open_material,
+        open_tensile_test,
+        save_material,
         open_limit_curve
     };
 

@@ -54,6 +54,8 @@ void field_section(Frame& frame)
     if (ImGui::BeginCombo("##field", std::string(shown.label).c_str(), ImGuiComboFlags_HeightLargest)) {
         for (const FieldInfo& field : all_fields()) {
             const bool possible = available(document.session, field.field);
+            if (of_skins(field.field) && !possible)
+                continue; // seven lines that few ask for
             ImGui::BeginDisabled(!possible);
             if (ImGui::Selectable(std::string(field.label).c_str(), field.field == display.field)) {
                 display.field = field.field;

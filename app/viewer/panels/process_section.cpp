@@ -146,10 +146,25 @@ void process_section(Frame& frame)
 void end_line(Frame& frame)
 {
     std::vector<Eigen::Vector3d> drawn = std::exchange(frame.ui.line, {});
-    if (drawn.size() > 1)
-        frame.actions.push(AddLine{{.kind = frame.ui.line_kind, .point = std::move(drawn)}});
-    else if (drawn.size() == 1 && frame.ui.line_kind == LineKind::pilot)
-        frame.actions.push(AddLine{{.kind = LineKind::pilot, .point = std::move(drawn)}});
+    const DrawnLine kind = frame.ui.drawn_line;
+    if (drawn.size() < (kind == DrawnLine::pilot ? 1u : 2u))
+        return;
+    if (kind != DrawnLine::seam) {
+        frame.actions.push(AddLine{
+            {.kind = kind == DrawnLine::pilot ? LineKind::pilot : LineKind::drawbead, .point = std::move(drawn)}});
+        return;
+    }
+    SeamOptions seam{SeamOptions::Mode::given, {{}}};
+    const PartFile& part = *frame.state.document.session.part;
+    for (const Eigen::Vector3d& place : drawn) {
+        Eigen::Index nearest = 0;
+        (part.mesh.position.colwise() - place).colwise().squaredNorm().minCoeff(&nearest);
+        const int vertex = part.source_vertex[size_t(nearest)];
+        if (seam.path[0].empty() || seam.path[0].back() != vertex)
+            seam.path[0].push_back(vertex);
+    }
+    if (seam.path[0].size() > 1)
+        frame.actions.push(SetSeam{std::move(seam)});
 }
 
 } // namespace spia::viewer

@@ -16,6 +16,19 @@ Status status(const Frame& frame, Stage stage, bool there)
     return stale && *stale <= stage ? Status::stale : Status::done;
 }
 
+/// Where a part that is no sheet was cut open.
+void seam_rows(Frame& frame, const PartFile& part)
+{
+    figure(frame, "Cut open along", fmt::format("{:.4g} mm", part.seam_length));
+    tooltip("To cut it elsewhere, draw a seam with the tool Line");
+    if (frame.state.document.session.options.read.seam.mode != SeamOptions::Mode::given)
+        return;
+    ImGui::BeginDisabled(frame.model.busy());
+    if (small_button(frame, "Choose the seam automatically"))
+        frame.actions.push(SetSeam{});
+    ImGui::EndDisabled();
+}
+
 void part_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
@@ -44,6 +57,8 @@ void part_step(Frame& frame)
     const Eigen::Vector3d& size = part_figures(frame).size;
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
     figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
+    if (!part.seam.empty())
+        seam_rows(frame, part);
     doctor_panel(frame);
 }
 
@@ -53,13 +68,15 @@ void sheet_step(Frame& frame)
     step_heading(frame, 2, "Sheet", document.session.part ? Status::done : Status::nothing);
     ImGui::SetNextItemWidth(-1);
     const auto shown = std::filesystem::path(document.material).filename().string();
-    if (ImGui::BeginCombo("##material", shown.c_str())) {
+    if (ImGui::BeginCombo("##material", shown.c_str(), ImGuiComboFlags_HeightLargest)) {
         for (const std::string& grade : frame.ui.grades)
             if (ImGui::Selectable(grade.c_str(), grade == document.material))
                 frame.actions.push(SetMaterial{grade});
         ImGui::Separator();
         if (ImGui::Selectable("Own material file..."))
             frame.ui.files.open(FileDialog::Purpose::open_material, frame.model.assets() / "materials");
+        if (ImGui::Selectable("From a tensile test..."))
+            choose_tensile_test(frame);
         ImGui::EndCombo();
     }
     const Material& material = document.session.options.flatten.material;
@@ -106,6 +123,17 @@ void direction_control(Frame& frame)
         frame.actions.push(SetDirection{edited});
 }
 
+void skins_control(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    if (!session.part)
+        return;
+    bool skins = session.options.flatten.skins;
+    if (ImGui::Checkbox("Strains of both skins", &skins))
+        frame.actions.push(SetSkins{skins});
+    tooltip("Adds bending over radii to the strain of the middle surface, as fields of their own");
+}
+
 void unfold_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
@@ -121,6 +149,7 @@ void unfold_step(Frame& frame)
     tooltip("Finds the flat blank that one forming step turns into the part  (F6)");
     if (!session.blank) {
         direction_control(frame);
+        skins_control(frame);
         return;
     }
     const FlattenResult& flat = *session.blank;
@@ -137,6 +166,7 @@ void unfold_step(Frame& frame)
     if (!fine)
         coloured(p.warning, as_sentence(flat.report.reason) + ". " + advice(flat.report.system));
     direction_control(frame);
+    skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
     figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", sheet.size[0], sheet.size[1]));
     figure(frame, "Thinning per face",

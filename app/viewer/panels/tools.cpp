@@ -30,7 +30,7 @@ constexpr ToolButton tools[] = {
      "of the grid  (G)",
      GLFW_KEY_G},
     {Tool::line, "Line",
-     "Draw a drawbead or a pilot on the part, place by place; Return or a double click ends it, Escape drops it  (W)",
+     "Draw a drawbead, a pilot or a seam on the part, place by place; Return or a double click ends it, Escape drops it  (W)",
      GLFW_KEY_W},
     {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
     {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
@@ -109,9 +109,11 @@ void tool_options(Frame& frame, const BarStyle& style)
     ImGui::SetNextItemWidth(style.slider);
     if (settings.tool == Tool::line) {
         ImGui::SetNextItemWidth(std::max(style.slider, 92 * frame.ui.scale));
-        int kind = int(frame.ui.line_kind);
-        if (ImGui::Combo("##kind", &kind, "drawbead\0pilot\0"))
-            frame.ui.line_kind = LineKind(kind);
+        int kind = int(frame.ui.drawn_line);
+        if (ImGui::Combo("##kind", &kind, "drawbead\0pilot\0seam\0"))
+            frame.ui.drawn_line = DrawnLine(kind);
+        tooltip(
+            "Drawbead: restrains the sheet across it. Pilot: the sheet is held. Seam: the part is cut open along it.");
         ImGui::SameLine();
         ImGui::BeginDisabled(frame.ui.line.empty());
         if (ImGui::Button("End line"))

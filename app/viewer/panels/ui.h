@@ -15,6 +15,7 @@
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/labels.h"
+#include "app/viewer/panels/material_dialog.h"
 #include "app/viewer/panels/picture_dialog.h"
 #include "app/viewer/panels/report_dialog.h"
 #include "app/viewer/panels/side_panels.h"
@@ -37,6 +38,9 @@ struct LeftWork {
     Answer answer = Answer::none;
 };
 
+/// What a line becomes that is drawn on the part.
+enum class DrawnLine { drawbead, pilot, seam };
+
 /// What is being typed into a field, until typing ends.
 struct Typed {
     ImGuiID id = 0;
@@ -51,9 +55,10 @@ struct Ui {
     float left_width = 300, right_width = 320;
     SidePanels panels;
     bool show_shortcuts = false, show_messages = false;
-    bool show_export = false, show_picture = false, show_report = false; ///< dialogs that open in the next frame
-    std::map<int, double> message_since;                                 ///< seconds; by number
-    double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
+    bool show_export = false, show_picture = false, show_report = false,
+         show_material = false;          ///< dialogs that open in the next frame
+    std::map<int, double> message_since; ///< seconds; by number
+    double wake_at = 0;                  ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     std::vector<KeyPress> keys;       ///< pressed since the last frame
     std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
@@ -70,13 +75,14 @@ struct Ui {
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::vector<glm::dvec2> path;  ///< where the mouse went since the last frame, a button down, pixels of the window
     std::vector<Eigen::Vector3d> line; ///< being drawn: places on the part, mm
-    LineKind line_kind = LineKind::drawbead;
+    DrawnLine drawn_line = DrawnLine::drawbead;
     std::array<ImVec2, 4> view_from{}, view_size{};
     std::array<LabelPlaces, 4> labels;
 
     ExportChoices exporting;
     PictureChoices picturing;
     ReportChoices reporting;
+    MaterialChoices fitting;
 
     Charts charts;
     std::optional<SectionMark> section_mark;
@@ -115,7 +121,7 @@ void menu_bar(Frame& frame);
 void steps_panel(Frame& frame);
 /// Drawbeads, pilots, the held edge, the rolling direction.
 void process_section(Frame& frame);
-/// Makes a drawbead or a pilot of the line that was drawn.
+/// Makes a drawbead, a pilot or a seam of the line that was drawn.
 void end_line(Frame& frame);
 void regions_section(Frame& frame);
 /// What the mesh doctor found, where, and what can be done about it.

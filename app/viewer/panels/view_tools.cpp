@@ -50,22 +50,46 @@ std::vector<glm::dvec2> way_since_last_frame(const Ui& ui, const Mouse& mouse, I
     return way;
 }
 
+/// The place on the part under the mouse. A seam runs along edges: its places are vertices, where it can those of the outline,
+/// since a seam that ends a little before it does not cut the part open.
+std::optional<Eigen::Vector3d> place_of_line(Frame& frame, View view, const Mouse& mouse)
+{
+    const Session& session = frame.state.document.session;
+    const Camera& camera = frame.state.view.camera[size_t(view)];
+    const TriMesh& part = session.part->mesh;
+    Pickers& pickers = frame.model.pickers();
+    const RayPicker* picker = pickers.picker(session, view);
+    if (!picker)
+        return std::nullopt;
+    if (frame.ui.drawn_line == DrawnLine::seam) {
+        const double reach = PickVertex{}.reach * frame.ui.scale;
+        const auto nearest = [&](bool boundary, double within) {
+            return pickers.vertex_at(session, {view, mouse.pixel, mouse.size, PickMode::replace, boundary, within},
+                                     camera);
+        };
+        auto vertex = nearest(true, reach);
+        if (!vertex)
+            vertex = nearest(false, 5 * reach); // of a coarse mesh
+        return vertex ? std::optional<Eigen::Vector3d>(part.position.col(*vertex)) : std::nullopt;
+    }
+    const auto hit = probe_at(camera, part, *picker, mouse.pixel, mouse.size);
+    return hit ? std::optional<Eigen::Vector3d>(part.position(Eigen::all, part.triangle.col(hit->face)) *
+                                                hit->barycentric)
+               : std::nullopt;
+}
+
 /// A polyline on the part, place by place.
 void draw_line(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
 {
     Ui& ui = frame.ui;
     if (view != View::part)
         return;
-    const Session& session = frame.state.document.session;
     const Camera& camera = frame.state.view.camera[size_t(view)];
     if (mouse.inside && ImGui::IsMouseDoubleClicked(0)) // its first click has set the last place
         end_line(frame);
     else if (mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy) {
-        Pickers& pickers = frame.model.pickers();
-        const RayPicker* picker = pickers.picker(session, view);
-        const TriMesh& part = session.part->mesh;
-        if (const auto hit = picker ? probe_at(camera, part, *picker, mouse.pixel, mouse.size) : std::nullopt)
-            ui.line.push_back(part.position(Eigen::all, part.triangle.col(hit->face)) * hit->barycentric);
+        if (const auto place = place_of_line(frame, view, mouse))
+            ui.line.push_back(*place);
     }
     const ImU32 colour = ink(palette_of(frame.state.view.dark).accent);
     std::vector<ImVec2> shown;

@@ -67,7 +67,14 @@ double least_range(Field field, double size)
     switch (field) {
     case Field::strain_major:
     case Field::strain_minor:
-    case Field::strain_equivalent: return strain;
+    case Field::strain_equivalent:
+    case Field::outer_strain_major:
+    case Field::outer_strain_minor:
+    case Field::outer_strain_equivalent:
+    case Field::inner_strain_major:
+    case Field::inner_strain_minor:
+    case Field::inner_strain_equivalent: return strain;
+    case Field::curvature: return size > 0 ? 1e-3 / size : 0; // 1/mm: flatter than the part is long by far
     case Field::thinning:
     case Field::thickening:
     case Field::area_change: return 100 * strain; // %

@@ -43,6 +43,11 @@ std::vector<Action> every_action()
         set(OpenPart{"parts/door.stl", "inch"});
         set(SetUnit{"cm"});
         set(SetReading{true, true});
+        set(SetSeam{{SeamOptions::Mode::given, {{3, 9, 4}, {1, 2}}}});
+        set(FitMaterial{"bar.csv",
+                        "mine.json",
+                        {{TensileOptions::Kind::truly, true, 2e5}, "voce", "mine", 0.29, 7900, 1.1, 1.2, 1.3}});
+        set(SetSkins{false});
         set(ShowFault{2, 7});
         set(SetMaterial{"dp600"});
         set(SetThickness{0.8});
