@@ -149,8 +149,9 @@ ContactRegion contact(const Json& json, const Place& place, const std::string& n
     return region;
 }
 
-Drawbead drawbead(const Json& json, const Place& place, const std::string& name, const Material& material,
-                  double thickness)
+/// @param force_of  the force of a shape on a line
+template <class ForceOf>
+Drawbead drawbead(const Json& json, const Place& place, const std::string& name, const ForceOf& force_of)
 {
     require_object(json, place, {"name", "line", "force_N_mm", "shape"});
     Drawbead bead{text_in(json, place, "name", name), line(*find(json, place, "line", true), place.member("line")), 0};
@@ -169,7 +170,7 @@ Drawbead drawbead(const Json& json, const Place& place, const std::string& name,
     form.shoulder_radius = *number_in(*shape, at, "shoulder_radius", 0, most_mm, true);
     form.depth = *number_in(*shape, at, "depth", 0, most_mm, true);
     form.friction = number_in(*shape, at, "friction", 0, 10).value_or(form.friction);
-    bead.force_N_mm = drawbead_force(form, material, thickness);
+    bead.force_N_mm = force_of(form, bead.line);
     return bead;
 }
 
@@ -186,9 +187,6 @@ ProcessConditions read_process(const std::filesystem::path& file, const PartFile
     each_of(json, top, "contact", [&](const Json& each, const Place& place, const std::string& otherwise) {
         process.contact.push_back(contact(each, place, otherwise, part));
     });
-    each_of(json, top, "drawbeads", [&](const Json& each, const Place& place, const std::string& otherwise) {
-        process.drawbeads.push_back(drawbead(each, place, otherwise, material, thickness));
-    });
     process.edge_restraint = number_in(json, top, "edge_restraint", 0, 1).value_or(0);
     each_of(json, top, "pilots", [&](const Json& each, const Place& place, const std::string& otherwise) {
         require_object(each, place, {"name", "line"});
@@ -202,6 +200,12 @@ ProcessConditions read_process(const std::filesystem::path& file, const PartFile
                                         ? find_material(text_in(each, place, "material", ""), materials)
                                         : material,
                                     *number_in(each, place, "thickness", 1e-6, 1e3, true)});
+    });
+    const auto force_of = [&](const BeadShape& shape, const std::vector<Eigen::Vector3d>& line) {
+        return drawbead_force(shape, line, part.mesh, material, thickness, process.tailored);
+    };
+    each_of(json, top, "drawbeads", [&](const Json& each, const Place& place, const std::string& otherwise) {
+        process.drawbeads.push_back(drawbead(each, place, otherwise, force_of));
     });
     if (const Json* rolling = find(json, top, "rolling", false))
         process.rolling = vector(*rolling, top.member("rolling"));

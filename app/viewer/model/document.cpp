@@ -1,5 +1,7 @@
 #include "app/viewer/model/document.h"
 
+#include <algorithm>
+
 #include "app/viewer/model/names.h"
 #include "engine/forming/material_library.h"
 
@@ -13,10 +15,13 @@ bool is_tool(RegionKind kind)
     return kind == RegionKind::binder || kind == RegionKind::pad || kind == RegionKind::punch;
 }
 
-double bead_force(const ProcessLine& bead, const Document& document)
+std::optional<double> bead_force(const Document& document, size_t line)
 {
-    const FlattenOptions& sheet = document.session.options.flatten;
-    return bead.shape ? drawbead_force(*bead.shape, sheet.material, sheet.thickness) : bead.force_N_mm;
+    const auto bead = [](const ProcessLine& each) { return each.kind == LineKind::drawbead; };
+    const auto here = document.lines.begin() + long(line);
+    const std::vector<Drawbead>& beads = document.session.options.flatten.process.drawbeads;
+    const auto before = size_t(std::count_if(document.lines.begin(), here, bead));
+    return bead(*here) && before < beads.size() ? std::optional(beads[before].force_N_mm) : std::nullopt;
 }
 
 ProcessConditions process_of(const Document& document, const std::filesystem::path& materials)
@@ -30,11 +35,18 @@ ProcessConditions process_of(const Document& document, const std::filesystem::pa
             process.tailored.push_back(
                 {region.name, region.faces, find_material(region.sheet->material, materials), region.sheet->thickness});
     }
+    const FlattenOptions& sheet = document.session.options.flatten;
     for (const ProcessLine& line : document.lines)
-        if (line.kind == LineKind::drawbead)
-            process.drawbeads.push_back({line.name, line.point, bead_force(line, document)});
-        else
+        if (line.kind == LineKind::pilot)
             process.pilots.push_back({line.name, line.point});
+        else if (line.shape && document.session.part)
+            process.drawbeads.push_back({line.name, line.point,
+                                         drawbead_force(*line.shape, line.point, document.session.part->mesh,
+                                                        sheet.material, sheet.thickness, process.tailored)});
+        else
+            process.drawbeads.push_back(
+                {line.name, line.point,
+                 line.shape ? drawbead_force(*line.shape, sheet.material, sheet.thickness) : line.force_N_mm});
     process.edge_restraint = document.edge_restraint;
     process.rolling = document.rolling;
     return process;

@@ -79,7 +79,9 @@ struct Document {
 /// @throws InputError if a material is not to be had, or a bead's shape is none
 ProcessConditions process_of(const Document& document, const std::filesystem::path& materials);
 
-/// The force of a drawbead per length, N/mm: as given, or of its shape with the sheet of the document.
-double bead_force(const ProcessLine& bead, const Document& document);
+/// The force of a drawbead per length, N/mm, as the solver will have it: as given, or of its shape with the sheet in which it
+/// lies. None of a pilot, or if there are no conditions for the solver.
+/// @param line  of document.lines
+std::optional<double> bead_force(const Document& document, size_t line);
 
 } // namespace spia::viewer

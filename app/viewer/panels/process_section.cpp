@@ -84,12 +84,8 @@ void line_row(Frame& frame, int number, const ProcessLine& line)
 {
     const Document& document = frame.state.document;
     const bool bead = line.kind == LineKind::drawbead;
-    std::string force, problem;
-    try {
-        force = bead ? fmt::format("{:.3g} N/mm", bead_force(line, document)) : "held";
-    } catch (const InputError& error) {
-        problem = error.what();
-    }
+    const std::optional<double> restraint = bead_force(document, size_t(number));
+    const std::string force = restraint ? fmt::format("{:.3g} N/mm", *restraint) : bead ? "" : "held";
     const float buttons = ImGui::CalcTextSize("x").x + 2 * ImGui::GetStyle().FramePadding.x;
     const bool open =
         ImGui::TreeNodeEx("line", ImGuiTreeNodeFlags_AllowItemOverlap, "%s   %s", line.name.c_str(), force.c_str());
@@ -97,8 +93,6 @@ void line_row(Frame& frame, int number, const ProcessLine& line)
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons);
     if (ImGui::SmallButton("x"))
         frame.actions.push(RemoveLine{number});
-    if (!problem.empty())
-        coloured(palette_of(frame.state.view.dark).error, problem);
     if (!open)
         return;
     ProcessLine edited = line;

@@ -7,7 +7,6 @@
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
-#include "engine/core/error.h"
 
 namespace spia::viewer {
 namespace {
@@ -25,15 +24,11 @@ Eigen::Matrix3Xd on_sheet(const std::vector<ClosestPoint>& places, const Eigen::
 
 const Colour& colour_of(LineKind kind) { return kind == LineKind::drawbead ? palette::drawbead : palette::pilot; }
 
-std::string words(const ProcessLine& line, const Document& document)
+std::string words(const Document& document, size_t line)
 {
-    if (line.kind == LineKind::pilot)
-        return line.name;
-    try {
-        return fmt::format("{}  {:.3g} N/mm", line.name, bead_force(line, document));
-    } catch (const InputError&) { // the solver says what is wrong with its shape
-        return line.name;
-    }
+    const std::string& name = document.lines[line].name;
+    const std::optional<double> force = bead_force(document, line);
+    return force ? fmt::format("{}  {:.3g} N/mm", name, *force) : name;
 }
 
 LineShapes shapes(const std::vector<ProcessLine>& lines, const std::vector<std::vector<ClosestPoint>>& places,
@@ -109,7 +104,7 @@ void add_process_lines(Scene& scene, const ViewerState& state, const Eigen::Matr
         if (!places[k].empty()) {
             const ClosestPoint& middle = places[k][places[k].size() / 2];
             scene.labels.push_back({place_on(position, part->mesh.triangle, middle.face, middle.barycentric),
-                                    words(document.lines[k], document), palette::text(state.view.dark)});
+                                    words(document, k), palette::text(state.view.dark)});
         }
 }
 

@@ -49,6 +49,8 @@ TEST(ProcessFile, HoldsEveryCondition)
                   {"box": [[0, 0, -1], [10, 40, 1]], "pressure_MPa": 0.5, "friction": 0.1, "sides": 1}],
       "drawbeads": [{"line": [[20, 5, 0], [20, 35, 0]], "force_N_mm": 90},
                     {"name": "b", "line": [[30, 5, 0], [30, 35, 0]],
+                     "shape": {"radius": 5, "shoulder_radius": 3, "depth": 4, "friction": 0.2}},
+                    {"line": [[5, 5, 0], [5, 35, 0]],
                      "shape": {"radius": 5, "shoulder_radius": 3, "depth": 4, "friction": 0.2}}],
       "edge_restraint": 0.1, "pilots": [{"line": [[0, 0, 0]]}],
       "tailored": [{"box": [[25, 0, -1], [50, 40, 1]], "material": "dp600", "thickness": 1.4}],
@@ -60,9 +62,10 @@ TEST(ProcessFile, HoldsEveryCondition)
     EXPECT_EQ(p.contact[1].name, "contact 2");
     EXPECT_EQ(p.contact[1].faces.size(), 8u); // the first of five columns
     EXPECT_EQ(p.contact[1].sides, 1);
-    ASSERT_EQ(p.drawbeads.size(), 2u);
+    ASSERT_EQ(p.drawbeads.size(), 3u);
+    EXPECT_EQ(p.drawbeads[2].force_N_mm, drawbead_force({5, 3, 4, 0.2}, find_material("mild_steel", materials), 0.8));
     EXPECT_EQ(p.drawbeads[0].force_N_mm, 90);
-    EXPECT_EQ(p.drawbeads[1].force_N_mm, drawbead_force({5, 3, 4, 0.2}, find_material("mild_steel", materials), 0.8));
+    EXPECT_EQ(p.drawbeads[1].force_N_mm, drawbead_force({5, 3, 4, 0.2}, find_material("dp600", materials), 1.4));
     EXPECT_EQ(p.edge_restraint, 0.1);
     EXPECT_EQ(p.pilots[0].line.size(), 1u);
     EXPECT_EQ(p.tailored[0].material.name, find_material("dp600", materials).name);

@@ -92,6 +92,9 @@ TEST_F(ProcessChoice, LinesBecomeBeadsAndPilotsWithNamesOfTheirOwn)
     EXPECT_EQ(process.drawbeads[1].force_N_mm, drawbead_force({6, 3, 4, 0.1}, sheet.material, 1));
     model.apply(SetThickness{2}); // a thicker sheet is harder to bend
     EXPECT_EQ(process.drawbeads[1].force_N_mm, drawbead_force({6, 3, 4, 0.1}, sheet.material, 2));
+    EXPECT_EQ(bead_force(document, 0), 80);
+    EXPECT_EQ(bead_force(document, 1), std::nullopt); // a pilot
+    EXPECT_EQ(bead_force(document, 2), process.drawbeads[1].force_N_mm);
     EXPECT_EQ(process.pilots.at(0), (Pilot{"pilot 1", {at[0]}}));
     model.apply(AddLine{{.kind = LineKind::drawbead, .point = {at[0]}}});
     EXPECT_NE(last_error().find("two places"), std::string::npos);
@@ -101,6 +104,24 @@ TEST_F(ProcessChoice, LinesBecomeBeadsAndPilotsWithNamesOfTheirOwn)
     EXPECT_EQ(process.pilots[2].line.at(0), document.session.part->mesh.position.col(9));
     model.apply(RemoveLine{0});
     EXPECT_EQ(process.drawbeads.size(), 1u);
+}
+
+TEST_F(ProcessChoice, ABeadByShapeTakesTheSheetInWhichItLies)
+{
+    const TriMesh& part = document.session.part->mesh;
+    const Eigen::Matrix3d corner = part.position(Eigen::all, part.triangle.col(5));
+    const std::vector<Eigen::Vector3d> at{0.6 * corner.col(0) + 0.2 * (corner.col(1) + corner.col(2)),
+                                          0.6 * corner.col(1) + 0.2 * (corner.col(0) + corner.col(2))};
+    model.apply(AddLine{{.kind = LineKind::drawbead, .point = at, .shape = BeadShape{6, 3, 4, 0.1}}});
+    const Material base = document.session.options.flatten.material;
+    EXPECT_EQ(process.drawbeads.at(0).force_N_mm, drawbead_force({6, 3, 4, 0.1}, base, 1));
+    make_region(RegionKind::material); // face 5 among others
+    model.apply(SetOwnSheet{0, OwnSheet{"dp600", 1.6}});
+    EXPECT_EQ(process.drawbeads.at(0).force_N_mm,
+              drawbead_force({6, 3, 4, 0.1}, find_material("dp600", assets / "materials"), 1.6));
+    EXPECT_EQ(bead_force(document, 0), process.drawbeads[0].force_N_mm);
+    model.apply(RemoveRegion{0});
+    EXPECT_EQ(bead_force(document, 0), drawbead_force({6, 3, 4, 0.1}, base, 1));
 }
 
 TEST_F(ProcessChoice, MakesTheBlankOldAndChangesIt)
