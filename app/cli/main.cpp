@@ -72,8 +72,10 @@ int main(int count, char** values)
     run_command->add_option("--flc-n", run.flc_n, "n of keeler-brazier (default: the uniform strain of the material)")
         ->check(CLI::Range(1e-3, 0.99));
     run_command
-        ->add_option("--marginal", run.marginal,
-                     "points of engineering major strain below the curve that are a risk (default 10, aluminium 8)")
+        ->add_option(
+            "--marginal", run.marginal,
+            "points of engineering major strain below the curve that are marginal, the upper half of them at risk "
+            "(default 10, aluminium 8)")
         ->check(CLI::Range(0.0, 100.0))
         ->type_name("PERCENT");
     run_command->add_option("--max-thinning", run.max_thinning, "allowable thinning")

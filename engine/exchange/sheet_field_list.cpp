@@ -67,8 +67,8 @@ void require_zones(const Zones* zones, const TriMesh& part)
     if (zones->zone.size() != faces || (zones->distance.size() != 0 && zones->distance.size() != Eigen::Index(faces)))
         throw InputError(fmt::format("{} zones were given for {} faces; judge the limits of this part again",
                                      zones->zone.size(), faces));
-    if (!zones->distance.allFinite())
-        throw InputError("a distance to the forming limit curve is not a number; check the points of the curve");
+    if (zones->distance.array().isInf().any()) // no number: the sheet has no curve there
+        throw InputError("a distance to the forming limit curve is infinite; check the points of the curve");
 }
 
 void require_fields(const SheetFields& fields, int count, const char* per)

@@ -1,5 +1,6 @@
 #include "engine/exchange/write_csv.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
@@ -74,7 +75,9 @@ void write_faces_csv(const std::filesystem::path& path, const TriMesh& part, con
             fmt::format_to(end, ",{}", (*field.value)[f] / (is_length(field) ? mm : 1));
         if (zones)
             fmt::format_to(end, ",{}", name(zones->zone[size_t(f)]));
-        if (distance)
+        if (distance && std::isnan(zones->distance[f]))
+            content += ','; // a sheet without a curve
+        else if (distance)
             fmt::format_to(end, ",{}", zones->distance[f]);
         for (const NamedField& field : bent)
             fmt::format_to(end, ",{}", (*field.value)[f]);

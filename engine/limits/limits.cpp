@@ -37,13 +37,19 @@ void require(const TriMesh& part, const SheetFields& face)
                             faces));
 }
 
+constexpr double risk_share = 0.5; // of the margin
+
+bool by_the_curve(Zone zone) { return zone == Zone::crack || zone == Zone::risk || zone == Zone::marginal; }
+
 /// The first zone that holds, see Zone.
 Zone zone_of(double major, double minor, double thinning, double distance, const ZoneOptions& o)
 {
     if (distance < 0)
         return Zone::crack;
-    if (distance < o.margin)
+    if (distance < risk_share * o.margin)
         return Zone::risk;
+    if (distance < o.margin)
+        return Zone::marginal;
     if (thinning > o.max_thinning)
         return Zone::excessive_thinning;
     const double thickening = -thinning;
@@ -56,13 +62,13 @@ Zone zone_of(double major, double minor, double thinning, double distance, const
 
 double value_of(Zone zone, double distance, double thinning)
 {
-    if (zone == Zone::crack || zone == Zone::risk)
+    if (by_the_curve(zone))
         return distance;
     return zone == Zone::excessive_thinning ? thinning : -thinning;
 }
 
 /// How bad a face is beside others of its zone: the greater the worse.
-double badness(Zone zone, double value) { return zone == Zone::crack || zone == Zone::risk ? -value : value; }
+double badness(Zone zone, double value) { return by_the_curve(zone) ? -value : value; }
 
 /// For each face the least face of its region: faces of one zone that hang together by edges.
 std::vector<int> regions(const TriMesh& part, const std::vector<Zone>& zone)
@@ -119,9 +125,25 @@ std::vector<WorstSpot> worst_spots(const TriMesh& part, const SheetFields& face,
     return spots;
 }
 
-/// Densities and moduli of metals for sheet lie far apart: aluminium 2700 kg/m3, copper 120 GPa, steel 7850 and 205.
-bool is_steel(const Material& material) { return material.young_MPa > 170000 && material.density_kg_m3 > 7000; }
-bool is_aluminium(const Material& material) { return material.density_kg_m3 > 2300 && material.density_kg_m3 < 3200; }
+/// Densities and moduli of metals for sheet lie far apart: steel 7850 kg/m3 and 205 GPa, nickel 8900 and 205, copper 8900
+/// and 120, titanium 4500 and 110, aluminium 2700 and 70.
+bool is_steel(const Material& material)
+{
+    return material.young_MPa > 170000 && material.density_kg_m3 > 7600 && material.density_kg_m3 < 8100;
+}
+
+/// By either: a fitted grade may have been left at the density of steel, but its modulus was measured.
+bool is_aluminium(const Material& material)
+{
+    return (material.density_kg_m3 > 2300 && material.density_kg_m3 < 3200) ||
+           (material.young_MPa > 65000 && material.young_MPa < 75000);
+}
+
+double margin_for(const Material& material, const LimitsOptions& options)
+{
+    constexpr double of_steel = 0.10, of_aluminium = 0.08; // customs of the trade
+    return options.margin ? *options.margin : is_aluminium(material) ? of_aluminium : of_steel;
+}
 
 std::optional<FormingLimitCurve> curve_for(const Material& material, double thickness, const LimitsOptions& options,
                                            std::vector<std::string>& notes)
@@ -141,7 +163,106 @@ std::optional<FormingLimitCurve> curve_for(const Material& material, double thic
         notes.push_back(
             fmt::format("Keeler-Brazier is made for low-carbon steel; for {} its curve is a guess", material.name));
     constexpr double most = 0.99;
-    return keeler_brazier(thickness, options.n ? *options.n : uniform_strain(material.hardening, most));
+    const double uniform = uniform_strain(material.hardening, most);
+    constexpr double of_ferrite = 0.3; // IF steels, the softest ferritic ones, strain uniformly up to 0.25
+    if (is_steel(material) && uniform > of_ferrite)
+        notes.push_back(fmt::format(
+            "{} strains uniformly up to {:.2f}, as austenitic and TRIP steels do; Keeler-Brazier is made for low-carbon "
+            "steel, not for them: give measured points",
+            material.name, uniform));
+    return keeler_brazier(thickness, options.n ? *options.n : uniform);
+}
+
+/// What the faces of one sheet are judged by.
+struct Judge {
+    const FormingLimitCurve* curve = nullptr;
+    double margin = 0;
+};
+
+/// @param judge_of  per face, into judges
+Zones judged(const TriMesh& part, const SheetFields& face, const std::vector<Judge>& judges,
+             const std::vector<int>& judge_of, const ZoneOptions& options)
+{
+    const int faces = part.triangles();
+    Zones out;
+    out.zone.resize(size_t(faces));
+    if (std::any_of(judges.begin(), judges.end(), [](const Judge& judge) { return judge.curve != nullptr; }))
+        out.distance = Eigen::VectorXd::Constant(faces, std::nan(""));
+    const Eigen::VectorXd area = area_vectors(part).colwise().norm();
+    const double whole = area.sum();
+    for (int f = 0; f < faces; ++f) {
+        const auto& [curve, margin] = judges[size_t(judge_of[size_t(f)])];
+        ZoneOptions mine = options;
+        mine.margin = margin;
+        double distance = 1 + margin; // no curve: as far as can be
+        if (curve) {
+            distance = engineering_strain((*curve)(face.strain_minor[f])) - engineering_strain(face.strain_major[f]);
+            out.distance[f] = distance;
+        }
+        const Zone zone = zone_of(face.strain_major[f], face.strain_minor[f], face.thinning[f], distance, mine);
+        out.zone[size_t(f)] = zone;
+        ZoneShare& share = out.share[size_t(zone)];
+        ++share.faces;
+        share.area_mm2 += area[f];
+    }
+    for (ZoneShare& share : out.share)
+        share.share = whole > 0 ? share.area_mm2 / whole : 0;
+    out.spots = worst_spots(part, face, out, area, options.most_spots);
+    return out;
+}
+
+/// Per face 0 for the base sheet, k + 1 for the piece k.
+std::vector<int> sheet_of_face(const TriMesh& part, std::span<const TailoredPiece> pieces)
+{
+    std::vector<int> sheet(size_t(part.triangles()), 0);
+    for (size_t k = 0; k < pieces.size(); ++k)
+        for (const int f : pieces[k].faces) {
+            if (f < 0 || f >= part.triangles())
+                throw InputError(fmt::format("the tailored piece \"{}\" names face {}; the part has faces 0 to {}",
+                                             pieces[k].name, f, part.triangles() - 1));
+            sheet[size_t(f)] = int(k) + 1;
+        }
+    return sheet;
+}
+
+PieceLimits limits_of(const TailoredPiece& piece, int faces, const Material& base, const LimitsOptions& options,
+                      std::vector<std::string>& notes)
+{
+    LimitsOptions own = options;
+    if (piece.material != base)
+        own.n.reset(); // was said of another grade
+    PieceLimits limits{piece.name, piece.material.name, piece.thickness, faces, {}, margin_for(piece.material, own)};
+    std::vector<std::string> own_notes;
+    limits.curve = curve_for(piece.material, piece.thickness, own, own_notes);
+    const std::string what = fmt::format("piece \"{}\" ({}, {:.4g} mm)", piece.name, limits.material, piece.thickness);
+    const bool points = own.source == LimitsOptions::Source::points;
+    if (limits.curve)
+        notes.push_back(fmt::format("{}: judged by {}, FLC0 {:.1f} %, and a margin of {:.4g} points", what,
+                                    points ? "the same points as the base sheet" : "a forming limit of its own",
+                                    100 * engineering_strain(limits.curve->at_plane_strain()), 100 * limits.margin));
+    if (limits.curve && !points) // what is to be minded of points is said once, for the base sheet
+        own_notes.insert(own_notes.end(), limits.curve->notes.begin(), limits.curve->notes.end());
+    for (const std::string& note : own_notes)
+        notes.push_back(what + ": " + note);
+    return limits;
+}
+
+/// Counts the faces beyond the ends of their curves, and says so where they are many: prolonged lines are no measurement.
+void count_beyond(const SheetFields& face, const std::vector<Judge>& judges, const std::vector<int>& judge_of,
+                  bool by_points, LimitsResult& out)
+{
+    constexpr double many = 0.05;
+    for (size_t f = 0; f < judge_of.size(); ++f)
+        if (const FormingLimitCurve* curve = judges[size_t(judge_of[f])].curve) {
+            const double minor = face.strain_minor[Eigen::Index(f)];
+            out.beyond_curve += minor < curve->minor.front() || minor > curve->minor.back();
+        }
+    const double share = double(out.beyond_curve) / double(std::max<size_t>(judge_of.size(), 1));
+    if (by_points && share > many)
+        out.notes.push_back(fmt::format(
+            "{} faces ({:.0f} %) have minor strains beyond the ends of the forming limit curve, which is prolonged "
+            "straight to there: give points from {:.2f} to {:.2f}",
+            out.beyond_curve, 100 * share, face.strain_minor.minCoeff(), face.strain_minor.maxCoeff()));
 }
 
 } // namespace
@@ -154,6 +275,7 @@ std::string_view name(Zone zone)
     case Zone::wrinkling_tendency: return "wrinkling_tendency";
     case Zone::strong_thickening: return "strong_thickening";
     case Zone::excessive_thinning: return "excessive_thinning";
+    case Zone::marginal: return "marginal";
     case Zone::risk: return "risk";
     case Zone::crack: return "crack";
     }
@@ -165,8 +287,12 @@ std::string definition(Zone zone, const ZoneOptions& options)
     switch (zone) {
     case Zone::crack: return "major strain above the forming limit curve";
     case Zone::risk:
+        return fmt::format("below the forming limit curve by less than {:.4g} percentage points of engineering major "
+                           "strain, half of the margin",
+                           100 * risk_share * options.margin);
+    case Zone::marginal:
         return fmt::format(
-            "below the forming limit curve by less than {:.4g} percentage points of engineering major strain",
+            "below the forming limit curve by less than {:.4g} percentage points of engineering major strain, the margin",
             100 * options.margin);
     case Zone::excessive_thinning: return fmt::format("thinner by more than {:.4g} %", 100 * options.max_thinning);
     case Zone::strong_thickening: return fmt::format("thicker by more than {:.4g} %", 100 * options.max_thickening);
@@ -184,29 +310,7 @@ Zones zones(const TriMesh& part, const SheetFields& face, const FormingLimitCurv
 {
     require(options);
     require(part, face);
-    const int faces = part.triangles();
-    Zones out;
-    out.zone.resize(size_t(faces));
-    if (curve)
-        out.distance.resize(faces);
-    const Eigen::VectorXd area = area_vectors(part).colwise().norm();
-    const double whole = area.sum();
-    for (int f = 0; f < faces; ++f) {
-        double distance = 1 + options.margin; // no curve: as far as can be
-        if (curve) {
-            distance = engineering_strain((*curve)(face.strain_minor[f])) - engineering_strain(face.strain_major[f]);
-            out.distance[f] = distance;
-        }
-        const Zone zone = zone_of(face.strain_major[f], face.strain_minor[f], face.thinning[f], distance, options);
-        out.zone[size_t(f)] = zone;
-        ZoneShare& share = out.share[size_t(zone)];
-        ++share.faces;
-        share.area_mm2 += area[f];
-    }
-    for (ZoneShare& share : out.share)
-        share.share = whole > 0 ? share.area_mm2 / whole : 0;
-    out.spots = worst_spots(part, face, out, area, options.most_spots);
-    return out;
+    return judged(part, face, {{curve, options.margin}}, std::vector<int>(size_t(part.triangles()), 0), options);
 }
 
 std::vector<Zone> zones_at_vertices(const TriMesh& part, const std::vector<Zone>& of_face)
@@ -219,21 +323,26 @@ std::vector<Zone> zones_at_vertices(const TriMesh& part, const std::vector<Zone>
 }
 
 LimitsResult forming_limits(const TriMesh& part, const SheetFields& face, const Material& material, double thickness,
-                            const LimitsOptions& options)
+                            const LimitsOptions& options, std::span<const TailoredPiece> pieces)
 {
     LimitsResult out;
     out.settings = options.zones;
-    constexpr double margin_of_steel = 0.10, margin_of_aluminium = 0.08; // customs of the trade
-    out.settings.margin = options.margin           ? *options.margin
-                          : is_aluminium(material) ? margin_of_aluminium
-                                                   : margin_of_steel;
+    out.settings.margin = margin_for(material, options);
+    require(out.settings);
+    require(part, face);
+    const std::vector<int> sheet = sheet_of_face(part, pieces);
     out.curve = curve_for(material, thickness, options, out.notes);
-    out.zones = zones(part, face, out.curve ? &*out.curve : nullptr, out.settings);
-    if (out.curve) {
+    if (out.curve)
         out.notes.insert(out.notes.end(), out.curve->notes.begin(), out.curve->notes.end());
-        for (const double minor : face.strain_minor)
-            out.beyond_curve += minor < out.curve->minor.front() || minor > out.curve->minor.back();
-    }
+    for (size_t k = 0; k < pieces.size(); ++k)
+        out.pieces.push_back(limits_of(pieces[k], int(std::count(sheet.begin(), sheet.end(), int(k) + 1)), material,
+                                       options, out.notes));
+    const auto curve_of = [](const auto& limits) { return limits.curve ? &*limits.curve : nullptr; };
+    std::vector<Judge> judges{{curve_of(out), out.settings.margin}};
+    for (const PieceLimits& piece : out.pieces)
+        judges.push_back({curve_of(piece), piece.margin});
+    out.zones = judged(part, face, judges, sheet, out.settings);
+    count_beyond(face, judges, sheet, options.source == LimitsOptions::Source::points, out);
     return out;
 }
 

@@ -143,8 +143,9 @@ Session judge_limits(Session session)
 {
     require(session.blank != nullptr, "solve for the blank");
     const FlattenOptions& sheet = session.options.flatten;
-    session.limits = std::make_shared<LimitsResult>(forming_limits(
-        session.part->mesh, session.blank->face, sheet.material, sheet.thickness, session.options.limits));
+    session.limits =
+        std::make_shared<LimitsResult>(forming_limits(session.part->mesh, session.blank->face, sheet.material,
+                                                      sheet.thickness, session.options.limits, sheet.process.tailored));
     return session;
 }
 

@@ -140,7 +140,7 @@ const std::vector<FieldInfo>& all_fields()
         {Field::curvature, "curvature", "Curvature", "1/mm", true,
          "The principal curvature of the part of greatest size; positive where it stretches the outer skin."},
         {Field::zone, "zone", "Forming zone", "zone", false,
-         "What forming does to the place: cracks, at risk, thinned or thickened too much, may wrinkle, hardly stretched, "
+         "What forming does to the place: cracks, at risk, marginal, thinned or thickened too much, may wrinkle, hardly stretched, "
          "safe. See Forming limits."},
         {Field::limit_distance, "limit_distance", "Distance to limit", "%", false,
          "Engineering major strain that is left up to the forming limit curve; below 0 the sheet cracks."},

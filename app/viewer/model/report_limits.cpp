@@ -90,7 +90,7 @@ std::string spot_table(const LimitsResult& limits, const PartFile& part)
     return fmt::format(
         "<table class=\"spots\"><tr><th>Worst spot</th><th>Value, %</th><th>Major strain</th>"
         "<th>Minor strain</th><th>Thinning, %</th><th>At x, y, z, mm</th><th>Face of the file</th></tr>\n"
-        "{}</table>\n<p>Value: for crack and risk the points of engineering major strain that are left "
+        "{}</table>\n<p>Value: for crack, risk and marginal the points of engineering major strain that are left "
         "up to the curve, below 0 beyond it; else the thinning or thickening.</p>\n",
         rows);
 }

@@ -15,7 +15,8 @@ Look look(Zone zone)
 {
     switch (zone) {
     case Zone::crack: return {"Crack", 0xc0261c};
-    case Zone::risk: return {"Risk", 0xe07b00};
+    case Zone::risk: return {"Risk", 0xe8590c};
+    case Zone::marginal: return {"Marginal", 0xf2b01e};
     case Zone::excessive_thinning: return {"Excessive thinning", 0xa8871f};
     case Zone::strong_thickening: return {"Strong thickening", 0x6a3fa0};
     case Zone::wrinkling_tendency: return {"Wrinkling tendency", 0x2f6fc4};

@@ -65,7 +65,9 @@ void settings(Frame& frame)
         tooltip("Hardening exponent for Keeler-Brazier; 0: that of the material");
     }
     double margin = choice.margin.value_or(limits ? limits->settings.margin : ZoneOptions{}.margin);
-    if (percent_input(frame, "Margin", margin, "Points of engineering major strain below the curve that are at risk"))
+    if (percent_input(
+            frame, "Margin", margin,
+            "Points of engineering major strain below the curve that are marginal; the upper half of them is at risk"))
         choice.margin = margin;
     percent_input(frame, "Allowed thinning", choice.max_thinning, "Of the initial thickness");
     percent_input(frame, "Allowed thickening", choice.max_thickening, "Of the initial thickness");

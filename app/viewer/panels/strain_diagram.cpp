@@ -75,7 +75,7 @@ void draw_axes(const Frame& frame, const Axes& axes, ImDrawList* draw)
 /// What is red: beyond the forming limit; without a curve beyond the trusted strain.
 Eigen::VectorXi marked(const Session& session)
 {
-    if (!session.limits || !session.limits->curve)
+    if (!session.limits || session.limits->zones.distance.size() == 0)
         return session.blank->face.necking;
     const std::vector<Zone>& zone = session.limits->zones.zone;
     Eigen::VectorXi crack(Eigen::Index(zone.size()));

@@ -210,7 +210,7 @@ TEST(Vtu, EveryFaceHasItsZoneAndItsDistanceToTheCurve)
     expect_array(cell, "zone", number);
     expect_array(cell, "limit_distance", judged.distance); // a strain, whatever the unit
     std::string codes;
-    for (const char c : std::string("6 crack, 5 risk"))
+    for (const char c : std::string("7 crack, 6 risk, 5 marginal"))
         codes += std::to_string(int(c)) + " ";
     EXPECT_NE(file.find("Name=\"zone_names\" NumberOfTuples=\"1\" format=\"ascii\">" + codes), std::string::npos);
     judged.distance.resize(0); // without a curve

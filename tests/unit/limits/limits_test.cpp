@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>
@@ -50,6 +51,28 @@ Zone zone_at(double engineering_major, double engineering_minor, const ZoneOptio
 }
 
 Material steel() { return {"steel", 206000, 0.3, 7850, Hollomon{530, 0.2}, 1, 1, 1, ""}; }
+Material soft_steel() { return {"soft", 206000, 0.3, 7850, Hollomon{530, 0.15}, 1, 1, 1, ""}; }
+Material aluminium_of(double density) { return {"alu", 70000, 0.33, density, Hollomon{400, 0.2}, 1, 1, 1, ""}; }
+
+/// Strains all over the plane, of `faces` faces.
+SheetFields mixed_fields(int faces)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> of_minor(-0.4, 0.3), further(0, 0.6);
+    std::vector<std::pair<double, double>> strains;
+    for (int f = 0; f < faces; ++f) {
+        const double minor = of_minor(random);
+        strains.emplace_back(minor + further(random), minor);
+    }
+    return fields_of(strains);
+}
+
+std::vector<int> first_faces(int count)
+{
+    std::vector<int> faces(size_t(count), 0);
+    std::iota(faces.begin(), faces.end(), 0);
+    return faces;
+}
 
 } // namespace
 
@@ -58,8 +81,10 @@ TEST(Zones, EveryOneIsReachedAsItIsWritten)
     EXPECT_EQ(zone_at(0.40, 0), Zone::crack);
     EXPECT_EQ(zone_at(0.3744, 0), Zone::crack); // 37.43 %
     EXPECT_EQ(zone_at(0.3742, 0), Zone::risk);
-    EXPECT_EQ(zone_at(0.2744, 0), Zone::risk); // 10 points below
-    EXPECT_NE(zone_at(0.2742, 0), Zone::risk);
+    EXPECT_EQ(zone_at(0.3244, 0), Zone::risk); // 5 points below
+    EXPECT_EQ(zone_at(0.3242, 0), Zone::marginal);
+    EXPECT_EQ(zone_at(0.2744, 0), Zone::marginal); // 10 points below
+    EXPECT_EQ(zone_at(0.2744, 0, {.max_thinning = 0.2}), Zone::marginal);
     EXPECT_EQ(zone_at(0.2742, 0), Zone::safe); // thinning 21.5 %
     EXPECT_EQ(zone_at(0.2742, 0, {.max_thinning = 0.2}), Zone::excessive_thinning);
     EXPECT_EQ(zone_at(0.30, 0.15), Zone::excessive_thinning);  // curve at 46.4 %, thinning 33 %
@@ -82,7 +107,10 @@ TEST(Zones, TheMarginIsInPointsOfEngineeringStrainOnBothBranches)
         const double limit = engineering_strain(curve(std::log1p(e2)));
         for (const double margin : {0.05, 0.08, 0.2}) {
             const ZoneOptions options{.margin = margin, .max_thinning = 0.9};
-            EXPECT_EQ(zone_at(limit - margin + 1e-6, e2, options), Zone::risk) << e2;
+            EXPECT_EQ(zone_at(limit - 1e-6, e2, options), Zone::risk) << e2;
+            EXPECT_EQ(zone_at(limit - margin / 2 + 1e-6, e2, options), Zone::risk) << e2;
+            EXPECT_EQ(zone_at(limit - margin / 2 - 1e-6, e2, options), Zone::marginal) << e2;
+            EXPECT_EQ(zone_at(limit - margin + 1e-6, e2, options), Zone::marginal) << e2;
             EXPECT_EQ(zone_at(limit - margin - 1e-6, e2, options), Zone::safe) << e2;
         }
         EXPECT_EQ(zone_at(limit - 1e-6, e2, {.margin = 0, .max_thinning = 0.9}), Zone::safe); // no band
@@ -132,15 +160,16 @@ TEST(Zones, CountsAndAreasAddUpToThePart)
 TEST(Zones, WorstSpotsAreTheWorstFacesOfConnectedRegionsInOrder)
 {
     const double l = std::log(1.15); // safe
-    // crack at 2..4 (worst 3), crack at 7, risk at 9..10 (worst 9), thinner than allowed at 12
+    // crack at 2..4 (worst 3), crack at 7, risk at 9..10 (worst 9), thinner than allowed at 12, marginal at 14
     std::vector<std::pair<double, double>> strains(15, {l, 0});
-    for (const auto& [f, major] : {std::pair{2, 1.40}, {3, 1.50}, {4, 1.45}, {7, 1.60}, {9, 1.36}, {10, 1.30}})
+    for (const auto& [f, major] : {std::pair{2, 1.40}, {3, 1.50}, {4, 1.45}, {7, 1.60}, {9, 1.36}, {10, 1.33}})
         strains[size_t(f)].first = std::log(major);
     strains[12] = {std::log(1.3), std::log(1.15)};
+    strains[14].first = std::log(1.30);
     const TriMesh part = row_of(15);
     const SheetFields face = fields_of(strains);
     const Zones found = zones(part, face, &curve);
-    ASSERT_EQ(found.spots.size(), 4u);
+    ASSERT_EQ(found.spots.size(), 5u);
     const auto expect = [&](size_t i, Zone zone, int f, int region, double value) {
         EXPECT_EQ(found.spots[i].zone, zone);
         EXPECT_EQ(found.spots[i].face, f);
@@ -154,7 +183,8 @@ TEST(Zones, WorstSpotsAreTheWorstFacesOfConnectedRegionsInOrder)
     expect(0, Zone::crack, 7, 1, 0.3743 - 0.60);
     expect(1, Zone::crack, 3, 3, 0.3743 - 0.50);
     expect(2, Zone::risk, 9, 2, 0.3743 - 0.36);
-    expect(3, Zone::excessive_thinning, 12, 1, 1 - 1 / (1.3 * 1.15));
+    expect(3, Zone::marginal, 14, 1, 0.3743 - 0.30);
+    expect(4, Zone::excessive_thinning, 12, 1, 1 - 1 / (1.3 * 1.15));
     EXPECT_EQ(zones(part, face, &curve, {.most_spots = 2}).spots.size(), 2u);
 }
 
@@ -178,7 +208,8 @@ TEST(Zones, NamesDiffer)
     }
     EXPECT_EQ(names.size(), size_t(zone_count));
     EXPECT_EQ(texts.size(), size_t(zone_count));
-    EXPECT_THAT(definition(Zone::risk, {.margin = 0.08}), HasSubstr("8 percentage points"));
+    EXPECT_THAT(definition(Zone::marginal, {.margin = 0.08}), HasSubstr("8 percentage points"));
+    EXPECT_THAT(definition(Zone::risk, {.margin = 0.08}), HasSubstr("4 percentage points"));
 }
 
 TEST(Zones, WhatDoesNotBelongTogetherIsRefused)
@@ -206,7 +237,7 @@ TEST(FormingLimits, TheSheetChoosesCurveAndMargin)
     EXPECT_NEAR(engineering_strain(forming_limits(part, face, steel(), 1, options).curve->at_plane_strain()),
                 0.3743 * 0.1 / 0.21, 1e-9);
 
-    const Material aluminium{"alu", 70000, 0.33, 2700, Hollomon{400, 0.2}, 1, 1, 1, ""};
+    const Material aluminium = aluminium_of(2700);
     const LimitsResult of_aluminium = forming_limits(part, face, aluminium, 1);
     EXPECT_FALSE(of_aluminium.curve);
     EXPECT_EQ(of_aluminium.settings.margin, 0.08);
@@ -226,6 +257,116 @@ TEST(FormingLimits, TheSheetChoosesCurveAndMargin)
     EXPECT_EQ(mine.settings.margin, 0.05);
     EXPECT_EQ(mine.beyond_curve, 0);
     EXPECT_EQ(forming_limits(part, fields_of({{0.1, -0.2}}), steel(), 1, options).beyond_curve, 1);
+}
+
+TEST(FormingLimits, APieceThatIsTheWholePartIsJudgedAsIfItWereTheSheet)
+{
+    constexpr int faces = 3000;
+    const TriMesh part = row_of(faces);
+    const SheetFields face = mixed_fields(faces);
+    for (const Material& material : {soft_steel(), aluminium_of(2700)})
+        for (const double thickness : {0.7, 2.5}) {
+            const TailoredPiece whole{"whole", first_faces(faces), material, thickness};
+            const LimitsResult piece = forming_limits(part, face, steel(), 1, {}, std::array{whole}),
+                               sheet = forming_limits(part, face, material, thickness);
+            EXPECT_EQ(piece.zones.zone, sheet.zones.zone);
+            EXPECT_EQ(piece.zones.distance, sheet.zones.distance);
+            EXPECT_EQ(piece.beyond_curve, sheet.beyond_curve);
+            ASSERT_EQ(piece.pieces.size(), 1u);
+            EXPECT_EQ(piece.pieces[0].curve, sheet.curve);
+            EXPECT_EQ(piece.pieces[0].margin, sheet.settings.margin);
+            EXPECT_EQ(piece.pieces[0].faces, faces);
+            EXPECT_EQ(piece.curve, forming_limits(part, face, steel(), 1).curve); // the diagram's
+            EXPECT_EQ(piece.settings.margin, 0.10);
+        }
+}
+
+TEST(FormingLimits, AnAluminiumPieceOnSteelHasItsOwnMarginAndNoCurveUnlessAskedFor)
+{
+    constexpr int faces = 2000, own = 600;
+    const TriMesh part = row_of(faces);
+    const SheetFields face = mixed_fields(faces);
+    const std::array piece{TailoredPiece{"patch", first_faces(own), aluminium_of(2700), 1.2}};
+    const LimitsResult both = forming_limits(part, face, steel(), 1, {}, piece),
+                       all_steel = forming_limits(part, face, steel(), 1);
+    for (int f = 0; f < faces; ++f) {
+        const Zone zone = both.zones.zone[size_t(f)];
+        EXPECT_EQ(std::isnan(both.zones.distance[f]), f < own);
+        if (f < own)
+            EXPECT_LT(zone, Zone::marginal);
+        else
+            EXPECT_EQ(zone, all_steel.zones.zone[size_t(f)]);
+    }
+    EXPECT_THAT(both.notes, testing::Contains(testing::AllOf(HasSubstr("patch"), HasSubstr("no forming limit"))));
+    for (const WorstSpot& spot : both.zones.spots)
+        EXPECT_TRUE(std::isfinite(spot.value));
+
+    LimitsOptions points;
+    points.source = LimitsOptions::Source::points;
+    points.curve = curve_through({-0.4, 0.4}, {0.4, 0.4}, false, "level");
+    std::vector<std::pair<double, double>> strains(4, {std::log(std::exp(0.4) - 0.09), 0}); // 9 points are left
+    const LimitsResult level = forming_limits(row_of(4), fields_of(strains), steel(), 1, points,
+                                              std::array{TailoredPiece{"patch", {1, 2}, aluminium_of(2700), 1.2}});
+    using enum Zone;
+    EXPECT_THAT(level.zones.zone, testing::ElementsAre(marginal, excessive_thinning, excessive_thinning, marginal));
+}
+
+TEST(FormingLimits, OfTwoPiecesTheLaterCountsAndEachHasItsOwnNote)
+{
+    const TriMesh part = row_of(6);
+    const SheetFields face = fields_of(std::vector<std::pair<double, double>>(6, {std::log(1.3), 0}));
+    const std::array pieces{TailoredPiece{"thin", {0, 1, 2, 3}, steel(), 0.5},
+                            TailoredPiece{"soft", {2, 3, 4}, soft_steel(), 1}};
+    const LimitsResult found = forming_limits(part, face, steel(), 1, {}, pieces);
+    const double flc0[] = {(23.3 + 14.13 * 0.5) * 0.2 / 0.21, (23.3 + 14.13) * 0.15 / 0.21,
+                           (23.3 + 14.13) * 0.2 / 0.21};
+    const int sheet[] = {0, 0, 1, 1, 1, 2};
+    for (int f = 0; f < 6; ++f)
+        EXPECT_NEAR(found.zones.distance[f], flc0[sheet[f]] / 100 - 0.3, 1e-9) << f;
+    EXPECT_EQ(found.pieces[0].faces, 2);
+    EXPECT_EQ(found.pieces[1].faces, 3);
+    EXPECT_THAT(found.notes, testing::ElementsAre(HasSubstr("\"thin\" (steel, 0.5 mm)"), HasSubstr("\"soft\"")));
+    LimitsOptions with_n; // of the base grade
+    with_n.n = 0.1;
+    const LimitsResult told = forming_limits(part, face, steel(), 1, with_n, pieces);
+    EXPECT_NEAR(told.zones.distance[5], (23.3 + 14.13) * 0.1 / 21 - 0.3, 1e-9);
+    EXPECT_NEAR(told.zones.distance[0], (23.3 + 14.13 * 0.5) * 0.1 / 21 - 0.3, 1e-9);
+    EXPECT_EQ(told.zones.distance[2], found.zones.distance[2]);
+    EXPECT_THROW(forming_limits(part, face, steel(), 1, {}, std::array{TailoredPiece{"x", {6}, steel(), 1}}),
+                 InputError);
+}
+
+TEST(FormingLimits, MetalsAreToldApartByDensityAndModulus)
+{
+    const TriMesh part = row_of(1);
+    const SheetFields face = fields_of({{0.1, 0}});
+    const auto judged = [&](double young, double density, double n) {
+        return forming_limits(part, face, {"x", young, 0.3, density, Hollomon{500, n}, 1, 1, 1, ""}, 1);
+    };
+    EXPECT_TRUE(judged(206000, 7850, 0.2).curve);
+    EXPECT_FALSE(judged(206000, 8900, 0.2).curve); // nickel
+    EXPECT_FALSE(judged(206000, 7300, 0.2).curve);
+    EXPECT_EQ(judged(70000, 7850, 0.2).settings.margin, 0.08); // a fitted grade with the density of steel
+    EXPECT_FALSE(judged(70000, 7850, 0.2).curve);
+    EXPECT_EQ(judged(110000, 4500, 0.2).settings.margin, 0.10); // titanium
+    const auto for_austenite = testing::Contains(HasSubstr("austenitic"));
+    EXPECT_THAT(judged(200000, 7900, 0.4).notes, for_austenite);
+    EXPECT_THAT(judged(206000, 7850, 0.25).notes, testing::Not(for_austenite));
+}
+
+TEST(FormingLimits, ManyFacesBeyondTheEndsOfMeasuredPointsAreNoted)
+{
+    LimitsOptions options;
+    options.source = LimitsOptions::Source::points;
+    options.curve = curve_through({-0.1, 0.1}, {0.3, 0.3}, false, "mine");
+    const auto notes = [&](int beyond) {
+        std::vector<std::pair<double, double>> strains(100, {0.1, 0});
+        for (int f = 0; f < beyond; ++f)
+            strains[size_t(f)] = {0.1, -0.2};
+        return forming_limits(row_of(100), fields_of(strains), steel(), 1, options).notes;
+    };
+    EXPECT_THAT(notes(6), testing::ElementsAre(testing::AllOf(HasSubstr("6 faces (6 %)"), HasSubstr("-0.20 to 0.00"))));
+    EXPECT_TRUE(notes(5).empty());
 }
 
 } // namespace spia
