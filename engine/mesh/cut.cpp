@@ -120,44 +120,6 @@ void mark_path(const EdgeGraph& graph, const EdgePaths& paths, int v, std::vecto
     }
 }
 
-CutPart cut_given(const TriMesh& part, const std::vector<std::vector<int>>& path)
-{
-    const EdgeGraph graph = edge_graph(part);
-    std::vector<char> cut(graph.edge.size(), 0);
-    for (const std::vector<int>& row : path) {
-        if (row.size() < 2)
-            throw InputError("a path of the seam has fewer than two vertices; give where it begins and where it ends");
-        for (const int v : row)
-            if (v < 0 || v >= part.vertices())
-                throw InputError(fmt::format("the seam names vertex {}, which the part has not", v));
-        for (size_t i = 1; i < row.size(); ++i) {
-            std::vector<char> target(size_t(part.vertices()), 0);
-            target[size_t(row[i])] = 1;
-            const EdgePaths paths = shortest_paths(graph, {row[i - 1]}, RimCost::as_long_as_it_is, target);
-            if (paths.reached < 0)
-                throw InputError(
-                    fmt::format("no way leads along edges from vertex {} of the seam to vertex {}; leave out "
-                                "the repeated one, or choose vertices of one piece",
-                                row[i - 1], row[i]));
-            mark_path(graph, paths, row[i], cut);
-        }
-    }
-    CutPart result = cut_edges(part, graph, std::move(cut));
-    const SurfaceType left = surface_type(result.mesh);
-    if (left.components > 1)
-        throw InputError(fmt::format("the seam cuts the part into {} pieces; leave one of its paths open somewhere",
-                                     left.components));
-    if (left.loops == 0)
-        throw InputError("the seam opens nothing: the part is still closed");
-    if (left.genus > 0)
-        throw InputError(
-            fmt::format("with this seam the part still has {}: a cut through each and around it is needed; "
-                        "add paths, or leave the seam to the program",
-                        left.genus == 1 ? "a handle" : fmt::format("{} handles", left.genus)));
-    result.why = "as it was given";
-    return result;
-}
-
 CutPart cut_handles(const TriMesh& part, int genus)
 {
     const EdgeGraph graph = edge_graph(part);
@@ -291,6 +253,50 @@ std::optional<CutPart> cut_bottle(const TriMesh& part, const Rims& rims)
         fmt::format("the shortest from its mouth of {:.4g} mm, too narrow for the {:.4g} mm around its widest place, "
                     "to its farthest point",
                     rims.length[0], around.widest);
+    return result;
+}
+
+CutPart cut_given(const TriMesh& part, const std::vector<std::vector<int>>& path)
+{
+    const EdgeGraph graph = edge_graph(part);
+    std::vector<char> cut(graph.edge.size(), 0);
+    for (const std::vector<int>& row : path) {
+        if (row.size() < 2)
+            throw InputError("a path of the seam has fewer than two vertices; give where it begins and where it ends");
+        for (const int v : row)
+            if (v < 0 || v >= part.vertices())
+                throw InputError(fmt::format("the seam names vertex {}, which the part has not", v));
+        for (size_t i = 1; i < row.size(); ++i) {
+            std::vector<char> target(size_t(part.vertices()), 0);
+            target[size_t(row[i])] = 1;
+            const EdgePaths paths = shortest_paths(graph, {row[i - 1]}, RimCost::as_long_as_it_is, target);
+            if (paths.reached < 0)
+                throw InputError(
+                    fmt::format("no way leads along edges from vertex {} of the seam to vertex {}; leave out "
+                                "the repeated one, or choose vertices of one piece",
+                                row[i - 1], row[i]));
+            mark_path(graph, paths, row[i], cut);
+        }
+    }
+    CutPart result = cut_edges(part, graph, std::move(cut));
+    const SurfaceType left = surface_type(result.mesh);
+    if (left.components > 1)
+        throw InputError(fmt::format("the seam cuts the part into {} pieces; leave one of its paths open somewhere",
+                                     left.components));
+    if (left.loops == 0)
+        throw InputError("the seam opens nothing: the part is still closed");
+    if (left.genus > 0)
+        throw InputError(
+            fmt::format("with this seam the part still has {}: a cut through each and around it is needed; "
+                        "add paths, or leave the seam to the program",
+                        left.genus == 1 ? "a handle" : fmt::format("{} handles", left.genus)));
+    result.why = "as it was given";
+    const Rims rims = rims_of(result.mesh, boundary_loops(result.mesh));
+    if (cut_bottle(result.mesh, rims))
+        result.why +=
+            "; what is left is still a bottle with a narrow mouth, which would have been cut open to its farthest point";
+    else if (cut_tube(result.mesh, rims))
+        result.why += "; what is left is still a tube, which would have been cut open from end to end";
     return result;
 }
 

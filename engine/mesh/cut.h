@@ -52,6 +52,7 @@ CutPart cut_along(const TriMesh& part, const std::vector<std::array<int, 2>>& ed
 ///   turns by nearly a full turn as in a flat sheet, are looked at last;
 /// - a bottle, whose mouth is less than a quarter as long as the longest line around it, from the mouth to its farthest point.
 /// @param part one component, manifold, two-sided
+/// A given seam may leave a tube or a bottle; the words of the result say so.
 /// @returns without a seam (source counts 0, 1, 2, ...) if nothing had to be cut
 /// @throws InputError if a given seam is no way over the part, or leaves what cannot be laid flat
 CutPart cut_open(const TriMesh& part, const SeamOptions& options = {});

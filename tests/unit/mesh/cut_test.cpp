@@ -2,6 +2,7 @@
 #include "engine/mesh/cut.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <numeric>
@@ -264,6 +265,39 @@ TEST(CutOpen, OpensABottleButNotACup)
     for (const double half_angle : {90.0, 120.0, 160.0})
         EXPECT_TRUE(cut_open(shapes::sphere_cap({.half_angle_deg = half_angle, .triangles = 1500}).mesh).seam.empty());
     EXPECT_TRUE(cut_open(shapes::sharp_cup({.radius = 10, .height = 120, .triangles = 2000}).mesh).seam.empty());
+}
+
+TEST(CutOpen, SaysWhatAGivenSeamLeavesThatWouldHaveBeenCut)
+{
+    const auto why = [](const TriMesh& part, std::vector<std::vector<int>> path) {
+        return cut_open(part, {SeamOptions::Mode::given, std::move(path)}).why;
+    };
+    const TriMesh tube = shapes::pipe(25, 25, 100, 40, 25); // 40 vertices a row, or 26 a line: by their places
+    const auto at_height = [&](double z) {
+        const Eigen::RowVectorXd off = (tube.position.colwise() - Eigen::Vector3d(25, 0, z)).colwise().squaredNorm();
+        Eigen::Index nearest = 0;
+        off.minCoeff(&nearest);
+        return int(nearest);
+    };
+    const double low = tube.position.row(2).minCoeff(), high = tube.position.row(2).maxCoeff();
+    ASSERT_NEAR(high - low, 100, 1e-9);
+    EXPECT_NE(why(tube, {{at_height(low), at_height((low + high) / 2)}}).find("still a tube"), std::string::npos);
+    EXPECT_EQ(why(tube, {{at_height(low), at_height(high)}}), "as it was given");
+    const TriMesh plate = shapes::rectangle(40, 30, 4, 3);
+    EXPECT_EQ(why(plate, {{2, 7, 12}}), "as it was given");
+    const TriMesh bottle = shapes::sphere_cap({.radius = 50, .half_angle_deg = 172, .triangles = 1500}).mesh;
+    const std::vector<int> mouth = boundary_loops(bottle).front();
+    const auto [first, second] = [&] { // from the mouth inwards by one edge
+        for (int f = 0; f < bottle.triangles(); ++f)
+            for (int k = 0; k < 3; ++k) {
+                const int a = bottle.triangle(k, f), b = bottle.triangle((k + 1) % 3, f);
+                const auto at_mouth = [&](int v) { return std::find(mouth.begin(), mouth.end(), v) != mouth.end(); };
+                if (at_mouth(a) && !at_mouth(b))
+                    return std::pair(a, b);
+            }
+        return std::pair(-1, -1);
+    }();
+    EXPECT_NE(why(bottle, {{first, second}}).find("still a bottle"), std::string::npos);
 }
 
 TEST(CutOpen, GoesWhereItIsTold)
