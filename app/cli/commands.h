@@ -43,8 +43,9 @@ int info(const InfoArguments& arguments);
 
 struct CompareArguments {
     std::filesystem::path part, json;
-    std::string material = "mild_steel", unit;
+    std::string material = "mild_steel", unit, seam = "auto";
     double thickness = 1;
+    std::vector<double> direction;
     std::vector<std::string> methods;
     bool markdown = false, weld = false, keep_largest = false;
 };

@@ -1,14 +1,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
 #include "engine/compare/comparison_report.h"
+#include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/seam_file.h"
 
 namespace spia::cli {
 
@@ -22,9 +24,18 @@ int compare(const CompareArguments& arguments)
     if (arguments.weld)
         read.weld = true;
     read.doctor.keep_largest = arguments.keep_largest;
+    read.seam = seam_options(arguments.seam);
     CompareOptions options;
     options.flatten.material = find_material(arguments.material, assets() / "materials");
     options.flatten.thickness = arguments.thickness;
+    if (!(arguments.thickness > 0) ||
+        !std::isfinite(arguments.thickness)) // here, or it is a failure of one method only
+        throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", arguments.thickness));
+    if (const std::vector<double>& d = arguments.direction; !d.empty()) {
+        options.flatten.direction = Eigen::Vector3d(d[0], d[1], d[2]);
+        if (!options.flatten.direction->allFinite() || !(options.flatten.direction->norm() > 0))
+            throw InputError("the stamping direction must be a finite vector that is not zero");
+    }
     options.methods.clear();
     for (const std::string& method : arguments.methods)
         options.methods.push_back(flat_method(method));

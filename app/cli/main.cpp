@@ -169,6 +169,18 @@ int main(int count, char** values)
     compare_command->add_option("--thickness", comparison.thickness, "for this solver: of the flat sheet")
         ->type_name("MM")
         ->capture_default_str();
+    compare_command
+        ->add_option("--direction", comparison.direction,
+                     "for this solver: stamping direction x,y,z (default: automatic)")
+        ->delimiter(',')
+        ->expected(3);
+    compare_command
+        ->add_option(
+            "--seam", comparison.seam,
+            "where a closed part, a tube or a part with handles is cut open, for all methods: auto (a short "
+            "seam), none, or a file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
+        ->type_name("auto|none|FILE")
+        ->capture_default_str();
     compare_command->add_option("--unit", comparison.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     compare_command->add_flag("--weld", comparison.weld, "join vertices at one place (always done for STL and glTF)");
