@@ -11,6 +11,7 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
@@ -99,7 +100,23 @@ void print_doctor(const PartFile& part)
                    finding.advice.empty() ? "" : "; ", finding.advice);
 }
 
-void print_limits(const LimitsResult& limits)
+void print_spots(const Zones& zones, const PartFile& part)
+{
+    constexpr size_t most = 3;
+    for (size_t k = 0; k < std::min(most, zones.spots.size()); ++k) {
+        const WorstSpot& spot = zones.spots[k];
+        const bool by_curve = spot.zone >= Zone::marginal;
+        fmt::print("{} {:<18} face {} at {:.4g}, {:.4g}, {:.4g} mm: {} {:+.1f} %, strains {:.3f} and {:.3f}\n",
+                   k == 0 ? "worst    " : "         ", name(spot.zone), part.source_face[size_t(spot.face)],
+                   spot.position[0], spot.position[1], spot.position[2],
+                   by_curve                                ? "left to the curve"
+                   : spot.zone == Zone::excessive_thinning ? "thinning"
+                                                           : "thickening",
+                   100 * spot.value, spot.strain_major, spot.strain_minor);
+    }
+}
+
+void print_limits(const LimitsResult& limits, const PartFile& part)
 {
     if (limits.curve)
         fmt::print("limits    FLC0 {:.1f} %, {}\n", 100 * engineering_strain(limits.curve->at_plane_strain()),
@@ -110,6 +127,7 @@ void print_limits(const LimitsResult& limits)
         if (const ZoneShare& share = limits.zones.share[size_t(zone)]; share.faces > 0)
             fmt::print("          {:<18} {:>7} faces, {:5.1f} % of the area\n", name(zone), share.faces,
                        100 * share.share);
+    print_spots(limits.zones, part);
     for (const std::string& note : limits.notes)
         fmt::print("  note: {}\n", note);
 }
@@ -121,6 +139,8 @@ void print_summary(const Session& session)
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
     fmt::print("part      {} triangles, {} boundary loops, {:.6g} mm2\n", part.triangles(), boundary_loops(part).size(),
                area(part));
+    for (const std::string& line : in_words(applied_process(session)))
+        fmt::print("process   {}\n", line);
     fmt::print("blank     {:.6g} x {:.6g} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
                flat.report.energy.size(), flat.report.newton.size(),
                flat.report.converged ? "converged" : "NOT converged");
@@ -130,7 +150,7 @@ void print_summary(const Session& session)
     if (flat.skins)
         fmt::print("skins     major strain up to {:.3f} outside, {:.3f} inside\n",
                    flat.skins->outer.strain_major.maxCoeff(), flat.skins->inner.strain_major.maxCoeff());
-    print_limits(*session.limits);
+    print_limits(*session.limits, *session.part);
     if (!session.grid)
         return;
     const GridResult& grid = session.grid->result;

@@ -12,6 +12,7 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/applied_process.h"
 
 namespace spia {
 namespace {
@@ -208,6 +209,19 @@ Json curve_json(const FormingLimitCurve& curve)
             {"minor_major_logarithmic", points}};
 }
 
+Json piece_limits_json(const std::vector<PieceLimits>& pieces)
+{
+    Json list = Json::array();
+    for (const PieceLimits& piece : pieces)
+        list.push_back({{"name", piece.name},
+                        {"material", piece.material},
+                        {"thickness_mm", piece.thickness},
+                        {"faces", piece.faces},
+                        {"curve", piece.curve ? curve_json(*piece.curve) : Json(nullptr)},
+                        {"margin", piece.margin}});
+    return list;
+}
+
 Json limits_json(const LimitsResult& limits, const PartFile& part)
 {
     const ZoneOptions& settings = limits.settings;
@@ -217,10 +231,46 @@ Json limits_json(const LimitsResult& limits, const PartFile& part)
               {"max_thinning", settings.max_thinning},
               {"max_thickening", settings.max_thickening},
               {"low_strain", settings.low_strain}}},
+            {"pieces", piece_limits_json(limits.pieces)},
             {"zones", zones_json(limits)},
             {"worst_spots", spots_json(limits, part)},
             {"faces_beyond_curve", limits.beyond_curve},
             {"notes", limits.notes}};
+}
+
+Json process_json(const Session& session)
+{
+    if (session.options.flatten.process == ProcessConditions{})
+        return nullptr;
+    const AppliedProcess process = applied_process(session);
+    Json contact = Json::array(), beads = Json::array(), pilots = Json::array(), tailored = Json::array();
+    for (const AppliedContact& each : process.contact)
+        contact.push_back({{"name", each.name},
+                           {"faces", each.faces},
+                           {"area_mm2", each.area_mm2},
+                           {"pressure_MPa", each.pressure_MPa},
+                           {"friction", each.friction},
+                           {"sides", each.sides},
+                           {"friction_force_N", each.friction_force_N}});
+    for (const AppliedBead& each : process.drawbeads)
+        beads.push_back({{"name", each.name}, {"length_mm", each.length_mm}, {"force_N_mm", each.force_N_mm}});
+    for (const AppliedPilot& each : process.pilots)
+        pilots.push_back({{"name", each.name}, {"places", each.places}});
+    for (const AppliedPiece& each : process.tailored)
+        tailored.push_back({{"name", each.name},
+                            {"material", each.material},
+                            {"thickness_mm", each.thickness_mm},
+                            {"faces", each.faces},
+                            {"area_mm2", each.area_mm2}});
+    Json edge, rolling;
+    if (process.edge_restraint > 0)
+        edge = {{"share", process.edge_restraint},
+                {"lock_force_N_mm", process.lock_force_N_mm},
+                {"force_N_mm", process.edge_restraint * process.lock_force_N_mm}};
+    if (const auto& r = process.rolling)
+        rolling = {(*r)[0], (*r)[1], (*r)[2]};
+    return {{"contact", contact}, {"drawbeads", beads},   {"edge_restraint", edge},
+            {"pilots", pilots},   {"tailored", tailored}, {"rolling", rolling}};
 }
 
 Json grid_json(const Session& session)
@@ -314,6 +364,7 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["material"] = session.options.flatten.material.name;
         json["hardening"] = Json::parse(hardening_text(session.options.flatten.material.hardening));
         json["sheet_thickness_mm"] = session.options.flatten.thickness;
+        json["process"] = process_json(session);
         json["solve"] = solve_json(session.blank->report, session.blank->stamping);
         json["blank"] = blank_json(*session.part, *session.blank);
         json["result"] = result_json(*session.blank);

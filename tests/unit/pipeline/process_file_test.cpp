@@ -1,10 +1,14 @@
 #include "engine/pipeline/process_file.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
 #include "engine/forming/drawbead.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/report.h"
+#include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -96,6 +100,71 @@ TEST(ProcessFile, WhatIsWrongIsNamedWithItsPlace)
     says(R"({"edge_restraint": 2})", "/edge_restraint is 2");
     says(R"({"tailored": [{"faces": [101], "material": "gold", "thickness": 1}]})", "gold");
     says(R"({"rolling": [1, 0]})", "/rolling must be three numbers");
+}
+
+TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
+{
+    const ScratchFolder folder;
+    const TriMesh mesh = shapes::rectangle(50, 40, 5, 4);
+    shapes::write_mesh(folder / "part.obj", mesh);
+    Session session;
+    session.file = folder / "part.obj";
+    session.options.flatten.material = find_material("mild_steel", materials);
+    session = run_stage(Stage::solve, run_stage(Stage::read, session));
+    const auto json = [&] { return nlohmann::json::parse(report_json(session, {}, 0))["process"]; };
+    EXPECT_TRUE(json().is_null());
+    EXPECT_TRUE(in_words(applied_process(session)).empty());
+
+    put(folder / "p.json", R"({
+      "contact": [{"name": "binder", "box": [[0, 0, -1], [10, 40, 1]], "force_N": 800, "friction": 0.1},
+                  {"name": "pad", "faces": [39], "pressure_MPa": 0.5, "friction": 0.2, "sides": 1}],
+      "drawbeads": [{"name": "b", "line": [[20, 5, 0], [20, 35, 0], [24, 32, 0]], "force_N_mm": 90}],
+      "edge_restraint": 0.1, "pilots": [{"line": [[0, 0, 0]]}],
+      "tailored": [{"name": "all", "box": [[0, 0, -1], [50, 40, 1]], "material": "dp600", "thickness": 1.4},
+                   {"name": "half", "box": [[20, 0, -1], [50, 40, 1]], "thickness": 0.7}],
+      "rolling": [0, 1, 0] })");
+    const FlattenOptions& options = session.options.flatten;
+    session.options.flatten.process =
+        read_process(folder / "p.json", *session.part, options.material, options.thickness, materials);
+    session = judge_limits(session);
+    const auto process = json();
+    // 800 N on 10 x 40 mm: 2 MPa; 2 sides * 0.1 * 800 N
+    const auto& binder = process["contact"][0];
+    EXPECT_EQ(binder["name"], "binder");
+    EXPECT_EQ(binder["faces"], 8);
+    EXPECT_NEAR(binder["area_mm2"].get<double>(), 400, 1e-9);
+    EXPECT_NEAR(binder["pressure_MPa"].get<double>(), 2, 1e-9);
+    EXPECT_NEAR(binder["friction_force_N"].get<double>(), 160, 1e-9);
+    EXPECT_EQ(binder["friction"], 0.1);
+    EXPECT_EQ(binder["sides"], 2);
+    EXPECT_NEAR(process["contact"][1]["friction_force_N"].get<double>(), 0.2 * 0.5 * 50, 1e-9); // half of 10 x 10 mm
+    EXPECT_EQ(process["drawbeads"][0]["force_N_mm"], 90);
+    EXPECT_NEAR(process["drawbeads"][0]["length_mm"].get<double>(), 35, 1e-9);
+    const double lock = lock_force(options.material, options.thickness);
+    EXPECT_EQ(process["edge_restraint"]["share"], 0.1);
+    EXPECT_NEAR(process["edge_restraint"]["lock_force_N_mm"].get<double>(), lock, 1e-9);
+    EXPECT_NEAR(process["edge_restraint"]["force_N_mm"].get<double>(), 0.1 * lock, 1e-9);
+    EXPECT_EQ(process["pilots"][0]["places"], 1);
+    EXPECT_EQ(process["tailored"][0]["faces"], 16); // what the later one leaves
+    EXPECT_NEAR(process["tailored"][0]["area_mm2"].get<double>(), 800, 1e-9);
+    EXPECT_EQ(process["tailored"][1]["thickness_mm"], 0.7);
+    EXPECT_EQ(process["tailored"][1]["material"], options.material.name);
+    EXPECT_NEAR(process["tailored"][1]["area_mm2"].get<double>(), 1200, 1e-9);
+    EXPECT_EQ(process["rolling"], nlohmann::json({0., 1., 0.}));
+    const auto lines = in_words(applied_process(session));
+    EXPECT_EQ(lines.size(), 8u);
+    EXPECT_EQ(lines[0], "contact binder: 2 MPa on 8 faces, friction 0.1 on 2 sides, holds up to 160 N");
+
+    // The pieces are judged by their own curves.
+    const auto limits = nlohmann::json::parse(report_json(session, {}, 0))["limits"];
+    const FormingLimitCurve thin = keeler_brazier(0.7, uniform_strain(options.material.hardening, 0.99));
+    EXPECT_EQ(limits["pieces"][0]["faces"], 16);
+    EXPECT_EQ(limits["pieces"][1]["margin"], 0.1);
+    EXPECT_NEAR(limits["pieces"][1]["curve"]["flc0"].get<double>(), engineering_strain(thin.at_plane_strain()), 1e-12);
+    for (int f = 0; f < mesh.triangles(); ++f)
+        if (session.part->mesh.position(0, Eigen::all)(session.part->mesh.triangle.col(f)).mean() > 20) {
+            EXPECT_NEAR(session.limits->zones.distance[f], engineering_strain(thin.at_plane_strain()), 1e-3);
+        }
 }
 
 } // namespace spia

@@ -1,0 +1,101 @@
+#include "engine/pipeline/applied_process.h"
+
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+AppliedContact applied(const ContactRegion& region, const Eigen::Matrix3Xd& area_vector,
+                       const Eigen::Vector3d& direction)
+{
+    double area = 0, seen = 0;
+    for (const int f : region.faces) {
+        area += area_vector.col(f).norm();
+        seen += std::abs(area_vector.col(f).dot(direction));
+    }
+    const double pressure = region.pressure_MPa ? *region.pressure_MPa : *region.force_N / seen;
+    return {region.name,
+            int(region.faces.size()),
+            area,
+            pressure,
+            region.friction,
+            region.sides,
+            region.sides * region.friction * pressure * area};
+}
+
+double length(const std::vector<Eigen::Vector3d>& line)
+{
+    double sum = 0;
+    for (size_t k = 1; k < line.size(); ++k)
+        sum += (line[k] - line[k - 1]).norm();
+    return sum;
+}
+
+std::vector<AppliedPiece> applied(const std::vector<TailoredPiece>& pieces, const Eigen::Matrix3Xd& area_vector)
+{
+    std::vector<int> piece_of(size_t(area_vector.cols()), -1);
+    std::vector<AppliedPiece> result;
+    for (const TailoredPiece& piece : pieces) {
+        for (const int f : piece.faces)
+            piece_of[size_t(f)] = int(result.size());
+        result.push_back({piece.name, piece.material.name, piece.thickness, 0, 0});
+    }
+    for (size_t f = 0; f < piece_of.size(); ++f)
+        if (piece_of[f] >= 0) {
+            ++result[size_t(piece_of[f])].faces;
+            result[size_t(piece_of[f])].area_mm2 += area_vector.col(Eigen::Index(f)).norm();
+        }
+    return result;
+}
+
+} // namespace
+
+AppliedProcess applied_process(const Session& session)
+{
+    const FlattenOptions& options = session.options.flatten;
+    const ProcessConditions& process = options.process;
+    const Eigen::Matrix3Xd area_vector = area_vectors(session.part->mesh);
+    AppliedProcess out;
+    for (const ContactRegion& region : process.contact)
+        out.contact.push_back(applied(region, area_vector, session.blank->stamping.direction));
+    for (const Drawbead& bead : process.drawbeads)
+        out.drawbeads.push_back({bead.name, length(bead.line), bead.force_N_mm});
+    out.edge_restraint = process.edge_restraint;
+    out.lock_force_N_mm = lock_force(options.material, options.thickness);
+    for (const Pilot& pilot : process.pilots)
+        out.pilots.push_back({pilot.name, int(pilot.line.size())});
+    out.tailored = applied(process.tailored, area_vector);
+    out.rolling = process.rolling;
+    return out;
+}
+
+std::vector<std::string> in_words(const AppliedProcess& process)
+{
+    std::vector<std::string> lines;
+    for (const AppliedContact& each : process.contact)
+        lines.push_back(fmt::format("contact {}: {:.4g} MPa on {} faces, friction {:.4g} on {}, holds up to {:.4g} N",
+                                    each.name, each.pressure_MPa, each.faces, each.friction,
+                                    each.sides == 1 ? "1 side" : "2 sides", each.friction_force_N));
+    for (const AppliedBead& each : process.drawbeads)
+        lines.push_back(
+            fmt::format("drawbead {}: {:.4g} N/mm over {:.4g} mm", each.name, each.force_N_mm, each.length_mm));
+    if (process.edge_restraint > 0)
+        lines.push_back(fmt::format("edge restraint {:.4g} % of the lock force of {:.4g} N/mm: {:.4g} N/mm",
+                                    100 * process.edge_restraint, process.lock_force_N_mm,
+                                    process.edge_restraint * process.lock_force_N_mm));
+    for (const AppliedPilot& each : process.pilots)
+        lines.push_back(fmt::format("pilot {}: {}", each.name,
+                                    each.places == 1 ? "1 place" : fmt::format("{} places", each.places)));
+    for (const AppliedPiece& each : process.tailored)
+        lines.push_back(fmt::format("tailored piece {}: {}, {:.4g} mm, {} faces, {:.6g} mm2", each.name, each.material,
+                                    each.thickness_mm, each.faces, each.area_mm2));
+    if (process.rolling)
+        lines.push_back(fmt::format("rolled along {:.4g}, {:.4g}, {:.4g}", (*process.rolling)[0], (*process.rolling)[1],
+                                    (*process.rolling)[2]));
+    return lines;
+}
+
+} // namespace spia
