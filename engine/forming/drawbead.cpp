@@ -67,8 +67,8 @@ double drawbead_force(const BeadShape& bead, const Material& material, double th
     const double angle = std::acos(std::max(0.0, 1 - bead.depth / (on_bead + on_shoulder)));
     if (angle == 0)
         return 0;
-    // Before it lies on the tools the sheet spans crest and shoulder, which are on_bead + on_shoulder apart, as a beam that
-    // stays level at both ends and is pushed aside by the depth d at one: w'' = 6 d / span^2 there, falling to zero midway.
+    // Before it lies on the tools the sheet spans crest and shoulder, which are on_bead + on_shoulder apart, as a beam
+    // that stays level at both ends and is pushed aside by the depth d at one: w'' = 6 d / span^2 there, zero midway.
     // What of it is within the elastic limit springs back and costs nothing; it is never sharper than the tool.
     const double span = on_bead + on_shoulder,
                  wave = 6 * bead.depth / (span * span) - elastic_curvature(material, thickness);

@@ -125,8 +125,8 @@ std::vector<WorstSpot> worst_spots(const TriMesh& part, const SheetFields& face,
     return spots;
 }
 
-/// Densities and moduli of metals for sheet lie far apart: steel 7850 kg/m3 and 205 GPa, nickel 8900 and 205, copper 8900
-/// and 120, titanium 4500 and 110, aluminium 2700 and 70.
+/// Densities and moduli of metals for sheet lie far apart: steel 7850 kg/m3 and 205 GPa, nickel 8900 and 205, copper
+/// 8900 and 120, titanium 4500 and 110, aluminium 2700 and 70.
 bool is_steel(const Material& material)
 {
     return material.young_MPa > 170000 && material.density_kg_m3 > 7600 && material.density_kg_m3 < 8100;
@@ -167,8 +167,8 @@ std::optional<FormingLimitCurve> curve_for(const Material& material, double thic
     constexpr double of_ferrite = 0.3; // IF steels, the softest ferritic ones, strain uniformly up to 0.25
     if (is_steel(material) && uniform > of_ferrite)
         notes.push_back(fmt::format(
-            "{} strains uniformly up to {:.2f}, as austenitic and TRIP steels do; Keeler-Brazier is made for low-carbon "
-            "steel, not for them: give measured points",
+            "{} strains uniformly up to {:.2f}, as austenitic and TRIP steels do; Keeler-Brazier is made for low-carbon"
+            " steel, not for them: give measured points",
             material.name, uniform));
     return keeler_brazier(thickness, options.n ? *options.n : uniform);
 }
@@ -247,7 +247,7 @@ PieceLimits limits_of(const TailoredPiece& piece, int faces, const Material& bas
     return limits;
 }
 
-/// Counts the faces beyond the ends of their curves, and says so where they are many: prolonged lines are no measurement.
+/// Counts the faces beyond the ends of their curves, and says so where they are many: prolonged lines are not measured.
 void count_beyond(const SheetFields& face, const std::vector<Judge>& judges, const std::vector<int>& judge_of,
                   bool by_points, LimitsResult& out)
 {
@@ -292,7 +292,8 @@ std::string definition(Zone zone, const ZoneOptions& options)
                            100 * risk_share * options.margin);
     case Zone::marginal:
         return fmt::format(
-            "below the forming limit curve by less than {:.4g} percentage points of engineering major strain, the margin",
+            "below the forming limit curve by less than {:.4g} percentage points of engineering major strain, "
+            "the margin",
             100 * options.margin);
     case Zone::excessive_thinning: return fmt::format("thinner by more than {:.4g} %", 100 * options.max_thinning);
     case Zone::strong_thickening: return fmt::format("thicker by more than {:.4g} %", 100 * options.max_thickening);

@@ -294,7 +294,7 @@ CutPart cut_given(const TriMesh& part, const std::vector<std::vector<int>>& path
     const Rims rims = rims_of(result.mesh, boundary_loops(result.mesh));
     if (cut_bottle(result.mesh, rims))
         result.why +=
-            "; what is left is still a bottle with a narrow mouth, which would have been cut open to its farthest point";
+            "; what is left is still a bottle, which would have been cut open from its mouth to its farthest point";
     else if (cut_tube(result.mesh, rims))
         result.why += "; what is left is still a tube, which would have been cut open from end to end";
     return result;

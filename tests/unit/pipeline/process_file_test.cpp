@@ -158,6 +158,7 @@ TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
     // The pieces are judged by their own curves.
     const auto limits = nlohmann::json::parse(report_json(session, {}, 0))["limits"];
     const FormingLimitCurve thin = keeler_brazier(0.7, uniform_strain(options.material.hardening, 0.99));
+    ASSERT_EQ(limits["pieces"].size(), 2u);
     EXPECT_EQ(limits["pieces"][0]["faces"], 16);
     EXPECT_EQ(limits["pieces"][1]["margin"], 0.1);
     EXPECT_NEAR(limits["pieces"][1]["curve"]["flc0"].get<double>(), engineering_strain(thin.at_plane_strain()), 1e-12);
