@@ -18,7 +18,7 @@ namespace {
 class RigidMotion {
 public:
     RigidMotion(const TriMesh& part, const std::vector<Element>& element, const ExternalForces& external)
-        : below_(external.plane.transpose() * (part.position.colwise() - external.origin))
+        : below_(external.plane.transpose() * part.position)
     {
         Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
         for (int f = 0; f < part.triangles(); ++f)

@@ -17,15 +17,22 @@ struct HeldVertex {
     Eigen::Vector2d place; ///< mm, in the blank
 };
 
-/// What acts on the formed part from outside, all tangential to it. Slip is the way from blank to part, x - X; a force
-/// against it fades out smoothly below `full_slip`.
+/// What acts on the formed part from outside, all tangential to it, against the slip of the sheet on the tool. Slip is a way in
+/// the plane of the blank: from where the material was, X, to where it is seen along the stamping direction, or for a tool that
+/// travels to where it would be had it stuck to the tool. The smallest turn of that plane into the sheet's tangent plane
+/// carries it there, so the slip has no part of the stroke in it. A force fades out smoothly below `full_slip`.
 struct ExternalForces {
-    Eigen::VectorXd traction; ///< #F, MPa (N/mm2 of the part): friction against the slip; empty where there is none
+    Eigen::VectorXd traction;   ///< #F, MPa (N/mm2 of the part): friction on tools that rest; empty where there is none
+    Eigen::VectorXd travelling; ///< likewise on tools that travel with the part: punch and pad
+    Eigen::Matrix2Xd stuck;     ///< 2 by #V, mm: see stuck_places(); where something travels
     std::vector<Restraint> restraint;                                            ///< several of one vertex add up
     std::vector<HeldVertex> held;                                                ///< each vertex once
     Eigen::Matrix<double, 3, 2> plane = Eigen::Matrix<double, 3, 2>::Identity(); ///< axes of the blank in space
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< point of the blank's (0, 0) in space, up to its height
-    double full_slip = 0.1;                           ///< mm
+    double full_slip = 0.1;                                                      ///< mm
+
+    bool any() const { return traction.size() > 0 || travelling.size() > 0 || !restraint.empty(); }
+    /// A share of all forces; what is held stays held.
+    ExternalForces scaled(double share) const;
 };
 
 /// A force in space and how it changes with the vertex's place on the blank.
@@ -46,9 +53,10 @@ public:
 
 private:
     const ExternalForces& forces_;
-    const Eigen::Matrix3Xd& position_;
-    Eigen::Matrix3Xd normal_;
-    Eigen::VectorXd friction_;                 ///< N, per vertex; empty where nothing acts at all
+    Eigen::Matrix2Xd below_; ///< the part seen along the stamping direction
+    std::vector<Eigen::Matrix<double, 3, 2>>
+        into_sheet_;                           ///< per vertex: ways in the blank's plane to its tangent plane
+    Eigen::VectorXd friction_, travelling_;    ///< N, per vertex; empty where nothing acts at all
     std::vector<std::vector<Restraint>> line_; ///< by vertex
     std::vector<char> acts_;
 };

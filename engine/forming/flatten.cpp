@@ -42,6 +42,9 @@ StampingDirection stamping(const TriMesh& part, const FlattenOptions& options)
     StampingDirection given{options.direction->normalized(), 0, true, 0};
     double hidden = 0, area = 0;
     const Eigen::Matrix3Xd area_vector = area_vectors(part);
+    if (area_vector.rowwise().sum().dot(given.direction) <
+        0) // seen from the inner side: a mirrored blank would be wanted
+        given.direction *= -1;
     for (int f = 0; f < part.triangles(); ++f) {
         const double size = area_vector.col(f).norm(), cosine = area_vector.col(f).dot(given.direction) / size;
         given.steepest_angle = std::max(given.steepest_angle, std::acos(std::clamp(cosine, -1.0, 1.0)));
@@ -51,18 +54,6 @@ StampingDirection stamping(const TriMesh& part, const FlattenOptions& options)
     given.height_field = hidden == 0;
     given.hidden_area_fraction = hidden / area;
     return given;
-}
-
-/// The process on a part that was moved.
-ProcessConditions moved(ProcessConditions process, const Eigen::Vector3d& by)
-{
-    for (Drawbead& bead : process.drawbeads)
-        for (Eigen::Vector3d& point : bead.line)
-            point += by;
-    for (Pilot& pilot : process.pilots)
-        for (Eigen::Vector3d& point : pilot.line)
-            point += by;
-    return process;
 }
 
 /// Incompressibility, from thickness and areas measured anew in space and in the plane.
@@ -106,9 +97,8 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     result.stamping = stamping(part, options);
     const Eigen::Matrix<double, 3, 2> plane = blank_plane(result.stamping.direction);
 
-    const ExternalForces external =
-        external_forces(moved(options.process, -centre), part, options.material, options.thickness, plane,
-                        result.stamping.direction * blank_height(options.process, part, result.stamping.direction));
+    ExternalForces external =
+        external_forces(options.process, original, options.material, options.thickness, plane, centre);
 
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(part.triangle, part.vertices());

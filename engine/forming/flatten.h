@@ -17,11 +17,12 @@ namespace spia {
 
 struct FlattenOptions {
     Material material;
-    double thickness = 1;                     ///< mm, of the flat sheet
-    std::optional<Eigen::Vector3d> direction; ///< stamping direction; chosen automatically if not given
-    ProcessConditions process;                ///< what the tools do; none: the sheet is free
-    StressCurve::Options curve;               ///< where the hardening curve is trusted and how it goes on
-    bool skins = false;                       ///< also the strains of both skins, with bending
+    double thickness = 1; ///< mm, of the flat sheet
+    std::optional<Eigen::Vector3d>
+        direction;              ///< stamping direction, either way along it; chosen automatically if not given
+    ProcessConditions process;  ///< what the tools do; none: the sheet is free
+    StressCurve::Options curve; ///< where the hardening curve is trusted and how it goes on
+    bool skins = false;         ///< also the strains of both skins, with bending
     int most_energy_steps = 200;
     int most_newton_steps = 60;
     double tolerance = 1e-9; ///< on |R| relative to the nodal forces at the yield stress
@@ -47,7 +48,9 @@ struct SolveReport {
     StartMethod start;
     std::vector<NewtonStep> energy; ///< steps of the energy stage (all its passes in a row)
     std::vector<NewtonStep> newton; ///< steps of the virtual-work stage
-    double residual = 0;            ///< |R| relative to the nodal forces at the yield stress
+    double process_share =
+        1;               ///< of the forces of the tools that are in the blank: below 1 the sheet does not bear them
+    double residual = 0; ///< |R| relative to the nodal forces at the yield stress
     Eigen::Vector3d resultant =
         Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; zero where pins hold it
     double seconds = 0;

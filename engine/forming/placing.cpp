@@ -1,10 +1,7 @@
 #include "engine/forming/placing.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
-
-#include "engine/mesh/topology.h"
 
 namespace spia {
 
@@ -17,25 +14,6 @@ Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction)
     plane.col(0) = x.normalized();
     plane.col(1) = direction.cross(plane.col(0));
     return plane;
-}
-
-double blank_height(const ProcessConditions& process, const TriMesh& part, const Eigen::Vector3d& direction)
-{
-    double sum = 0, count = 0;
-    const auto take = [&](int v) {
-        sum += part.position.col(v).dot(direction);
-        ++count;
-    };
-    for (const ContactRegion& region : process.contact)
-        if (region.sides == 2)
-            for (const int f : region.faces)
-                for (int a = 0; a < 3 && f >= 0 && f < part.triangles(); ++a)
-                    take(part.triangle(a, f));
-    if (count == 0) {
-        const std::vector<std::vector<int>> loops = boundary_loops(part);
-        std::for_each(loops.front().begin(), loops.front().end(), take);
-    }
-    return sum / count;
 }
 
 void place_under_part(const TriMesh& part, const std::vector<Element>& element,

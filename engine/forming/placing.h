@@ -8,9 +8,6 @@ namespace spia {
 /// Axes of the blank in space: x as near to the part's own x axis as the plane allows.
 Eigen::Matrix<double, 3, 2> blank_plane(const Eigen::Vector3d& direction);
 
-/// Where the blank lies before forming: on the binder if there is one, else where the part's outer edge is.
-double blank_height(const ProcessConditions& process, const TriMesh& part, const Eigen::Vector3d& direction);
-
 /// Turns and moves the blank so that it lies, area by area, as near as it can under the part seen along the stamping
 /// direction. [Kabsch 1976 in the plane]
 void place_under_part(const TriMesh& part, const std::vector<Element>& element,

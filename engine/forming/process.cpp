@@ -2,13 +2,15 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "engine/core/error.h"
-#include "engine/mesh/closest_point.h"
+#include "engine/forming/line_on_part.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -30,68 +32,11 @@ void require_positive(const std::string& what, double value, const char* unit)
         throw InputError(fmt::format("{} is {} {}; it must be positive", what, value, unit));
 }
 
-double mean_edge(const TriMesh& part)
+/// Of the tools that rest and of those that travel.
+void add_tractions(const ProcessConditions& process, const TriMesh& part, const Eigen::Vector3d& direction,
+                   ExternalForces& out)
 {
-    double sum = 0;
-    for (int f = 0; f < part.triangles(); ++f)
-        for (int a = 0; a < 3; ++a)
-            sum += (part.position.col(part.triangle((a + 1) % 3, f)) - part.position.col(part.triangle(a, f))).norm();
-    return sum / (3 * part.triangles());
-}
-
-/// Places of a polyline on the part, close enough together that none of the faces it crosses is left out, each with
-/// the length of line it stands for and the line's direction.
-struct LinePlace {
-    ClosestPoint on_part;
-    double length; ///< mm
-    Eigen::Vector3d along;
-};
-
-class LineOnPart {
-public:
-    explicit LineOnPart(const TriMesh& part)
-        : search_(part), spacing_(0.25 * mean_edge(part)),
-          reach_(std::max(4 * spacing_,
-                          0.01 * (part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff()).norm()))
-    {
-    }
-
-    ClosestPoint at(const std::string& what, const Eigen::Vector3d& point) const
-    {
-        const ClosestPoint found = search_.nearest(point);
-        if (!point.allFinite() || found.distance > reach_)
-            throw InputError(
-                fmt::format("{}: the place ({:.6g}, {:.6g}, {:.6g}) is {:.3g} mm off the part; it must lie on it", what,
-                            point[0], point[1], point[2], found.distance));
-        return found;
-    }
-
-    std::vector<LinePlace> places(const std::string& what, const std::vector<Eigen::Vector3d>& line) const
-    {
-        std::vector<LinePlace> result;
-        for (size_t k = 0; k + 1 < line.size(); ++k) {
-            const Eigen::Vector3d way = line[k + 1] - line[k];
-            const int pieces = std::max(1, int(std::ceil(way.norm() / spacing_)));
-            for (int i = 0; i < pieces && way.norm() > 0; ++i)
-                result.push_back(
-                    {at(what, line[k] + way * ((i + 0.5) / pieces)), way.norm() / pieces, way.normalized()});
-        }
-        if (result.empty())
-            throw InputError(fmt::format("{} needs a line of at least two different places", what));
-        return result;
-    }
-
-private:
-    ClosestPointSearch search_;
-    double spacing_, reach_; ///< mm
-};
-
-Eigen::VectorXd tractions(const ProcessConditions& process, const TriMesh& part, const Eigen::Vector3d& direction)
-{
-    if (process.contact.empty())
-        return {};
     const Eigen::Matrix3Xd area_vector = area_vectors(part);
-    Eigen::VectorXd traction = Eigen::VectorXd::Zero(part.triangles());
     for (const ContactRegion& region : process.contact) {
         const std::string what = fmt::format("the contact region \"{}\"", region.name);
         require_faces(what, region.faces, part);
@@ -103,10 +48,13 @@ Eigen::VectorXd tractions(const ProcessConditions& process, const TriMesh& part,
         double pressure = 0;
         if (region.force_N) {
             require_positive("the force of " + what, *region.force_N, "N");
-            double seen = 0;
-            for (const int f : region.faces)
+            double seen = 0, area = 0;
+            for (const int f : region.faces) {
                 seen += std::abs(area_vector.col(f).dot(direction));
-            if (!(seen > 0))
+                area += area_vector.col(f).norm();
+            }
+            constexpr double least_share = 1e-3; // a wall within 0.06 degrees of the stamping direction
+            if (!(seen > least_share * area))
                 throw InputError(fmt::format("{} is not seen along the stamping direction: a force cannot press there; "
                                              "give a pressure",
                                              what));
@@ -115,10 +63,12 @@ Eigen::VectorXd tractions(const ProcessConditions& process, const TriMesh& part,
             require_positive("the pressure of " + what, *region.pressure_MPa, "MPa");
             pressure = *region.pressure_MPa;
         }
+        Eigen::VectorXd& traction = region.sides == 2 ? out.traction : out.travelling;
+        if (traction.size() == 0)
+            traction = Eigen::VectorXd::Zero(part.triangles());
         for (const int f : region.faces)
             traction[f] += region.sides * region.friction * pressure;
     }
-    return traction;
 }
 
 /// Adds up what comes to one vertex; lines that come from both ends of an edge do not cancel.
@@ -160,18 +110,37 @@ void add_drawbead(const Drawbead& bead, const TriMesh& part, const LineOnPart& l
     sum.append_to(restraint);
 }
 
-void add_edge_restraint(double force, const TriMesh& part, const Eigen::Matrix3Xd& normal,
+/// @param force of each face, N/mm
+void add_edge_restraint(const Eigen::VectorXd& force, const TriMesh& part, const Eigen::Matrix3Xd& normal,
                         std::vector<Restraint>& restraint)
 {
     RestraintSum sum;
     const std::vector<int> outline = boundary_loops(part).front();
-    for (size_t k = 0; k < outline.size(); ++k) {
-        const int a = outline[k], b = outline[(k + 1) % outline.size()];
-        const Eigen::Vector3d edge = part.position.col(b) - part.position.col(a);
-        for (const int v : {a, b}) {
+    std::map<std::pair<int, int>, int> face_of; // of the outline's edges
+    for (size_t k = 0; k < outline.size(); ++k)
+        face_of[{outline[k], outline[(k + 1) % outline.size()]}] = -1;
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int c = 0; c < 3; ++c)
+            if (const auto edge = face_of.find({part.triangle(c, f), part.triangle((c + 1) % 3, f)});
+                edge != face_of.end())
+                edge->second = f;
+    const auto key = [&](int a, int b) {
+        std::array<double, 6> places;
+        Eigen::Map<Eigen::Vector3d>(places.data()) = part.position.col(a);
+        Eigen::Map<Eigen::Vector3d>(places.data() + 3) = part.position.col(b);
+        return places;
+    };
+    std::set<std::array<double, 6>> sides;
+    for (const auto& [ends, unused] : face_of)
+        sides.insert(key(ends.first, ends.second));
+    for (const auto& [ends, face] : face_of) {
+        if (sides.contains(key(ends.second, ends.first))) // the other side of a seam lies here: no edge of the part
+            continue;
+        const Eigen::Vector3d edge = part.position.col(ends.second) - part.position.col(ends.first);
+        for (const int v : {ends.first, ends.second}) {
             const Eigen::Vector3d across = edge.cross(normal.col(v));
             if (across.norm() > 0)
-                sum.add(v, 0.5 * force * edge.norm() * across.normalized());
+                sum.add(v, 0.5 * force[face] * edge.norm() * across.normalized());
         }
     }
     sum.append_to(restraint);
@@ -194,6 +163,19 @@ void add_pilot(const Pilot& pilot, const TriMesh& part, const LineOnPart& lines,
         if (std::none_of(held.begin(), held.end(), [&](const HeldVertex& h) { return h.vertex == v; }))
             held.push_back({v, plane.transpose() * (part.position.col(v) - origin)});
     }
+}
+
+/// Of each face's own sheet, N/mm.
+Eigen::VectorXd lock_forces(const ProcessConditions& process, const TriMesh& part, const Material& material,
+                            double thickness)
+{
+    Eigen::VectorXd force = Eigen::VectorXd::Constant(part.triangles(), lock_force(material, thickness));
+    for (const TailoredPiece& piece : process.tailored) {
+        const double own = lock_force(piece.material, piece.thickness);
+        for (const int f : piece.faces)
+            force[f] = own;
+    }
+    return force;
 }
 
 } // namespace
@@ -242,14 +224,13 @@ ExternalForces external_forces(const ProcessConditions& process, const TriMesh& 
 {
     ExternalForces out;
     out.plane = plane;
-    out.origin = origin;
-    out.traction = tractions(process, part, plane.col(0).cross(plane.col(1)));
+    add_tractions(process, part, plane.col(0).cross(plane.col(1)), out);
     if (!(process.edge_restraint >= 0 && process.edge_restraint <= 1))
         throw InputError(fmt::format("the edge restraint is {} of the lock force; it must be between 0 and 1",
                                      process.edge_restraint));
     if (process.edge_restraint > 0)
-        add_edge_restraint(process.edge_restraint * lock_force(material, thickness), part, vertex_normals(part),
-                           out.restraint);
+        add_edge_restraint(process.edge_restraint * lock_forces(process, part, material, thickness), part,
+                           vertex_normals(part), out.restraint);
     if (process.drawbeads.empty() && process.pilots.empty())
         return out;
     const LineOnPart lines(part);

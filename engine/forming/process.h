@@ -9,7 +9,8 @@
 
 namespace spia {
 
-/// Tools press on these faces and rub against the slip: a binder on both sides of the sheet, a pad or the punch on one.
+/// Tools press on these faces and rub against the slip: a binder, which rests, on both sides of the sheet; a pad or the punch,
+/// which travel with the part's middle, on one.
 /// The traction is sides * friction * pressure [Coulomb]; given as a force, the pressure is that force over the faces' area
 /// seen along the stamping direction.
 struct ContactRegion {

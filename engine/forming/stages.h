@@ -11,7 +11,7 @@ struct Job {
     const TriMesh& part;
     const std::vector<Element>& element;
     const FlattenOptions& options;
-    const ExternalForces& external;
+    ExternalForces& external; ///< what sticks to travelling tools is found on the way
     const Eigen::Matrix<double, 3, 2>& plane; ///< axes of the blank in space
     BlockMatrix& matrix;
     Cholesky& cholesky;

@@ -5,19 +5,11 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
+#include "engine/forming/smallest_turn.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
-
-/// The smallest rotation that takes unit vector `from` to unit vector `to`, applied to v. Where they are opposite
-/// (a sheet folded flat on itself) the turn is not unique; the guarded divisor then picks none in particular.
-Eigen::Vector3d turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& v)
-{
-    const Eigen::Vector3d w = from.cross(to);
-    const double divisor = std::max(1 + from.dot(to), 1e-6);
-    return v + w.cross(v) + w.cross(w.cross(v)) / divisor;
-}
 
 /// The symmetric part with its negative eigenvalues left out.
 Eigen::Matrix2d definite(const Eigen::Matrix2d& K)
@@ -93,7 +85,7 @@ VirtualWork::VirtualWork(const TriMesh& part, const std::vector<Element>& elemen
         for (int a = 0; a < 3; ++a)
             for (int k = 0; k < 2; ++k)
                 turned_[size_t(f)][size_t(a)].col(k) =
-                    turn(face_normal, normal_.col(part.triangle(a, f)), frame.col(k));
+                    smallest_turn(face_normal, normal_.col(part.triangle(a, f)), frame.col(k));
     }
 }
 

@@ -1,10 +1,15 @@
 #include <Eigen/Dense>
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
+#include <limits>
 
+#include "engine/core/error.h"
 #include "engine/forming/flatten.h"
+#include "engine/mesh/topology.h"
 #include "tests/support/developable.h"
 #include "tests/support/revolved.h"
+#include "tests/support/square_cup.h"
 
 namespace spia {
 namespace {
@@ -101,6 +106,164 @@ TEST(Process, AStripOverABinderCarriesTheSumOfFrictionAndBead)
     for (int f = 0; f < part.mesh.triangles(); ++f)
         largest = std::max(largest, result.face.strain_major[f]);
     EXPECT_GT(largest, 0.005); // it is no trivial state
+}
+
+namespace {
+
+/// A strip bent to a quarter of a cylinder; with r = 0 tension along it does not narrow it.
+struct BentStrip {
+    shapes::DevelopablePart part = shapes::quarter_cylinder({.radius = 50, .length = 60, .triangles = 6000});
+    double half = 0;             ///< mm, from the middle to the ends
+    Eigen::VectorXd from_middle; ///< mm along the strip, of each face, of both triangles of a cell alike
+
+    BentStrip()
+    {
+        const Eigen::Vector2d length = part.flat.rowwise().maxCoeff() - part.flat.rowwise().minCoeff();
+        const int along = std::abs(length[0] - 60) < 1e-6 ? 1 : 0; // the other one is the cylinder's length
+        const Eigen::VectorXd s = part.flat.row(along);
+        const double middle = (s.maxCoeff() + s.minCoeff()) / 2;
+        half = s.maxCoeff() - middle;
+        from_middle.resize(part.mesh.triangles());
+        for (int f = 0; f < part.mesh.triangles(); ++f) {
+            const Eigen::Vector3d at = s(part.mesh.triangle.col(f)).array() - middle;
+            from_middle[f] = 0.5 * std::abs(at.maxCoeff() + at.minCoeff());
+        }
+    }
+    /// That the strain in the outer half is that of a force per length: in the mean within 1 %, of each face within a share.
+    void expect(const FlattenOptions& options, const std::function<double(double)>& force, double each) const
+    {
+        const FlattenResult result = flatten(part.mesh, options);
+        ASSERT_EQ(result.report.system, SolvedSystem::strict) << result.report.reason;
+        const StressCurve curve(options.material.hardening, options.material.young_MPa, options.curve);
+        double found = 0, wanted = 0;
+        for (int f = 0; f < part.mesh.triangles(); ++f)
+            if (from_middle[f] > half / 2 && from_middle[f] < 0.9 * half) {
+                const double expected = strip_strain(curve, options.thickness, force(from_middle[f]));
+                EXPECT_NEAR(result.face.strain_major[f], expected, each * expected + 3e-6) << from_middle[f];
+                found += result.face.strain_major[f];
+                wanted += expected;
+            }
+        EXPECT_NEAR(found, wanted, 0.01 * wanted);
+    }
+};
+
+/// A cup drawn from a square blank with the binder on its flange.
+struct DrawnCup {
+    TriMesh mesh = shapes::square_cup({.triangles = 3000});
+    FlattenOptions options = steel(1.5, 1.5, 1.5);
+    std::vector<int> flange, inside, bottom; ///< faces
+
+    DrawnCup()
+    {
+        const double rim = mesh.position(2, boundary_loops(mesh).front().front());
+        for (int f = 0; f < mesh.triangles(); ++f) {
+            const Eigen::Vector3d z = mesh.position.row(2)(mesh.triangle.col(f));
+            ((z.array() - rim).abs().maxCoeff() < 1e-9 ? flange : inside).push_back(f);
+            if (z.cwiseAbs().maxCoeff() < 1e-9)
+                bottom.push_back(f);
+        }
+        options.process.contact = {{"binder", flange, {}, 50000, 0.12, 2}};
+    }
+    double strain_of_bottom(const FlattenResult& flat) const { return flat.face.strain_equivalent(bottom).mean(); }
+};
+
+} // namespace
+
+TEST(Process, ABinderOverACylinderPullsTheSheetFromItsEndsInwards)
+{
+    // The stroke turns the flat strip down on either side; friction grows from the free ends: T = 2 mu p s.
+    const BentStrip strip;
+    FlattenOptions options = steel(1e-6, 1e-6, 1e-6);
+    options.process.contact = {{"binder", {}, 4, {}, 0.12, 2}};
+    for (int f = 0; f < strip.part.mesh.triangles(); ++f)
+        options.process.contact[0].faces.push_back(f);
+    strip.expect(
+        options, [&](double at) { return 2 * 0.12 * 4 * (strip.half - at); }, 0.015);
+}
+
+TEST(Process, AHeldEdgePullsTheWholeCylinder)
+{
+    // The sides are edges as well; what holds them at the corners fades out inwards.
+    const BentStrip strip;
+    FlattenOptions options = steel(1e-6, 1e-6, 1e-6);
+    options.process.edge_restraint = 0.25;
+    strip.expect(
+        options, [&](double) { return 0.25 * lock_force(options.material, options.thickness); }, 0.25);
+}
+
+TEST(Process, FrictionOnThePunchRelievesTheBottomOfACup)
+{
+    DrawnCup cup;
+    const double free = cup.strain_of_bottom(flatten(cup.mesh, cup.options));
+    cup.options.process.contact.push_back({"punch", cup.inside, 1.0, {}, 0.15, 1});
+    const double some = cup.strain_of_bottom(flatten(cup.mesh, cup.options));
+    cup.options.process.contact.back().pressure_MPa = 3;
+    const double more = cup.strain_of_bottom(flatten(cup.mesh, cup.options));
+    std::printf("strain of the bottom %.4f, with friction on the punch %.4f, %.4f\n", free, some, more);
+    EXPECT_LT(some, 0.95 * free);
+    EXPECT_LT(more, 0.95 * some);
+}
+
+TEST(Process, TheMoreTheEdgeIsHeldTheSmallerTheBlankUpToTheLock)
+{
+    // From about 0.8 on the forces have to be applied in steps.
+    DrawnCup cup;
+    cup.options.process = {};
+    double last = std::numeric_limits<double>::infinity();
+    for (const double share : {0., 0.3, 0.6, 0.8, 0.9, 1.}) {
+        cup.options.process.edge_restraint = share;
+        const FlattenResult flat = flatten(cup.mesh, cup.options);
+        EXPECT_EQ(flat.report.process_share, 1) << share;
+        EXPECT_NE(flat.report.system, SolvedSystem::energy) << share;
+        const double width = flat.blank.position.row(0).maxCoeff() - flat.blank.position.row(0).minCoeff();
+        std::printf("edge held by %.1f of the lock force: blank %.2f mm wide, %s\n", share, width,
+                    std::string(name(flat.report.system)).c_str());
+        EXPECT_LT(width, 0.998 * last) << share;
+        last = width;
+    }
+}
+
+TEST(Process, OfForcesThatTheSheetDoesNotBearAShareIsAppliedAndThatIsSaid)
+{
+    DrawnCup cup;
+    cup.options.process.contact[0].force_N = 1e9;
+    const FlattenResult flat = flatten(cup.mesh, cup.options);
+    EXPECT_GT(flat.report.process_share, 0);
+    EXPECT_LT(flat.report.process_share, 0.2);
+    EXPECT_NE(flat.report.system, SolvedSystem::energy);
+    EXPECT_NE(flat.report.reason.find("the sheet does not bear them"), std::string::npos) << flat.report.reason;
+    cup.options.process.contact[0].force_N = 1e9 * flat.report.process_share;
+    const FlattenResult borne = flatten(cup.mesh, cup.options);
+    EXPECT_EQ(borne.report.process_share, 1);
+    const auto width = [](const FlattenResult& each) {
+        return each.blank.position.row(0).maxCoeff() - each.blank.position.row(0).minCoeff();
+    };
+    EXPECT_NEAR(width(borne), width(flat), 0.01 * width(flat));
+}
+
+TEST(Process, TheDirectionMayBeGivenEitherWay)
+{
+    DrawnCup cup;
+    cup.options.direction = Eigen::Vector3d::UnitZ();
+    const FlattenResult up = flatten(cup.mesh, cup.options);
+    cup.options.direction = Eigen::Vector3d(0, 0, -3);
+    const FlattenResult down = flatten(cup.mesh, cup.options);
+    EXPECT_EQ(up.blank.position, down.blank.position);
+    EXPECT_EQ(down.stamping.direction, up.stamping.direction);
+}
+
+TEST(Process, MessagesTellThePlaceThatWasGiven)
+{
+    DrawnCup cup;
+    cup.mesh.position.colwise() += Eigen::Vector3d(5000, 0, 700);
+    cup.options.process = {};
+    cup.options.process.drawbeads = {{"b", {{5000, 0, 690}, {5001, 0, 690}}, 50}};
+    try {
+        flatten(cup.mesh, cup.options);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("(5000, 0, 690)"), std::string::npos) << error.what();
+    }
 }
 
 TEST(PlanarAnisotropy, ARoundPartNeedsABlankWithFourWaves)

@@ -1,12 +1,13 @@
 #include "app/viewer/views/process_lines.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 
 #include "app/viewer/views/marking.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
+#include "engine/core/error.h"
+#include "engine/forming/line_on_part.h"
+#include "engine/mesh/topology.h"
 
 namespace spia::viewer {
 namespace {
@@ -68,22 +69,20 @@ std::vector<std::vector<ClosestPoint>> places_of_lines(const TriMesh& part, cons
     std::vector<std::vector<ClosestPoint>> result(lines.size());
     if (lines.empty())
         return result;
-    const double diagonal = (part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff()).norm(),
-                 reach = 0.01 * diagonal, spacing = diagonal / most_pieces;
-    const ClosestPointSearch search(part);
-    for (size_t k = 0; k < lines.size(); ++k) {
-        std::vector<Eigen::Vector3d> wanted(lines[k].point.begin(), lines[k].point.begin() + 1);
-        for (size_t i = 1; i < lines[k].point.size(); ++i) {
-            const Eigen::Vector3d from = wanted.back(), way = lines[k].point[i] - from;
-            const int pieces = std::clamp(int(std::ceil(way.norm() / spacing)), 1, most_pieces);
-            for (int j = 1; j <= pieces; ++j)
-                wanted.push_back(from + way * (double(j) / pieces));
-        }
-        for (const Eigen::Vector3d& point : wanted)
-            result[k].push_back(search.nearest(point, reach));
-        if (std::any_of(result[k].begin(), result[k].end(), [](const ClosestPoint& p) { return p.face < 0; }))
+    const LineOnPart on_part(part, bounding_diagonal(part) / most_pieces);
+    for (size_t k = 0; k < lines.size(); ++k)
+        try {
+            const std::vector<Eigen::Vector3d>& point = lines[k].point;
+            const std::vector<LinePlace> between =
+                point.size() > 1 ? on_part.places("", point) : std::vector<LinePlace>{};
+            result[k].push_back(on_part.at("", point.front()));
+            for (const LinePlace& place : between)
+                result[k].push_back(place.on_part);
+            if (point.size() > 1)
+                result[k].push_back(on_part.at("", point.back()));
+        } catch (const InputError&) { // the solver says where it is off
             result[k].clear();
-    }
+        }
     return result;
 }
 

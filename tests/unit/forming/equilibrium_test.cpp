@@ -38,8 +38,9 @@ TEST(Equilibrium, TangentAgreesWithCentralDifferencesWithFriction)
     const Eigen::Matrix2Xd X = strained(part);
     ExternalForces friction;
     friction.traction = Eigen::VectorXd::Constant(part.triangles(), 0.8);
-    friction.plane << 1, 0, 0, 1, 0, 0;
-    friction.origin << 0.3, -0.2, 5;
+    friction.plane << 0.8, 0, 0, 1, -0.6, 0; // looked at askew, so that the slip is turned, too
+    friction.travelling = Eigen::VectorXd::LinSpaced(part.triangles(), 0, 0.5);
+    friction.stuck = 1.03 * X;
     const std::vector<Element> element = elements(part);
     const Sheet sheet = uniform_sheet(law, 0.8, part.triangles());
     VirtualWork work(part, element, sheet, friction);

@@ -2,9 +2,14 @@
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/forming/equilibrium.h"
+#include "engine/mesh/cut.h"
+#include "engine/mesh/topology.h"
+#include "tests/support/developable.h"
+#include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 
@@ -54,13 +59,15 @@ TEST(Process, ABinderForceIsCoulombFrictionOnBothSidesOverTheAreaSeen)
     ProcessConditions process;
     process.contact = {{"binder", all_faces(part), {}, 10000, 0.12, 2}};
     EXPECT_NEAR(forces(process, part).traction[3], 2 * 0.12 * 10000 / 2000, 1e-12);
-    process.contact[0].sides = 1;
-    EXPECT_NEAR(forces(process, part).traction[3], 0.12 * 5, 1e-12);
+    EXPECT_EQ(forces(process, part).travelling.size(), 0);
+    process.contact[0].sides = 1; // a tool that travels
+    EXPECT_NEAR(forces(process, part).travelling[3], 0.12 * 5, 1e-12);
+    EXPECT_EQ(forces(process, part).traction.size(), 0);
     part.position.row(2) = part.position.row(0); // at 45 degrees: the same area seen from above
-    EXPECT_NEAR(forces(process, part).traction[3], 0.12 * 5, 1e-12);
+    EXPECT_NEAR(forces(process, part).travelling[3], 0.12 * 5, 1e-12);
     process.contact.push_back({"pad", {3}, 2.0, {}, 0.1, 1}); // adds up where two overlap
-    EXPECT_NEAR(forces(process, part).traction[3], 0.12 * 5 + 0.2, 1e-12);
-    EXPECT_NEAR(forces(process, part).traction[4], 0.12 * 5, 1e-12);
+    EXPECT_NEAR(forces(process, part).travelling[3], 0.12 * 5 + 0.2, 1e-12);
+    EXPECT_NEAR(forces(process, part).travelling[4], 0.12 * 5, 1e-12);
 }
 
 TEST(Process, ADrawbeadRestrainsAcrossItsLineWithItsForceTimesItsLength)
@@ -113,6 +120,64 @@ TEST(Process, APilotHoldsTheNearestVertexWhereItIsSeen)
         EXPECT_EQ(out.held[k].place[1], 40);
 }
 
+TEST(Process, FrictionOnACylinderActsOutwardsAlongTheSheetAndKnowsNoHeight)
+{
+    const shapes::DevelopablePart bent = shapes::quarter_cylinder({.radius = 50, .length = 40, .triangles = 400});
+    const TriMesh& part = bent.mesh;
+    const Eigen::Vector3d up = area_vectors(part).rowwise().sum().normalized(), axis(0, 1, 0), side = axis.cross(up);
+    ProcessConditions process;
+    process.contact = {{"binder", all_faces(part), 1.0, {}, 0.1, 2}};
+    ExternalForces external = external_forces(process, part, steel, 0.8, flat_plane, Eigen::Vector3d::Zero());
+    external.plane << side, axis;
+    external.plane.col(1) *= up.dot(side.cross(axis)) > 0 ? 1 : -1;
+    const Eigen::Matrix3Xd normal = vertex_normals(part);
+    Eigen::Matrix2Xd X = external.plane.transpose() * part.position;
+    const double middle = X.row(0).mean();
+    for (int v = 0; v < part.vertices();
+         ++v) // unrolled: outwards of where the part is seen, on both sides of its middle
+        X(0, v) = middle + 1.3 * (X(0, v) - middle);
+    const Eigen::VectorXd area = area_vectors(part).colwise().norm();
+    for (const double height : {0., 1000.}) {
+        const Eigen::Matrix3Xd position = part.position.colwise() + Eigen::Vector3d(height * up);
+        const NodalForces nodal(external, position, normal, part.triangle, area);
+        for (int v = 0; v < part.vertices(); ++v) {
+            const double off = side.dot(part.position.col(v)) - middle;
+            if (std::abs(off) < 5)
+                continue;
+            const Eigen::Vector3d force = nodal(v, X.col(v)).force;
+            Eigen::Vector3d outwards = axis.cross(normal.col(v));
+            outwards *= outwards.dot(side) * off > 0 ? 1 : -1;
+            EXPECT_GT(force.dot(outwards), 0.99 * force.norm());
+            EXPECT_GT(force.norm(), 0);
+        }
+    }
+}
+
+TEST(Process, TheTwoSidesOfASeamAreNoEdgeOfThePart)
+{
+    const CutPart cut = cut_open(shapes::pipe(20, 20, 60, 24, 10));
+    ASSERT_FALSE(cut.seam.empty());
+    ProcessConditions process;
+    process.edge_restraint = 0.2;
+    double sum = 0;
+    for (const Restraint& r : forces(process, cut.mesh).restraint) {
+        EXPECT_NEAR(std::abs(r.across[2]), 1, 1e-9) << "along the pipe";
+        sum += r.force;
+    }
+    const double around = 2 * 24 * 20 * std::sin(std::numbers::pi / 24); // of one end
+    EXPECT_NEAR(sum, 0.2 * lock_force(steel, 0.8) * 2 * around, 1e-6 * sum);
+}
+
+TEST(Process, APieceIsHeldAtItsEdgeByItsOwnLockForce)
+{
+    const TriMesh part = shapes::rectangle(50, 40, 5, 4);
+    ProcessConditions process;
+    process.edge_restraint = 0.3;
+    const double plain = sum_across(forces(process, part)).sum();
+    process.tailored = {{"all", all_faces(part), steel, 1.6}};
+    EXPECT_NEAR(sum_across(forces(process, part)).sum(), 2 * plain, 1e-9 * plain);
+}
+
 TEST(Process, ATailoredPieceHasItsOwnGradeAndGauge)
 {
     const TriMesh part = shapes::rectangle(50, 40, 5, 4);
@@ -139,11 +204,21 @@ TEST(Process, WhatIsWrongIsNamed)
     EXPECT_NE(contact({"rim", {}, 1.0, {}, 0.1, 2}).find("\"rim\" has no faces"), std::string::npos);
     EXPECT_NE(contact({"rim", {40}, 1.0, {}, 0.1, 2}).find("names face 40"), std::string::npos);
     EXPECT_NE(contact({"rim", {4}, 1.0, 5.0, 0.1, 2}).find("either a force or a pressure"), std::string::npos);
+    TriMesh wall = part; // upright, but for rounding
+    wall.position.row(2) = wall.position.row(0);
+    wall.position.row(0) *= 1e-16;
+    ProcessConditions on_wall;
+    on_wall.contact = {{"rim", {4}, {}, 5.0, 0.1, 2}};
+    EXPECT_NE(refusal(on_wall, wall).find("not seen along the stamping direction"), std::string::npos);
     EXPECT_NE(contact({"rim", {4}, -1.0, {}, 0.1, 2}).find("must be positive"), std::string::npos);
     EXPECT_NE(contact({"rim", {4}, 1.0, {}, -0.1, 2}).find("friction -0.1"), std::string::npos);
     ProcessConditions process;
     process.drawbeads = {{"b1", {{20, 5, 30}, {20, 35, 30}}, 80}};
     EXPECT_NE(refusal(process, part).find("\"b1\": the place (20, "), std::string::npos);
+    process.drawbeads = {{"b1", {{50.9, 5, 0}, {50.9, 35, 0}}, 80}}; // beside it, though nearer than an edge is long
+    EXPECT_NE(refusal(process, part).find("0.9 mm off the part"), std::string::npos) << refusal(process, part);
+    process.drawbeads = {{"b1", {{45, 2, 0}, {50, 20, 0}, {55, 40, 0}}, 80}};
+    EXPECT_NE(refusal(process, part).find("off the part"), std::string::npos);
     process.drawbeads = {{"b1", {{20, 5, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("at least two different places"), std::string::npos);
     process.drawbeads = {{"b1", {{20, 5, 0}, {20, 35, 0}}, 0}};
@@ -163,7 +238,7 @@ TEST(Process, TheTangentHoldsWithBeadsFrictionAndPins)
         part.position(2, v) = 6 * std::sin(0.08 * part.position(0, v)) * std::cos(0.05 * part.position(1, v));
     ProcessConditions process;
     process.contact = {{"binder", all_faces(part), 2.0, {}, 0.1, 2}};
-    process.drawbeads = {{"bead", {{5, 8, 2.2}, {30, 33, 0}}, 40}};
+    process.drawbeads = {{"bead", {{5, 8, 2.2}, {17.5, 20.5, 3.07}, {30, 33, 0}}, 40}};
     process.edge_restraint = 0.2;
     process.pilots = {{"pin", {{10, 20, 2.4}}}};
     const ExternalForces external = forces(process, part);
