@@ -7,10 +7,10 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/rigid_steps.h"
 #include "engine/forming/sheet_fields.h"
-#include "engine/forming/stages.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/topology.h"
 
@@ -109,7 +109,7 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     guess.position = more_rigid(part, RigidSteps(part, element, matrix, cholesky), std::move(guess.position));
 
     const Job job{part, element, options, external, plane, matrix, cholesky};
-    result.blank.position = solve(job, std::move(guess.position), result.report, progress.part(0.1, 1));
+    result.blank.position = solve(job, guess.position, result.report, progress.part(0.1, 1));
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place_under_part(part, element, plane, result.blank.position);
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "engine/forming/flatten.h"
 #include "engine/forming/membrane.h"
 #include "engine/sparse/block_matrix.h"
@@ -11,7 +13,7 @@ struct Job {
     const TriMesh& part;
     const std::vector<Element>& element;
     const FlattenOptions& options;
-    ExternalForces& external; ///< what sticks to travelling tools is found on the way
+    ExternalForces& external;                 ///< what sticks to travelling tools is found on the way
     const Eigen::Matrix<double, 3, 2>& plane; ///< axes of the blank in space
     BlockMatrix& matrix;
     Cholesky& cholesky;
@@ -20,7 +22,16 @@ struct Job {
 /// The sheet of a job with another continuation of its hardening curve.
 Sheet sheet_with(const Job& job, const StressCurve::Options& curve);
 
-/// From a flip-free start X to the blank: energy, then equilibrium; each way tried where the one before did not get there.
-Eigen::Matrix2Xd solve(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress);
+/// The curve continued from the uniform strain on, so that the sheet never softens: its energy is convex enough to find the
+/// minimum from far away.
+StressCurve::Options hardening_on(const FlattenOptions& options);
+
+/// @param obstacle why the law as given had no solution
+std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
+                               int vertices);
+
+/// From a flip-free start X to the blank, with all forces of the tools at once: energy, then equilibrium; each way tried where
+/// the one before did not get there.
+Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress);
 
 } // namespace spia

@@ -3,6 +3,7 @@
 #include <cholmod.h>
 #include <omp.h>
 
+#include <new>
 #include <numeric>
 
 #include "engine/core/error.h"
@@ -130,7 +131,8 @@ struct Cholesky::State {
         b.x = const_cast<double*>(right);
         b.xtype = CHOLMOD_REAL;
         b.dtype = CHOLMOD_DOUBLE;
-        cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &solution, nullptr, &work_y, &work_e, &common);
+        if (!cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &solution, nullptr, &work_y, &work_e, &common))
+            throw std::bad_alloc(); // of a factor that is there nothing else can fail
         return static_cast<const double*>(solution->x);
     }
 };

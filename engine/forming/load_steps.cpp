@@ -1,0 +1,91 @@
+#include "engine/forming/load_steps.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <optional>
+
+#include "engine/forming/equilibrium.h"
+
+namespace spia {
+namespace {
+
+/// The forces from none on in steps, each from the blank of the one before, as far as equilibrium is found.
+/// @param report  of all the forces at once, which had no solution; keeps its steps, and all else if there is none without
+///                forces either
+std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report,
+                                         const Progress& progress)
+{
+    const ExternalForces whole = job.external;
+    job.external = whole.scaled(0);
+    SolveReport share = report;
+    Eigen::Matrix2Xd reached = solve_at_once(job, X, share, progress.part(0, 0.4));
+    report.energy = share.energy;
+    report.newton = share.newton;
+    if (share.system == SolvedSystem::energy) {
+        job.external = whole;
+        return std::nullopt;
+    }
+    // A sheet that softens would gather its strain in rows of single elements near the greatest force.
+    const Sheet sheet = sheet_with(job, hardening_on(job.options));
+    EquilibriumOptions newton{std::min(30, job.options.most_newton_steps), job.options.tolerance, job.options.watch};
+    newton.patient = false;
+    constexpr int most_tries = 10;
+    double step = 0.5;
+    share.process_share = 0;
+    for (int tries = 0; tries < most_tries && share.process_share < 1; ++tries) {
+        const double wanted = std::min(1., share.process_share + step);
+        job.external = whole.scaled(wanted);
+        VirtualWork work(job.part, job.element, sheet, job.external);
+        const Progress part = progress.part(0.4 + 0.6 * tries / most_tries, 0.4 + 0.6 * (tries + 1) / most_tries);
+        EquilibriumResult result =
+            share.system == SolvedSystem::relaxed
+                ? solve_relaxed_equilibrium(job.part, job.element, work, reached, job.matrix, job.cholesky, newton,
+                                            part)
+                : solve_equilibrium(job.part, job.element, work, reached, job.matrix, job.cholesky, newton, part);
+        report.newton.insert(report.newton.end(), result.steps.begin(), result.steps.end());
+        if (result.ended != Ended::converged) {
+            step /= 4;
+            continue;
+        }
+        share.process_share = wanted;
+        step *= 2;
+        share.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
+        share.residual = result.residual;
+        share.resultant = result.resultant;
+        reached = std::move(result.position);
+    }
+    share.energy = std::move(report.energy);
+    share.newton = std::move(report.newton);
+    if (share.process_share > 0) {
+        share.trusted_strain = sheet.law.front().curve().trusted_strain();
+        if (share.system == SolvedSystem::strict)
+            share.system = SolvedSystem::continued;
+        share.reason = converged_in_words(share, "the forces of the tools had to be applied in steps",
+                                          job.options.curve.trusted_strain, job.part.vertices());
+    }
+    report = std::move(share);
+    if (report.process_share < 1)
+        report.reason += fmt::format(
+            "; with {:.2g} % of the forces of the tools: beyond that no equilibrium was found, since the sheet does not bear them or "
+            "the mesh is too coarse for how they would strain it",
+            100 * report.process_share);
+    return reached;
+}
+
+} // namespace
+
+Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report, const Progress& progress)
+{
+    if (!job.external.any())
+        return solve_at_once(job, X, report, progress);
+    Eigen::Matrix2Xd blank = solve_at_once(job, X, report, progress.part(0, 0.6));
+    if (report.system != SolvedSystem::energy)
+        return blank;
+    if (std::optional<Eigen::Matrix2Xd> stepped = in_steps(job, X, report, progress.part(0.6, 1)))
+        return std::move(*stepped);
+    report.process_share = 0;
+    report.reason += "; the forces of the tools are not in it";
+    return blank;
+}
+
+} // namespace spia

@@ -1,0 +1,9 @@
+#pragma once
+#include "engine/forming/stages.h"
+
+namespace spia {
+
+/// solve_at_once(), and where that finds no equilibrium the forces of the tools from none on in steps, as far as they go.
+Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report, const Progress& progress);
+
+} // namespace spia
