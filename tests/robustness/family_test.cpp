@@ -31,8 +31,9 @@ TEST_P(Family, EndsWithAValidBlankOrAHelpfulRefusal)
     const FamilyShape& shape = GetParam();
     ReadOptions options;
     options.doctor.keep_largest = shape.keep_largest;
-    const ShapeRun run =
-        run_shape(soup_of(shape.make()), options, find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials"));
+    FlattenOptions flattening;
+    flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    const ShapeRun run = run_shape(soup_of(shape.make()), options, flattening);
     ASSERT_NE(run.end, ShapeRun::End::failure) << run.why;
     if (shape.expected != Expected::either) {
         EXPECT_EQ(run.end == ShapeRun::End::blank, shape.expected == Expected::blank) << run.why;

@@ -15,7 +15,7 @@ namespace {
 using namespace spia;
 
 struct Row {
-    int shapes = 0, blanks = 0, refusals = 0, failures = 0, cut = 0, overlapping = 0;
+    int shapes = 0, blanks = 0, refusals = 0, failures = 0, cut = 0, overlapping = 0, short_of_force = 0;
     std::map<SolvedSystem, int> system;
     double seconds = 0, slowest = 0, most_strain = 0;
 };
@@ -28,6 +28,7 @@ void count(Row& row, const ShapeRun& run)
     row.failures += run.end == ShapeRun::End::failure;
     row.cut += run.seam_mm > 0;
     row.overlapping += run.crossings + run.wound > 0;
+    row.short_of_force += run.end == ShapeRun::End::blank && run.process_share < 1;
     if (run.end == ShapeRun::End::blank)
         ++row.system[run.system];
     row.seconds += run.seconds;
@@ -38,10 +39,10 @@ void count(Row& row, const ShapeRun& run)
 std::string line(const std::string& name, Row& row)
 {
     return fmt::format(
-        "| {:<22} | {:>6} | {:>6} | {:>8} | {:>6} | {:>3} | {:>6} | {:>9} | {:>7} | {:>6} | {:>7} | {:>9.2f} | {:>9.2f} |",
+        "| {:<22} | {:>6} | {:>6} | {:>8} | {:>6} | {:>3} | {:>6} | {:>9} | {:>7} | {:>6} | {:>7} | {:>13} | {:>9.2f} | {:>9.2f} |",
         name, row.shapes, row.blanks, row.refusals, row.failures, row.cut, row.system[SolvedSystem::strict],
         row.system[SolvedSystem::continued], row.system[SolvedSystem::relaxed], row.system[SolvedSystem::energy],
-        row.overlapping, row.most_strain, row.slowest);
+        row.overlapping, row.short_of_force, row.most_strain, row.slowest);
 }
 
 } // namespace
@@ -54,14 +55,18 @@ int main(int argc, char** argv)
     std::string only;
     std::filesystem::path folder;
     bool verbose = false;
+    double edge = 0;
     app.add_option("--triangles", triangles, "about how many each shape has")->capture_default_str();
     app.add_option("--seed", seed, "of all lots")->capture_default_str();
     app.add_option("--only", only, "families whose name has this in it");
     app.add_option("--folder", folder, "meshes to run as well");
+    app.add_option("--edge", edge, "restraint of the outer edge, a share of the lock force")->capture_default_str();
     app.add_flag("--verbose", verbose, "a line per shape");
     CLI11_PARSE(app, argc, argv);
 
-    const Material material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    FlattenOptions flattening;
+    flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    flattening.process.edge_restraint = edge;
     std::vector<std::pair<std::string, Row>> rows;
     Row all;
     int wrong = 0;
@@ -83,7 +88,7 @@ int main(int argc, char** argv)
             continue;
         ReadOptions options;
         options.doctor.keep_largest = shape.keep_largest;
-        const ShapeRun run = run_shape(soup_of(shape.make()), options, material);
+        const ShapeRun run = run_shape(soup_of(shape.make()), options, flattening);
         const bool fits = shape.expected == shapes::Expected::either
                               ? run.end != ShapeRun::End::failure
                               : run.end == (shape.expected == shapes::Expected::blank ? ShapeRun::End::blank
@@ -98,14 +103,14 @@ int main(int argc, char** argv)
                     files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
-        const ShapeRun run = run_shape(file, {}, material);
+        const ShapeRun run = run_shape(file, {}, flattening);
         take("files", file.filename().string(), run, run.end != ShapeRun::End::failure);
     }
 
     fmt::print(
-        "\n| {:<22} | shapes | blanks | refusals | failed | cut | strict | continued | relaxed | energy | overlap | strain up | slowest s |\n",
+        "\n| {:<22} | shapes | blanks | refusals | failed | cut | strict | continued | relaxed | energy | overlap | part of forces | strain up | slowest s |\n",
         "family");
-    fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (auto& [name, row] : rows)
         fmt::print("{}\n", line(name, row));
     fmt::print("{}\n{:.1f} s in all; {} of {} shapes did not end as they should\n", line("all", all), all.seconds,

@@ -28,7 +28,7 @@ std::string fault_of(const FlattenResult& flat, const TriMesh& part)
     return "";
 }
 
-template <class Read> ShapeRun run(const Read& read, const Material& material)
+template <class Read> ShapeRun run(const Read& read, const FlattenOptions& flattening)
 {
     ShapeRun result;
     try {
@@ -36,11 +36,10 @@ template <class Read> ShapeRun run(const Read& read, const Material& material)
         require_healthy(part.doctor);
         result.triangles = part.mesh.triangles();
         result.seam_mm = part.seam_length;
-        FlattenOptions options;
-        options.material = material;
-        const FlattenResult flat = flatten(part.mesh, options);
+        const FlattenResult flat = flatten(part.mesh, flattening);
         result.seconds = flat.report.seconds;
         result.system = flat.report.system;
+        result.process_share = flat.report.process_share;
         result.most_strain = flat.face.strain_equivalent.maxCoeff();
         result.crossings = int(flat.overlap.crossings.size());
         result.wound = int(flat.overlap.wound.size());
@@ -57,14 +56,14 @@ template <class Read> ShapeRun run(const Read& read, const Material& material)
 
 } // namespace
 
-ShapeRun run_shape(const PolygonSoup& soup, const ReadOptions& options, const Material& material)
+ShapeRun run_shape(const PolygonSoup& soup, const ReadOptions& options, const FlattenOptions& flattening)
 {
-    return run([&] { return examine_soup(soup, options); }, material);
+    return run([&] { return examine_soup(soup, options); }, flattening);
 }
 
-ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options, const Material& material)
+ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options, const FlattenOptions& flattening)
 {
-    return run([&] { return examine_part(file, options); }, material);
+    return run([&] { return examine_part(file, options); }, flattening);
 }
 
 PolygonSoup soup_of(const TriMesh& mesh)

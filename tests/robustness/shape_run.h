@@ -19,14 +19,15 @@ struct ShapeRun {
     double seam_mm = 0; ///< 0: not cut
     double seconds = 0; ///< of flatten()
     SolvedSystem system = SolvedSystem::energy;
+    double process_share = 1;     ///< of the forces that are in the blank
     double most_strain = 0;       ///< equivalent, over the faces
     int crossings = 0, wound = 0; ///< of the blank with itself
 };
 
 /// Examines, cuts and unfolds a part in memory or from a file, and looks at the blank with other eyes than the solver's: exact
 /// orientation, finite and positive numbers, the volume of every face. Never throws.
-ShapeRun run_shape(const PolygonSoup& soup, const ReadOptions& options, const Material& material);
-ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options, const Material& material);
+ShapeRun run_shape(const PolygonSoup& soup, const ReadOptions& options, const FlattenOptions& flattening);
+ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options, const FlattenOptions& flattening);
 
 PolygonSoup soup_of(const TriMesh& mesh);
 

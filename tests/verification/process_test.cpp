@@ -311,6 +311,15 @@ TEST(PlanarAnisotropy, ARoundPartNeedsABlankWithFourWaves)
         EXPECT_LT(radius_at(radius, angle, rolling + quarter), radius_at(radius, angle, rolling + quarter + 45))
             << quarter;
 
+    // With r high across the rolling direction the sheet gives way there, around the flange at the places along it.
+    FlattenOptions two = steel(1.2, 1.5, 2.0);
+    two.process.rolling = options.process.rolling;
+    const Eigen::VectorXd oval = radii(two, angle);
+    const double along = radius_at(oval, angle, rolling), beside = radius_at(oval, angle, rolling + 90);
+    EXPECT_LT(along, beside - 0.002 * mean);
+    EXPECT_NEAR(along, radius_at(oval, angle, rolling + 180), 1e-3 * mean);
+    EXPECT_NEAR(beside, radius_at(oval, angle, rolling + 270), 1e-3 * mean);
+
     FlattenOptions same = steel(1.5, 1.5, 1.5), normal = same;
     same.process.rolling = Eigen::Vector3d(1, 0, 0);
     Eigen::VectorXd other_angle;
