@@ -54,6 +54,9 @@ struct SolveReport {
     Eigen::Vector3d resultant =
         Eigen::Vector3d::Zero(); ///< that holds the rigid motion: N, N, N mm; zero where pins hold it
     double seconds = 0;
+
+    /// Whether it is the solution of all that was asked for.
+    bool whole() const { return system == SolvedSystem::strict && process_share == 1; }
 };
 
 struct FlattenResult {

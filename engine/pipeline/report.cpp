@@ -99,6 +99,7 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping)
             {"seconds", report.seconds},
             {"trusted_strain", report.trusted_strain},
             {"relaxed_vertices", report.relaxed_vertices},
+            {"process_share", report.process_share},
             {"start", name(report.start)},
             {"resultant_N_N_Nmm", {report.resultant[0], report.resultant[1], report.resultant[2]}},
             {"stamping_direction", {stamping.direction[0], stamping.direction[1], stamping.direction[2]}},
@@ -314,7 +315,7 @@ std::vector<std::string> shortcomings(const Session& session)
     std::vector<std::string> list;
     if (session.blank) {
         const FlattenResult& flat = *session.blank;
-        if (flat.report.system != SolvedSystem::strict)
+        if (!flat.report.whole())
             list.push_back(flat.report.reason);
         if (flat.necking_triangles > 0)
             list.push_back(

@@ -143,9 +143,18 @@ Session judge_limits(Session session)
 {
     require(session.blank != nullptr, "solve for the blank");
     const FlattenOptions& sheet = session.options.flatten;
-    session.limits =
-        std::make_shared<LimitsResult>(forming_limits(session.part->mesh, session.blank->face, sheet.material,
-                                                      sheet.thickness, session.options.limits, sheet.process.tailored));
+    LimitsResult limits = forming_limits(session.part->mesh, session.blank->face, sheet.material, sheet.thickness,
+                                         session.options.limits, sheet.process.tailored);
+    const FlattenResult& flat = *session.blank;
+    if (flat.necking_triangles > 0 && flat.report.trusted_strain < sheet.curve.trusted_strain)
+        limits.notes.push_back(fmt::format(
+            "{} of the faces are strained beyond the uniform strain {:.2f}, from which on the hardening curve was continued: a real "
+            "sheet gathers its strain there and cracks earlier than the zones say",
+            flat.necking_triangles, flat.report.trusted_strain));
+    if (flat.report.process_share < 1)
+        limits.notes.push_back(
+            fmt::format("the zones are those of {:.2g} % of the forces of the tools", 100 * flat.report.process_share));
+    session.limits = std::make_shared<LimitsResult>(std::move(limits));
     return session;
 }
 

@@ -156,9 +156,11 @@ std::string advice(Stage failed)
     return "";
 }
 
-std::string advice(SolvedSystem solved)
+std::string advice(const SolveReport& report)
 {
-    switch (solved) {
+    if (report.process_share < 1)
+        return "Lower the forces of the tools, or take a stronger sheet or a finer mesh.";
+    switch (report.system) {
     case SolvedSystem::strict: return "";
     case SolvedSystem::continued:
         return "The outline can be used; strains above that value are extrapolated: a softer grade or a shallower part "

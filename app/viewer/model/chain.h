@@ -37,6 +37,6 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
 std::string advice(Stage failed);
 
 /// What to do about a blank that solves a weaker system than wanted, in one sentence; empty for the strict one.
-std::string advice(SolvedSystem solved);
+std::string advice(const SolveReport& report);
 
 } // namespace spia::viewer

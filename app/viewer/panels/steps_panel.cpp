@@ -138,7 +138,7 @@ void unfold_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     Status solved = status(frame, Stage::solve, session.blank != nullptr);
-    if (solved == Status::done && session.blank->report.system != SolvedSystem::strict)
+    if (solved == Status::done && !session.blank->report.whole())
         solved = Status::poor;
     step_heading(frame, 3, "Unfold", solved);
     const auto stale = first_stale(frame.state.document);
@@ -154,7 +154,7 @@ void unfold_step(Frame& frame)
     }
     const FlattenResult& flat = *session.blank;
     const Palette p = palette_of(frame.state.view.dark);
-    const bool fine = flat.report.system == SolvedSystem::strict;
+    const bool fine = flat.report.whole();
     ImGui::SameLine();
     const bool old = stale && *stale <= Stage::solve;
     ImGui::TextColored(old    ? p.muted
@@ -164,7 +164,7 @@ void unfold_step(Frame& frame)
                        : flat.report.converged ? "converged, relaxed"
                                                : "not converged");
     if (!fine)
-        coloured(p.warning, as_sentence(flat.report.reason) + ". " + advice(flat.report.system));
+        coloured(p.warning, as_sentence(flat.report.reason) + ". " + advice(flat.report));
     direction_control(frame);
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
