@@ -1,24 +1,11 @@
 #include "engine/compare/arap.h"
 
-#include <cmath>
 #include <fmt/core.h>
 
 #include "engine/core/parallel.h"
+#include "engine/forming/nearest_rotation.h"
 
 namespace spia {
-namespace {
-
-/// Of the polar decomposition, also where det J < 0.
-Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d& J)
-{
-    const double c = J(0, 0) + J(1, 1), s = J(1, 0) - J(0, 1), length = std::hypot(c, s);
-    Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
-    if (length > 0)
-        R << c / length, -s / length, s / length, c / length;
-    return R;
-}
-
-} // namespace
 
 double arap_density(const Eigen::Matrix2d& J) { return (J - nearest_rotation(J)).squaredNorm(); }
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/forming/contact_pressure.h"
 #include "engine/forming/line_on_part.h"
 #include "engine/mesh/topology.h"
 
@@ -45,24 +46,11 @@ void add_tractions(const ProcessConditions& process, const TriMesh& part, const 
                                          what, region.friction, region.sides));
         if (region.force_N.has_value() == region.pressure_MPa.has_value())
             throw InputError(fmt::format("{} needs either a force or a pressure", what));
-        double pressure = 0;
-        if (region.force_N) {
+        if (region.force_N)
             require_positive("the force of " + what, *region.force_N, "N");
-            double seen = 0, area = 0;
-            for (const int f : region.faces) {
-                seen += std::abs(area_vector.col(f).dot(direction));
-                area += area_vector.col(f).norm();
-            }
-            constexpr double least_share = 1e-3; // a wall within 0.06 degrees of the stamping direction
-            if (!(seen > least_share * area))
-                throw InputError(fmt::format("{} is not seen along the stamping direction: a force cannot press there; "
-                                             "give a pressure",
-                                             what));
-            pressure = *region.force_N / seen;
-        } else {
+        else
             require_positive("the pressure of " + what, *region.pressure_MPa, "MPa");
-            pressure = *region.pressure_MPa;
-        }
+        const double pressure = contact_pressure(region, area_vector, direction).MPa;
         Eigen::VectorXd& traction = region.sides == 2 ? out.traction : out.travelling;
         if (traction.size() == 0)
             traction = Eigen::VectorXd::Zero(part.triangles());

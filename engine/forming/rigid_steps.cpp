@@ -1,23 +1,13 @@
 #include "engine/forming/rigid_steps.h"
 
-#include <cmath>
-
 #include "engine/core/parallel.h"
 #include "engine/forming/flips.h"
+#include "engine/forming/nearest_rotation.h"
 
 namespace spia {
 namespace {
 
 constexpr int most_steps = 6; // more gain little: what is left is the difference between the two energies
-
-Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d& G)
-{
-    const double c = G(0, 0) + G(1, 1), s = G(1, 0) - G(0, 1), length = std::hypot(c, s);
-    Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
-    if (length > 0)
-        R << c / length, -s / length, s / length, c / length;
-    return R;
-}
 
 } // namespace
 

@@ -1,8 +1,8 @@
 #include "engine/pipeline/applied_process.h"
 
-#include <cmath>
 #include <fmt/core.h>
 
+#include "engine/forming/contact_pressure.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -11,12 +11,7 @@ namespace {
 AppliedContact applied(const ContactRegion& region, const Eigen::Matrix3Xd& area_vector,
                        const Eigen::Vector3d& direction)
 {
-    double area = 0, seen = 0;
-    for (const int f : region.faces) {
-        area += area_vector.col(f).norm();
-        seen += std::abs(area_vector.col(f).dot(direction));
-    }
-    const double pressure = region.pressure_MPa ? *region.pressure_MPa : *region.force_N / seen;
+    const auto [area, pressure] = contact_pressure(region, area_vector, direction);
     return {region.name,
             int(region.faces.size()),
             area,
