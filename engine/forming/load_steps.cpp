@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/forming/equilibrium.h"
+#include "engine/forming/sheet_fields.h"
 
 namespace spia {
 namespace {
@@ -72,6 +73,35 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
     return reached;
 }
 
+/// Pulled beyond its greatest force a sheet whose curve softens may hold the tools with strain gathered in a few rows of elements:
+/// a solution that depends on the mesh. If more than one face in a hundred is beyond the uniform strain, the solution with the
+/// continued curve, which is one only, is looked for from here; if it is another one, it is taken.
+/// @param blank the strict solution
+Eigen::Matrix2Xd without_necks(const Job& job, Eigen::Matrix2Xd blank, SolveReport& report, const Progress& progress)
+{
+    const StressCurve::Options hardening = hardening_on(job.options);
+    const Sheet given = sheet_with(job, job.options.curve), sheet = sheet_with(job, hardening);
+    const SheetFields face = face_fields(job.part, job.element, {blank}, given);
+    const auto beyond = (face.strain_equivalent.array() > hardening.trusted_strain).count();
+    if (100 * beyond <= job.part.triangles())
+        return blank;
+    VirtualWork work(job.part, job.element, sheet, job.external);
+    EquilibriumOptions newton{job.options.most_newton_steps, job.options.tolerance, job.options.watch};
+    newton.patient = false;
+    EquilibriumResult result =
+        solve_equilibrium(job.part, job.element, work, blank, job.matrix, job.cholesky, newton, progress);
+    report.newton.insert(report.newton.end(), result.steps.begin(), result.steps.end());
+    if (result.ended != Ended::converged || near_each_other(result.position, blank))
+        return blank;
+    report.residual = result.residual;
+    report.resultant = result.resultant;
+    report.system = SolvedSystem::continued;
+    report.trusted_strain = sheet.law.front().curve().trusted_strain();
+    report.reason = converged_in_words(report, "else the forces of the tools make it neck",
+                                       job.options.curve.trusted_strain, job.part.vertices());
+    return std::move(result.position);
+}
+
 } // namespace
 
 Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report, const Progress& progress)
@@ -79,6 +109,8 @@ Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& r
     if (!job.external.any())
         return solve_at_once(job, X, report, progress);
     Eigen::Matrix2Xd blank = solve_at_once(job, X, report, progress.part(0, 0.6));
+    if (report.system == SolvedSystem::strict)
+        return without_necks(job, std::move(blank), report, progress.part(0.6, 1));
     if (report.system != SolvedSystem::energy)
         return blank;
     if (std::optional<Eigen::Matrix2Xd> stepped = in_steps(job, X, report, progress.part(0.6, 1)))

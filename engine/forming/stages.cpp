@@ -112,6 +112,12 @@ std::string converged_in_words(const SolveReport& report, const std::string& obs
     return words;
 }
 
+bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
+{
+    constexpr double near = 0.01;
+    return (a - b).colwise().norm().maxCoeff() <= near * (b.rowwise().maxCoeff() - b.rowwise().minCoeff()).norm();
+}
+
 namespace {
 
 EquilibriumOptions newton_of(const FlattenOptions& options)
@@ -171,10 +177,11 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
         if (report.relaxed_vertices == 0) { // from here the curve as given may be near
             SolveReport again = report;
             again.trusted_strain = options.curve.trusted_strain;
-            if (std::optional<Eigen::Matrix2Xd> solved = strict_equilibrium(
-                    job, result.position, quick(newton_of(options)), again, progress.part(from, from))) {
+            const std::optional<Eigen::Matrix2Xd> solved =
+                strict_equilibrium(job, result.position, quick(newton_of(options)), again, progress.part(from, from));
+            if (solved && near_each_other(*solved, result.position)) {
                 report = std::move(again);
-                return std::move(*solved);
+                return *solved;
             }
             report.newton = std::move(again.newton);
         }

@@ -30,6 +30,10 @@ StressCurve::Options hardening_on(const FlattenOptions& options);
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
                                int vertices);
 
+/// Whether two blanks differ by a hundredth of their size at most. The curve as given lets the sheet soften: far from the blank of
+/// the continued one its equations may have another solution, in which strain gathers in a few rows of elements.
+bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b);
+
 /// From a flip-free start X to the blank, with all forces of the tools at once: energy, then equilibrium; each way tried where
 /// the one before did not get there.
 Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress);

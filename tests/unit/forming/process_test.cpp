@@ -120,6 +120,25 @@ TEST(Process, APilotHoldsTheNearestVertexWhereItIsSeen)
         EXPECT_EQ(out.held[k].place[1], 40);
 }
 
+TEST(Process, ALineMayBridgeABulgeButNotTheEdge)
+{
+    const auto bead = [](const TriMesh& part) {
+        ProcessConditions process;
+        process.drawbeads = {{"b", {part.position.col(0), part.position.col(10)}, 80}}; // along the lower side
+        return refusal(process, part);
+    };
+    const auto bent = [](double height, int axis) { // of 100 x 40 mm: a diagonal of 108 mm
+        TriMesh part = shapes::rectangle(100, 40, 10, 4);
+        for (int v = 0; v < part.vertices(); ++v)
+            part.position(axis, v) += height * std::sin(std::numbers::pi * part.position(0, v) / 100);
+        return part;
+    };
+    EXPECT_EQ(bead(bent(1.5, 2)), "");
+    EXPECT_NE(bead(bent(4, 2)).find("off the part"), std::string::npos) << "too high for a bulge";
+    EXPECT_EQ(bead(bent(0.4, 1)), "");
+    EXPECT_NE(bead(bent(1.5, 1)).find("off the part"), std::string::npos) << "there is no sheet under the line";
+}
+
 TEST(Process, FrictionOnACylinderActsOutwardsAlongTheSheetAndKnowsNoHeight)
 {
     const shapes::DevelopablePart bent = shapes::quarter_cylinder({.radius = 50, .length = 40, .triangles = 400});
