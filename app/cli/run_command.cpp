@@ -143,7 +143,9 @@ void print_summary(const Session& session)
         fmt::print("process   {}\n", line);
     fmt::print("blank     {:.6g} x {:.6g} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
                flat.report.energy.size(), flat.report.newton.size(),
-               flat.report.converged ? "converged" : "NOT converged");
+               flat.report.whole()     ? "converged"
+               : flat.report.converged ? fmt::format("converged ({})", name(flat.report.system))
+                                       : "NOT converged");
     fmt::print("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
                100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
                flat.face.strain_equivalent.maxCoeff());

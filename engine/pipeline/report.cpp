@@ -8,6 +8,7 @@
 
 #include "engine/coons/cell_quality.h"
 #include "engine/forming/material_text.h"
+#include "engine/forming/membrane_law.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -310,10 +311,35 @@ Json surface_json(const SurfaceStage& stage)
 
 } // namespace
 
+namespace {
+
+/// What was given may be meant in another unit.
+std::vector<std::string> unlikely_input(const FlattenOptions& options)
+{
+    std::vector<std::string> list;
+    constexpr double least_MPa = 10, greatest_MPa = 2500; // lead; the strongest press-hardened steels stay below
+    const auto check = [&](const Material& material) {
+        const double yields = MembraneLaw(material).curve().yield_stress();
+        if (yields < least_MPa || yields > greatest_MPa)
+            list.push_back(fmt::format("{} yields at {:.3g} MPa: are its stresses in MPa?", material.name, yields));
+    };
+    check(options.material);
+    for (const TailoredPiece& piece : options.process.tailored)
+        check(piece.material);
+    for (const ContactRegion& region : options.process.contact)
+        if (region.friction > 1)
+            list.push_back(fmt::format("the friction coefficient of {} is {:.3g}: tools rub by less than 1",
+                                       region.name, region.friction));
+    return list;
+}
+
+} // namespace
+
 std::vector<std::string> shortcomings(const Session& session)
 {
     std::vector<std::string> list;
     if (session.blank) {
+        list = unlikely_input(session.options.flatten);
         const FlattenResult& flat = *session.blank;
         if (!flat.report.whole())
             list.push_back(flat.report.reason);

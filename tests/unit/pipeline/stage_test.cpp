@@ -394,4 +394,18 @@ TEST(Outputs, WhatHasNoSurfaceYetIsWrittenWithoutIt)
     EXPECT_THROW(write_outputs(session, folder / "nothing", output_formats()), InputError);
 }
 
+TEST(Chain, NumbersThatMayBeMeantInAnotherUnitAreAskedAbout)
+{
+    Session session = sample("dome.obj");
+    auto& hardening = std::get<Swift>(session.options.flatten.material.hardening);
+    hardening.K_MPa /= 1000; // GPa
+    session.options.flatten.process.contact = {{"binder", {0, 1, 2}, 1e-3, {}, 12, 2}};
+    session = run_stage(Stage::solve, run_stage(Stage::read, std::move(session)));
+    std::string all;
+    for (const std::string& text : shortcomings(session))
+        all += text + "\n";
+    EXPECT_NE(all.find("are its stresses in MPa?"), std::string::npos) << all;
+    EXPECT_NE(all.find("the friction coefficient of binder is 12"), std::string::npos) << all;
+}
+
 } // namespace spia
