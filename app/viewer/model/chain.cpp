@@ -163,8 +163,8 @@ std::string advice(const SolveReport& report)
     switch (report.system) {
     case SolvedSystem::strict: return "";
     case SolvedSystem::continued:
-        return "The outline can be used; strains above that value are extrapolated: a softer grade or a shallower part "
-               "is needed there.";
+        return "The outline can be used; strains above that value are extrapolated: a softer grade, a shallower part or less "
+               "restraint by the tools is needed there.";
     case SolvedSystem::relaxed:
         return "The outline can be used; strains around those vertices are estimates: look at the worst spots, and "
                "mesh folds and sharp edges there finer or rounder.";

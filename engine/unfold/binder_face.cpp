@@ -1,0 +1,101 @@
+#include "engine/unfold/binder_face.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace spia {
+namespace {
+
+/// A point in the half plane through the axis: along the axis, away from it, and the angle of the half plane.
+struct AboutAxis {
+    double along, off, angle;
+    Eigen::Vector3d out; ///< unit vector away from the axis
+};
+
+/// @param origin, axis, towards as of a cylinder
+AboutAxis about_axis(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, const Eigen::Vector3d& towards,
+                     const Eigen::Vector3d& point)
+{
+    const Eigen::Vector3d arm = point - origin, across = axis.cross(towards);
+    const double x = towards.dot(arm), y = across.dot(arm), off = std::hypot(x, y);
+    return {axis.dot(arm), off, std::atan2(y, x),
+            off > 0 ? Eigen::Vector3d((x * towards + y * across) / off) : towards};
+}
+
+Eigen::Vector3d direction_at(const Eigen::Vector3d& axis, const Eigen::Vector3d& towards, double angle)
+{
+    return std::cos(angle) * towards + std::sin(angle) * axis.cross(towards);
+}
+
+struct Developed {
+    const Eigen::Vector3d& point;
+
+    Eigen::Vector2d operator()(const PlaneFace& p) const { return p.axes.transpose() * (point - p.origin); }
+    Eigen::Vector2d operator()(const CylinderFace& c) const
+    {
+        const AboutAxis at = about_axis(c.origin, c.axis, c.towards, point);
+        return {(c.bulges ? 1 : -1) * c.radius * at.angle, at.along};
+    }
+    Eigen::Vector2d operator()(const ConeFace& c) const
+    {
+        const AboutAxis at = about_axis(c.apex, c.axis, c.towards, point);
+        const double slant = at.along * std::cos(c.half_angle) + at.off * std::sin(c.half_angle),
+                     angle = (c.bulges ? -1 : 1) * at.angle * std::sin(c.half_angle);
+        return {-slant * std::sin(angle), slant * std::cos(angle)};
+    }
+};
+
+struct Placed {
+    const Eigen::Vector2d& place;
+
+    Eigen::Vector3d operator()(const PlaneFace& p) const { return p.origin + p.axes * place; }
+    Eigen::Vector3d operator()(const CylinderFace& c) const
+    {
+        const double angle = (c.bulges ? 1 : -1) * place[0] / c.radius;
+        return c.origin + place[1] * c.axis + c.radius * direction_at(c.axis, c.towards, angle);
+    }
+    Eigen::Vector3d operator()(const ConeFace& c) const
+    {
+        const double slant = place.norm(), turned = std::atan2(-place[0], place[1]),
+                     angle = (c.bulges ? -1 : 1) * turned / std::sin(c.half_angle);
+        return c.apex + slant * (std::cos(c.half_angle) * c.axis +
+                                 std::sin(c.half_angle) * direction_at(c.axis, c.towards, angle));
+    }
+};
+
+struct OuterNormal {
+    const Eigen::Vector3d& point;
+
+    Eigen::Vector3d operator()(const PlaneFace& p) const { return p.axes.col(0).cross(p.axes.col(1)); }
+    Eigen::Vector3d operator()(const CylinderFace& c) const
+    {
+        return (c.bulges ? 1 : -1) * about_axis(c.origin, c.axis, c.towards, point).out;
+    }
+    Eigen::Vector3d operator()(const ConeFace& c) const
+    {
+        const Eigen::Vector3d out = about_axis(c.apex, c.axis, c.towards, point).out;
+        return (c.bulges ? 1 : -1) * (std::cos(c.half_angle) * out - std::sin(c.half_angle) * c.axis);
+    }
+};
+
+} // namespace
+
+std::string_view name(const BinderFace& face)
+{
+    constexpr std::string_view names[] = {"plane", "cylinder", "cone"};
+    return names[face.index()];
+}
+
+Eigen::Vector2d developed(const BinderFace& face, const Eigen::Vector3d& point)
+{
+    return std::visit(Developed{point}, face);
+}
+
+Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place) { return std::visit(Placed{place}, face); }
+
+Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point)
+{
+    return std::visit(OuterNormal{point}, face);
+}
+
+} // namespace spia
