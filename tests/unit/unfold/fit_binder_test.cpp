@@ -111,10 +111,13 @@ TEST(FitBinder, NoGeneratorNeedsToBeAnEdge)
     for (int v = 0; v < plate.vertices(); ++v)
         plate.position.col(v).head<2>() += Eigen::Vector2d(little(random) - 30, little(random) + 80);
     const Eigen::Matrix3d turn = Eigen::Quaterniond(0.1, 0.9, -0.3, 0.4).normalized().toRotationMatrix();
-    const BinderFace faces[] = {CylinderFace{{3, 4, 5}, turn.col(0), turn.col(1), 40, true},
-                                CylinderFace{{3, 4, 5}, -turn.col(0), turn.col(1), 40, false},
-                                ConeFace{{3, 4, 5}, turn.col(0), turn.col(1), 0.4, true},
-                                ConeFace{{3, 4, 5}, -turn.col(2), turn.col(1), 0.4, false}};
+    std::vector<BinderFace> faces;
+    for (int k = 0; k < 3; ++k)
+        for (const double way : {1., -1.}) {
+            const Eigen::Vector3d axis = way * turn.col(k), towards = turn.col((k + 1) % 3);
+            faces.push_back(CylinderFace{{3, 4, 5}, axis, towards, 40, way > 0});
+            faces.push_back(ConeFace{{3, 4, 5}, axis, towards, 0.4, way > 0});
+        }
     for (const BinderFace& face : faces) {
         TriMesh part = plate;
         for (int v = 0; v < part.vertices(); ++v)
