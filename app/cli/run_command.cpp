@@ -141,6 +141,8 @@ void print_summary(const Session& session)
                area(part));
     for (const std::string& line : in_words(applied_process(session)))
         fmt::print("process   {}\n", line);
+    if (flat.report.process_share < 1)
+        fmt::print("process   of these forces {:.2g} % are in the blank\n", 100 * flat.report.process_share);
     fmt::print("blank     {:.6g} x {:.6g} mm, {} energy and {} Newton steps, {}\n", size[0], size[1],
                flat.report.energy.size(), flat.report.newton.size(),
                flat.report.whole()     ? "converged"

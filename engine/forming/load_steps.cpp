@@ -67,8 +67,8 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
     report = std::move(share);
     if (report.process_share < 1)
         report.reason += fmt::format(
-            "; with {:.2g} % of the forces of the tools: beyond that no equilibrium was found, since the sheet does not bear them or "
-            "the mesh is too coarse for how they would strain it",
+            "; with {:.2g} % of the forces of the tools: no step beyond that was solved; the sheet may not bear them, or the mesh be "
+            "too coarse for how they would strain it",
             100 * report.process_share);
     return reached;
 }

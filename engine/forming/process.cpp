@@ -82,6 +82,8 @@ void add_drawbead(const Drawbead& bead, const TriMesh& part, const LineOnPart& l
                   const Eigen::Matrix3Xd& area_vector, std::vector<Restraint>& restraint)
 {
     const std::string what = fmt::format("the drawbead \"{}\"", bead.name);
+    if (bead.force_N_mm == 0) // of a shape too shallow to bend the sheet
+        return;
     require_positive("the force of " + what, bead.force_N_mm, "N/mm");
     RestraintSum sum;
     for (const LinePlace& place : lines.places(what, bead.line)) {

@@ -80,7 +80,8 @@ std::vector<std::string> in_words(const AppliedProcess& process)
     if (process.edge_restraint > 0)
         lines.push_back(fmt::format("edge restraint {:.4g} % of the lock force of {:.4g} N/mm: {:.4g} N/mm",
                                     100 * process.edge_restraint, process.lock_force_N_mm,
-                                    process.edge_restraint * process.lock_force_N_mm));
+                                    process.edge_restraint * process.lock_force_N_mm) +
+                        (process.tailored.empty() ? "" : " on the base sheet, on pieces by their own lock force"));
     for (const AppliedPilot& each : process.pilots)
         lines.push_back(fmt::format("pilot {}: {}", each.name,
                                     each.places == 1 ? "1 place" : fmt::format("{} places", each.places)));

@@ -231,7 +231,7 @@ TEST(Process, OfForcesThatTheSheetDoesNotBearAShareIsAppliedAndThatIsSaid)
     EXPECT_GT(flat.report.process_share, 0);
     EXPECT_LT(flat.report.process_share, 0.2);
     EXPECT_NE(flat.report.system, SolvedSystem::energy);
-    EXPECT_NE(flat.report.reason.find("does not bear them"), std::string::npos) << flat.report.reason;
+    EXPECT_NE(flat.report.reason.find("may not bear them"), std::string::npos) << flat.report.reason;
     cup.options.process.contact[0].force_N = 1e9 * flat.report.process_share;
     const FlattenResult borne = flatten(cup.mesh, cup.options);
     EXPECT_EQ(borne.report.process_share, 1);

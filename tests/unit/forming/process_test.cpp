@@ -240,8 +240,11 @@ TEST(Process, WhatIsWrongIsNamed)
     EXPECT_NE(refusal(process, part).find("off the part"), std::string::npos);
     process.drawbeads = {{"b1", {{20, 5, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("at least two different places"), std::string::npos);
-    process.drawbeads = {{"b1", {{20, 5, 0}, {20, 35, 0}}, 0}};
+    process.drawbeads = {{"b1", {{20, 5, 0}, {20, 35, 0}}, -1}};
     EXPECT_NE(refusal(process, part).find("must be positive"), std::string::npos);
+    process.drawbeads[0].force_N_mm = 0; // of a shape that does not bend the sheet
+    EXPECT_EQ(refusal(process, part), "");
+    EXPECT_TRUE(forces(process, part).restraint.empty());
     process = {};
     process.edge_restraint = 1.5;
     EXPECT_NE(refusal(process, part).find("between 0 and 1"), std::string::npos);
