@@ -113,9 +113,8 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place_under_part(part, element, plane, result.blank.position);
 
-    StressCurve::Options curve = options.curve;
-    curve.trusted_strain = result.report.trusted_strain;
-    const Sheet sheet = sheet_with(job, curve);
+    const bool as_given = result.report.trusted_strain == options.curve.trusted_strain && job.wanted() == Curve::given;
+    const Sheet sheet = sheet_with(job, as_given ? Curve::given : Curve::continued);
     result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
     if (options.skins)
