@@ -432,6 +432,17 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
     return json.dump(2) + "\n";
 }
 
+std::vector<std::string> reading_notes(const PartFile& part)
+{
+    std::vector<std::string> lines;
+    for (const std::string& note : part.notes)
+        lines.push_back("note: " + note);
+    for (const Finding& finding : part.doctor.findings)
+        lines.push_back(fmt::format("{}: {}{}{}", finding.severity == Severity::repaired ? "repaired" : "note",
+                                    finding.text, finding.advice.empty() ? "" : "; ", finding.advice));
+    return lines;
+}
+
 std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
 {
     Json json = {{"schema", "spia.info/1"},
