@@ -36,8 +36,9 @@ struct EnergyOptions {
     double decrement = 1e-5; ///< stop when a step promises less than this share of the energy
     StepWatch watch = {};
     std::vector<HeldVertex> held = {}; ///< each vertex once
-    double spring = std::numeric_limits<double>::infinity(); ///< N/mm, by which each is drawn to its place; infinite: it is
-                                                             ///< there from the start on, and stays
+    double spring =
+        std::numeric_limits<double>::infinity(); ///< N/mm, by which each is drawn to its place; infinite: it is
+                                                 ///< there from the start on, and stays
 };
 
 /// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held as it was before forming, by projected
