@@ -113,8 +113,7 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place_under_part(part, element, plane, result.blank.position);
 
-    const bool as_given = result.report.trusted_strain == options.curve.trusted_strain && job.wanted() == Curve::given;
-    const Sheet sheet = sheet_with(job, as_given ? Curve::given : Curve::continued);
+    const Sheet sheet = solved_sheet(job, result.report);
     result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
     if (options.skins)

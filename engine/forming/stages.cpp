@@ -43,6 +43,8 @@ EnergyResult energy_stage(const Job& job, Curve curve, Eigen::Matrix2Xd X, doubl
         EnergyOptions energy;
         energy.most_steps = most_steps;
         energy.watch = job.options.watch;
+        if (job.anchored)
+            energy.held = job.external.held;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
         result = minimise_energy(
             job.part.triangle, job.element, sheet_with(job, curve, shares[level]), X, job.matrix, job.cholesky, energy,
@@ -51,6 +53,13 @@ EnergyResult energy_stage(const Job& job, Curve curve, Eigen::Matrix2Xd X, doubl
         report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
     }
     return result;
+}
+
+/// The blank of the energy stage may lie anywhere, unless it is held.
+void place(const Job& job, Eigen::Matrix2Xd& X)
+{
+    if (!job.anchored)
+        place_under_part(job.part, job.element, job.plane, X);
 }
 
 void take(EquilibriumResult& equilibrium, SolveReport& report)
@@ -65,7 +74,7 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
 std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix2Xd X, const EquilibriumOptions& newton,
                                                    SolveReport& report, const Progress& progress)
 {
-    place_under_part(job.part, job.element, job.plane, X);
+    place(job, X);
     const Sheet sheet = sheet_with(job, job.wanted());
     VirtualWork work(job.part, job.element, sheet, job.external);
     EquilibriumResult result =
@@ -102,6 +111,12 @@ double trusted_strain(const Job& job, Curve curve)
 {
     const double given = job.options.curve.trusted_strain;
     return curve == Curve::given ? given : uniform_strain(job.options.material.hardening, given);
+}
+
+Sheet solved_sheet(const Job& job, const SolveReport& report)
+{
+    const bool as_given = job.wanted() == Curve::given && report.trusted_strain == trusted_strain(job, Curve::given);
+    return sheet_with(job, as_given ? Curve::given : Curve::continued);
 }
 
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
@@ -174,7 +189,7 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
     for (const double decrement : {near_enough, exact}) { // most often the first will do
         held = energy_stage(job, Curve::continued, std::move(held.position), decrement, options.most_energy_steps,
                             report, progress.part(from, from + 0.12));
-        place_under_part(job.part, job.element, job.plane, held.position);
+        place(job, held.position);
         EquilibriumResult result =
             solve_relaxed_equilibrium(job.part, job.element, work, held.position, job.matrix, job.cholesky,
                                       newton_of(options), progress.part(from + 0.12, from + 0.5));
@@ -219,7 +234,7 @@ Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& 
             .position;
     if (job.external.travelling.size() > 0) {
         Eigen::Matrix2Xd placed = X;
-        place_under_part(job.part, job.element, job.plane, placed);
+        place(job, placed);
         job.external.stuck = stuck_places(job.part, job.element, job.external, placed);
     }
     if (std::optional<Eigen::Matrix2Xd> solved =

@@ -24,6 +24,8 @@ struct Job {
     const Eigen::Matrix<double, 3, 2>& plane; ///< axes of the blank in space
     BlockMatrix& matrix;
     Cholesky& cholesky;
+    bool anchored =
+        false; ///< the start has the held vertices of `external` at their places: from the energy stage on they stay
 
     /// The one that the equations are to be solved with. Under forces a sheet that softens has solutions in which strain gathers
     /// in a few rows of elements, and which one is found depends on the mesh and on the way there.
@@ -35,6 +37,9 @@ Sheet sheet_with(const Job& job, Curve curve, double growth = 1);
 
 /// The strain from which on the base sheet's curve is continued.
 double trusted_strain(const Job& job, Curve curve);
+
+/// The sheet with the curves that the solution was found with.
+Sheet solved_sheet(const Job& job, const SolveReport& report);
 
 /// @param obstacle why the law as given was not kept
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
