@@ -23,6 +23,45 @@ double energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& elem
     return part.sum();
 }
 
+/// What the springs of held vertices add; those that are there already have none.
+class Springs {
+public:
+    explicit Springs(const EnergyOptions& options)
+        : held_(options.held), stiffness_(std::isfinite(options.spring) ? options.spring : 0)
+    {
+    }
+    double energy(const Eigen::Matrix2Xd& X) const
+    {
+        double sum = 0;
+        for (const HeldVertex& h : held_)
+            sum += stiffness_ / 2 * (X.col(h.vertex) - h.place).squaredNorm();
+        return sum;
+    }
+    void add(const Eigen::Matrix2Xd& X, Eigen::VectorXd& gradient, BlockMatrix& matrix) const
+    {
+        for (const HeldVertex& h : held_) {
+            gradient.segment<2>(2 * h.vertex) += stiffness_ * (X.col(h.vertex) - h.place);
+            matrix.add_to_diagonal(h.vertex, stiffness_ * Eigen::Matrix2d::Identity());
+        }
+    }
+
+private:
+    const std::vector<HeldVertex>& held_;
+    double stiffness_;
+};
+
+/// Per vertex whether it does not move; empty: all may.
+std::vector<char> immovable(const EnergyOptions& options, Eigen::Index vertices)
+{
+    std::vector<char> out;
+    if (options.held.empty() || std::isfinite(options.spring))
+        return out;
+    out.assign(size_t(vertices), 0);
+    for (const HeldVertex& h : options.held)
+        out[size_t(h.vertex)] = 1;
+    return out;
+}
+
 } // namespace
 
 double largest_step(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& direction)
@@ -54,7 +93,12 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
     EnergyResult result;
     result.position = start;
     Eigen::Matrix2Xd& X = result.position;
-    double E = energy(triangle, element, sheet, X);
+    const Springs springs(options);
+    const std::vector<char> fixed = immovable(options, X.cols());
+    const auto total = [&](const Eigen::Matrix2Xd& at) {
+        return energy(triangle, element, sheet, at) + springs.energy(at);
+    };
+    double E = total(X);
     // What the sheet would store at the yield point all over: the scale below which an energy is nothing.
     double yield_energy = 0;
     for (int f = 0; f < faces; ++f) {
@@ -82,12 +126,23 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
                 const double weight = e.area * sheet.thickness[f];
                 out.force = weight * (w.gradient * e.gradient);
                 out.stiffness = element_stiffness(e, weight * w.stiffness);
+                for (int a = 0; a < 3 && !fixed.empty(); ++a)
+                    if (fixed[size_t(triangle(a, f))]) {
+                        out.force.col(a).setZero();
+                        out.stiffness.middleRows<2>(2 * a).setZero();
+                        out.stiffness.middleCols<2>(2 * a).setZero();
+                    }
             },
             [&](int f, const Contribution& in) {
                 matrix.add(f, in.stiffness);
                 for (int a = 0; a < 3; ++a)
                     gradient.segment<2>(2 * triangle(a, f)) += in.force.col(a);
             });
+        springs.add(X, gradient, matrix);
+        const double mean_stiffness = matrix.diagonal().mean();
+        for (size_t v = 0; v < fixed.size(); ++v)
+            if (fixed[v])
+                matrix.add_to_diagonal(int(v), mean_stiffness * Eigen::Matrix2d::Identity());
         // The blank may be moved freely; a shift far below the stiffness fixes it without being felt.
         const double shift = 1e-12 * matrix.diagonal().mean();
         for (int i = 0; i < matrix.size(); ++i)
@@ -105,7 +160,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
             result.ended = Ended::converged;
             if (decrement > 0 && largest_step(triangle, X, direction) > 2) { // the last step costs nothing more
                 const Eigen::Matrix2Xd trial = X + direction;
-                if (energy(triangle, element, sheet, trial) <= E)
+                if (total(trial) <= E)
                     X = trial;
             }
             return result;
@@ -114,7 +169,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         bool decreased = false;
         for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
             const Eigen::Matrix2Xd trial = X + length * direction;
-            const double E_trial = energy(triangle, element, sheet, trial);
+            const double E_trial = total(trial);
             if (E_trial <= E - 1e-4 * length * decrement) { // Armijo
                 parallel_for(faces, [&](int f) {
                     const Element& e = element[size_t(f)];

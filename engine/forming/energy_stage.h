@@ -1,9 +1,11 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/forming/external_forces.h"
 #include "engine/forming/flips.h"
 #include "engine/forming/membrane.h"
 #include "engine/sparse/block_matrix.h"
@@ -33,11 +35,15 @@ struct EnergyOptions {
     int most_steps = 200;
     double decrement = 1e-5; ///< stop when a step promises less than this share of the energy
     StepWatch watch = {};
+    std::vector<HeldVertex> held = {}; ///< each vertex once
+    double spring =
+        std::numeric_limits<double>::infinity(); ///< N/mm, by which each is drawn to its place; infinite: it is
+                                                 ///< there from the start on, and stays
 };
 
 /// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held as it was before forming, by projected
 /// Newton steps with the steadied stiffness of energy_density(), the first one majorising. W grows without bound as a triangle collapses and no step
-/// may turn one over: from a flip-free start every iterate is flip-free.
+/// may turn one over: from a flip-free start every iterate is flip-free. Springs of held vertices add their energy.
 /// @param matrix work space with the mesh's pattern; @param cholesky its analysis
 EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,
                              const Eigen::Matrix2Xd& start, BlockMatrix& matrix, Cholesky& cholesky,

@@ -45,6 +45,8 @@ EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eig
         EnergyOptions energy;
         energy.most_steps = most_steps;
         energy.watch = job.options.watch;
+        if (job.anchored)
+            energy.held = job.external.held;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
         result = minimise_energy(
             job.part.triangle, job.element, sheet_with(job, gentle), X, job.matrix, job.cholesky, energy,
@@ -53,6 +55,13 @@ EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eig
         report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
     }
     return result;
+}
+
+/// The blank of the energy stage may lie anywhere, unless it is held.
+void place(const Job& job, Eigen::Matrix2Xd& X)
+{
+    if (!job.anchored)
+        place_under_part(job.part, job.element, job.plane, X);
 }
 
 void take(EquilibriumResult& equilibrium, SolveReport& report)
@@ -67,7 +76,7 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
 std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix2Xd X, const EquilibriumOptions& newton,
                                                    SolveReport& report, const Progress& progress)
 {
-    place_under_part(job.part, job.element, job.plane, X);
+    place(job, X);
     const Sheet sheet = sheet_with(job, job.options.curve);
     VirtualWork work(job.part, job.element, sheet, job.external);
     EquilibriumResult result =
@@ -165,7 +174,7 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
     for (const double decrement : {near_enough, exact}) { // most often the first will do
         held = energy_stage(job, hardening, std::move(held.position), decrement, options.most_energy_steps, report,
                             progress.part(from, from + 0.12));
-        place_under_part(job.part, job.element, job.plane, held.position);
+        place(job, held.position);
         EquilibriumResult result =
             solve_relaxed_equilibrium(job.part, job.element, work, held.position, job.matrix, job.cholesky,
                                       newton_of(options), progress.part(from + 0.12, from + 0.5));
@@ -210,7 +219,7 @@ Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& 
             .position;
     if (job.external.travelling.size() > 0) {
         Eigen::Matrix2Xd placed = X;
-        place_under_part(job.part, job.element, job.plane, placed);
+        place(job, placed);
         job.external.stuck = stuck_places(job.part, job.element, job.external, placed);
     }
     if (std::optional<Eigen::Matrix2Xd> solved =

@@ -17,6 +17,8 @@ struct Job {
     const Eigen::Matrix<double, 3, 2>& plane; ///< axes of the blank in space
     BlockMatrix& matrix;
     Cholesky& cholesky;
+    bool anchored =
+        false; ///< the start has the held vertices of `external` at their places: from the energy stage on they stay
 };
 
 /// The sheet of a job with another continuation of its hardening curve.

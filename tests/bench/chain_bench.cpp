@@ -11,7 +11,11 @@
 #include "engine/forming/flatten.h"
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/session.h"
+#include "engine/unfold/unfold_step.h"
+#include "tests/support/developable.h"
 #include "tests/support/inner_panel.h"
+#include "tests/support/revolved.h"
+#include "tests/support/square_cup.h"
 
 namespace {
 
@@ -98,6 +102,61 @@ void grid_lift_fit(benchmark::State& state)
     state.counters["triangles"] = file->mesh.triangles();
 }
 
+/// One step of local unfolding onto the plane z = 0, in which the fixed faces lie, beside one factorisation of the matrix of its
+/// freed faces.
+void unfold_step_of(benchmark::State& state, TriMesh (*part_of)(int))
+{
+    // So many freed faces.
+    TriMesh part;
+    UnfoldPick pick;
+    double wanted = double(state.range(0));
+    for (int tries = 0; tries < 2; ++tries) {
+        part = part_of(int(wanted));
+        pick = {};
+        for (int f = 0; f < part.triangles(); ++f)
+            (part.position.row(2)(part.triangle.col(f)).cwiseAbs().maxCoeff() < 1e-9 ? pick.fixed : pick.freed)
+                .push_back(f);
+        wanted *= double(state.range(0)) / double(pick.freed.size());
+    }
+    TriMesh freed{part.position, part.triangle(Eigen::all, pick.freed)};
+    std::vector<int> number(size_t(part.vertices()), -1);
+    int vertices = 0;
+    for (int& v : freed.triangle.reshaped()) {
+        int& n = number[size_t(v)];
+        if (n < 0)
+            n = vertices++;
+        freed.position.col(n) = part.position.col(v);
+        v = n;
+    }
+    freed.position.conservativeResize(3, vertices);
+    double solving = 0, factoring = 0;
+    for (auto _ : state) {
+        factoring += factorisation_seconds(freed);
+        const auto start = Clock::now();
+        const UnfoldStepResult result = unfold_step(part, part.position, pick, mild_steel());
+        solving += seconds_since(start);
+        state.counters["energy_steps"] = double(result.piece[0].report.energy.size());
+        state.counters["newton_steps"] = double(result.piece[0].report.newton.size());
+        state.counters["converged"] = result.converged();
+    }
+    state.counters["freed"] = freed.triangles();
+    state.counters["fixed"] = double(pick.fixed.size());
+    state.counters["factorisation_s"] = factoring / double(state.iterations());
+    state.counters["step_s"] = solving / double(state.iterations());
+    state.counters["per_factorisation"] = solving / factoring;
+}
+
+TriMesh flange(int triangles) { return shapes::bent_flange({.angle_deg = 135, .triangles = triangles}).mesh; }
+TriMesh round_cup(int triangles) { return shapes::sharp_cup({.triangles = triangles}).mesh; }
+TriMesh square_cup(int triangles) { return shapes::square_cup({.triangles = triangles}); }
+
+void step_sizes(benchmark::internal::Benchmark* bench)
+{
+    for (int triangles : {20000, 100000})
+        bench->Arg(triangles);
+    bench->Unit(benchmark::kMillisecond)->Iterations(1);
+}
+
 void sizes(benchmark::internal::Benchmark* bench)
 {
     for (int triangles : {2000, 20000, 50000, 105000, 207000, 500000, 1000000})
@@ -107,6 +166,9 @@ void sizes(benchmark::internal::Benchmark* bench)
 
 BENCHMARK(solve)->Apply(sizes);
 BENCHMARK(grid_lift_fit)->Apply(sizes);
+BENCHMARK_CAPTURE(unfold_step_of, flange, &flange)->Apply(step_sizes);
+BENCHMARK_CAPTURE(unfold_step_of, round_cup, &round_cup)->Apply(step_sizes);
+BENCHMARK_CAPTURE(unfold_step_of, square_cup, &square_cup)->Apply(step_sizes);
 
 } // namespace
 

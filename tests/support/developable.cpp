@@ -133,6 +133,24 @@ DevelopablePart hat_channel(const HatChannel& shape)
     return extruded(profile_of(shape), shape.length, shape.triangles);
 }
 
+DevelopablePart bent_flange(const BentFlange& shape)
+{
+    return extruded(
+        Profile({0, 0}, 0).straight(shape.base).bend(shape.radius, shape.angle_deg * pi / 180).straight(shape.flange),
+        shape.length, shape.triangles);
+}
+
+DevelopablePart hemmed_flange(const HemmedFlange& shape)
+{
+    return extruded(Profile({0, 0}, 0)
+                        .straight(shape.base)
+                        .bend(shape.radius, pi / 2)
+                        .straight(shape.wall)
+                        .bend(shape.hem_radius, pi)
+                        .straight(shape.lip),
+                    shape.length, shape.triangles);
+}
+
 DevelopablePart lipped_channel(const LippedChannel& shape)
 {
     Profile profile({0, 0}, -pi / 2);

@@ -48,6 +48,29 @@ struct HatChannel {
 };
 DevelopablePart hat_channel(const HatChannel& shape = {});
 
+/// A base in the plane z = 0 that ends at x = `base`, and a flange bent up along that line over a radius.
+struct BentFlange {
+    double base = 60;      ///< mm, flat
+    double flange = 30;    ///< mm, flat
+    double radius = 5;     ///< mm
+    double angle_deg = 90; ///< of the bend, also beyond 180
+    double length = 80;    ///< mm, of the bend line
+    int triangles = 3000;
+};
+DevelopablePart bent_flange(const BentFlange& shape = {}); ///< its base lies in `flat` where it does in space
+
+/// The same with an upright flange whose edge is folded back flat onto it.
+struct HemmedFlange {
+    double base = 60;        ///< mm, flat
+    double wall = 30;        ///< mm, flat
+    double lip = 12;         ///< mm, flat
+    double radius = 5;       ///< mm, between base and wall
+    double hem_radius = 0.6; ///< mm
+    double length = 80;      ///< mm
+    int triangles = 3000;
+};
+DevelopablePart hemmed_flange(const HemmedFlange& shape = {});
+
 /// An upside-down U whose walls end in flanges turned inwards, with lips turned up behind them: six bends of 90 degrees
 /// in the same sense. Seen from above it hides parts of itself, so no projection can flatten it.
 struct LippedChannel {

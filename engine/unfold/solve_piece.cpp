@@ -1,0 +1,169 @@
+#include "engine/unfold/solve_piece.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+#include <optional>
+
+#include "engine/core/error.h"
+#include "engine/forming/load_steps.h"
+#include "engine/forming/placing.h"
+#include "engine/forming/sheet_fields.h"
+#include "engine/unfold/piece_start.h"
+#include "engine/unfold/turn_binder.h"
+
+namespace spia {
+namespace {
+
+/// The options as they are for the faces of the piece alone.
+FlattenOptions options_of(const FreedPiece& piece, FlattenOptions options)
+{
+    std::vector<TailoredPiece> tailored;
+    for (TailoredPiece& t : options.process.tailored) {
+        std::vector<int> local;
+        for (const int f : t.faces)
+            if (const auto at = std::lower_bound(piece.face.begin(), piece.face.end(), f);
+                at != piece.face.end() && *at == f)
+                local.push_back(int(at - piece.face.begin()));
+        t.faces = std::move(local);
+        if (!t.faces.empty())
+            tailored.push_back(std::move(t));
+    }
+    options.process.tailored = std::move(tailored);
+    options.direction.reset();
+    options.skins = false;
+    options.watch = {};
+    return options;
+}
+
+/// Joined to nothing it lies anywhere: as flatten() lays it.
+SolvedPiece free_piece(const FreedPiece& piece, const BinderFace& target, const FlattenOptions& options,
+                       const Progress& progress)
+{
+    const auto* plane = std::get_if<PlaneFace>(&target);
+    if (!plane)
+        throw InputError(
+            fmt::format("the freed faces around face {} are joined to no fixed face; then only a plane can "
+                        "be their target, not a {}",
+                        piece.face[0], name(target)));
+    FlattenOptions seen = options;
+    const Eigen::Vector3d normal = plane->axes.col(0).cross(plane->axes.col(1));
+    seen.direction = normal;
+    FlattenResult flat = flatten(piece.mesh, seen, progress);
+    const Eigen::Vector3d height = normal * normal.dot(plane->origin);
+    return {(blank_plane(flat.stamping.direction) * flat.blank.position).colwise() + height, std::move(flat.face),
+            std::move(flat.report)};
+}
+
+/// The target with its development whole around the hinge.
+BinderFace developable(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix3Xd& local)
+{
+    std::vector<int> number(size_t(piece.mesh.vertices()), -1);
+    for (size_t k = 0; k < piece.held.size(); ++k)
+        number[size_t(piece.held[k])] = int(k);
+    std::vector<std::array<int, 2>> edges;
+    for (const auto& [a, b] : piece.hinge)
+        edges.push_back({number[size_t(a)], number[size_t(b)]});
+    const std::optional<BinderFace> turned = turned_towards(target, local(Eigen::all, piece.held), edges);
+    if (!turned)
+        throw InputError(
+            fmt::format("the freed faces around face {} are joined to the fixed ones all the way around the {}; "
+                        "cut the part open along a line, or free one side after the other",
+                        piece.face[0], name(target)));
+    return *turned;
+}
+
+/// The axes of the development in space, where the hinge is.
+Eigen::Matrix<double, 3, 2> axes_at(const BinderFace& target, const Eigen::Vector2d& place)
+{
+    if (const auto* plane = std::get_if<PlaneFace>(&target))
+        return plane->axes;
+    const bool round = std::holds_alternative<CylinderFace>(target); // on a cone the axes turn beside its middle
+    const Eigen::Vector3d at = placed(target, round ? place : Eigen::Vector2d(0, place.norm())),
+                          n = outer_normal(target, at);
+    if (const auto* cylinder = std::get_if<CylinderFace>(&target))
+        return (Eigen::Matrix<double, 3, 2>() << cylinder->axis.cross(n), cylinder->axis).finished();
+    const Eigen::Vector3d y = (at - std::get<ConeFace>(target).apex).normalized();
+    return (Eigen::Matrix<double, 3, 2>() << y.cross(n), y).finished();
+}
+
+/// A cone ends in its apex: behind it, along the negative y axis, its development is cut.
+void require_beside_apex(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix2Xd& X)
+{
+    if (!std::holds_alternative<ConeFace>(target))
+        return;
+    for (int f = 0; f < piece.mesh.triangles(); ++f) {
+        const auto x = corners(X, piece.mesh.triangle.col(f));
+        for (int a = 0; a < 3; ++a) {
+            const Eigen::Vector2d p = x.col(a), q = x.col((a + 1) % 3);
+            if ((p[0] > 0) != (q[0] > 0) && (p[1] * q[0] - q[1] * p[0]) / (q[0] - p[0]) <= 0)
+                throw SolveError(fmt::format("face {} would come to lie across the apex of the cone or behind it; free "
+                                             "fewer faces, or give another target",
+                                             piece.face[size_t(f)]));
+        }
+    }
+}
+
+int first_flipped(const FreedPiece& piece, const Eigen::Matrix2Xd& X)
+{
+    for (int f = 0; f < piece.mesh.triangles(); ++f)
+        if (flipped_triangles(piece.mesh.triangle.col(f), X) > 0)
+            return piece.face[size_t(f)];
+    return -1;
+}
+
+} // namespace
+
+SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
+                        const FreedPiece& piece, const BinderFace& given_target, const FlattenOptions& given,
+                        const Progress& progress)
+{
+    const auto clock = std::chrono::steady_clock::now();
+    const FlattenOptions options = options_of(piece, given);
+    if (piece.held.empty())
+        return free_piece(piece, given_target, options, progress);
+    if (piece.hinge.empty())
+        throw InputError(
+            fmt::format("the freed faces around face {} touch the fixed ones in single vertices only; free or "
+                        "fix the faces between them",
+                        piece.face[0]));
+    const BinderFace target = developable(piece, given_target, state(Eigen::all, piece.vertex));
+
+    ExternalForces external;
+    for (const int v : piece.held)
+        external.held.push_back({v, developed(target, state.col(piece.vertex[size_t(v)]))});
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero(); // near the origin digits are not lost
+    for (const HeldVertex& h : external.held)
+        middle += h.place / double(external.held.size());
+    for (HeldVertex& h : external.held)
+        h.place -= middle;
+    external.plane = axes_at(target, middle);
+
+    const std::vector<Element> element = elements(piece.mesh);
+    progress.checkpoint(0, "ordering the equations");
+    BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
+    Cholesky cholesky(matrix);
+    const Job job{piece.mesh, element, options, external, external.plane, matrix, cholesky, true};
+    SolvedPiece result;
+    const PieceStart start = piece_start(part, state, fixed, piece, job, progress.part(0.03, 0.2));
+    result.report.start = start.method;
+    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, 1));
+
+    StressCurve::Options curve = options.curve;
+    curve.trusted_strain = result.report.trusted_strain;
+    result.face = face_fields(piece.mesh, element, {X}, sheet_with(job, curve));
+    X.colwise() += middle;
+    if (const int f = first_flipped(piece, X); f >= 0)
+        throw SolveError(
+            fmt::format("face {} is too thin on the target for the arithmetic; mesh the part more evenly", f));
+    require_beside_apex(piece, target, X);
+    result.position.resize(3, X.cols());
+    for (Eigen::Index v = 0; v < X.cols(); ++v)
+        result.position.col(v) = placed(target, X.col(v));
+    result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,54 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/forming/flatten.h"
+#include "engine/unfold/fit_binder.h"
+
+namespace spia {
+
+/// What one step of local unfolding moves, and onto what.
+struct UnfoldPick {
+    std::vector<int> fixed; ///< faces that stay where they are and carry the target
+    std::vector<int> freed; ///< faces to move onto it
+    std::optional<BinderFace> target =
+        {};                         ///< not given: the plane, cylinder or cone of the carrying faces in the state
+    std::vector<int> carrying = {}; ///< of the fixed ones; empty: all of them
+};
+
+/// A connected piece of the freed faces, solved for itself.
+struct UnfoldedPiece {
+    std::vector<int> faces; ///< of the part, ascending
+    int held_vertices = 0;  ///< shared with fixed faces
+    SolveReport report;
+};
+
+struct UnfoldStepResult {
+    Eigen::Matrix3Xd position; ///< 3 by #V, mm: all vertices after the step
+    BinderFit binder; ///< the target, its distance from the held vertices and its angle to the fixed faces around them
+    std::vector<int> freed;           ///< ascending
+    SheetFields face;                 ///< of forming the step's sheet into the part: one entry per freed face
+    std::vector<UnfoldedPiece> piece; ///< in the order of their first faces
+    int necking_triangles = 0;        ///< freed faces beyond the trusted strain
+    double seconds = 0;
+
+    bool converged() const; ///< all pieces
+};
+
+/// One step of local unfolding: the freed faces are laid on a target face in space without moving the fixed ones. Positions live
+/// in the target's development, in which all lengths are true; vertices shared with fixed faces stay where they are. In it the
+/// equations are those of flatten(): equilibrium of the freed material, whose strain is measured from its place on the target to the
+/// original part, whatever steps were before.
+/// @param part   as it is formed, mm
+/// @param state  3 by #V, mm: where its vertices are now; before the first step the part's own positions
+/// @param options of flatten(); of the process only tailored pieces and the rolling direction, seen square to the target in the
+///               middle of the hinge. A piece that is joined to nothing lies on a plane as flatten() lays it, with the plane's normal as
+///               stamping direction.
+/// @throws InputError if the pick or an option is not as described: names the first offending face
+/// @throws SolveError if a piece cannot be laid on the target without turning a triangle over: names the face
+/// The result does not depend on the number of threads nor on the order of the faces in the pick. [Zhu et al. 2013, sec. 4.3]
+UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state, const UnfoldPick& pick,
+                             const FlattenOptions& options, const Progress& progress = {});
+
+} // namespace spia

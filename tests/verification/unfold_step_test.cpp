@@ -1,0 +1,155 @@
+// Local unfolding against closed forms and an independent solution along the meridian.
+#include "engine/unfold/unfold_step.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+#include <oneapi/tbb/global_control.h>
+
+#include "tests/support/held_flange.h"
+#include "tests/support/mesh_tools.h"
+#include "tests/support/revolved.h"
+
+namespace spia {
+namespace {
+
+using std::numbers::pi;
+
+const Swift swift{565.32, 0.007117, 0.2589};
+
+FlattenOptions steel(double r)
+{
+    FlattenOptions options;
+    options.material = {"mild", 206000, 0.3, 7850, swift, r, r, r, ""};
+    options.thickness = 0.8;
+    return options;
+}
+
+/// Fixed: the faces in the plane z = 0.
+UnfoldPick all_onto_the_plane(const TriMesh& part)
+{
+    UnfoldPick pick;
+    for (int f = 0; f < part.triangles(); ++f)
+        (part.position.row(2)(part.triangle.col(f)).cwiseAbs().maxCoeff() < 1e-9 ? pick.fixed : pick.freed)
+            .push_back(f);
+    return pick;
+}
+
+double mean_radius(const Eigen::Matrix3Xd& position, const std::vector<int>& ring)
+{
+    double sum = 0;
+    for (const int v : ring)
+        sum += position.col(v).head<2>().norm() / double(ring.size());
+    return sum;
+}
+
+/// The innermost ring of vertices.
+std::vector<int> inner_edge(const shapes::AxisymmetricPart& part)
+{
+    std::vector<int> ring;
+    for (int v = 0; v < part.mesh.vertices(); ++v)
+        if (part.arc_length[v] < 1e-9)
+            ring.push_back(v);
+    return ring;
+}
+
+} // namespace
+
+TEST(UnfoldStep, TheWallOfASharpCupConvergesToItsClosedForm)
+{
+    const double r = 1.77, m = r / (1 + r);
+    for (const double height : {30., 60.}) {
+        std::vector<double> h, error;
+        for (const int triangles : {5000, 20000, 80000}) {
+            const shapes::SharpCup shape{.height = height, .triangles = triangles};
+            const shapes::AxisymmetricPart cup = shapes::sharp_cup(shape);
+            const UnfoldStepResult result =
+                unfold_step(cup.mesh, cup.mesh.position, all_onto_the_plane(cup.mesh), steel(r));
+            ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
+            const double R0 = shape.radius * std::pow(1 + (1 + m) * height / shape.radius, 1 / (1 + m));
+            h.push_back(shapes::mean_edge(cup.mesh));
+            error.push_back(std::abs(mean_radius(result.position, cup.rim) / R0 - 1));
+            std::printf("cup %g mm, %d triangles: R0 %.2e, %s, %zu + %zu steps, %.2f s\n", height, triangles,
+                        error.back(), std::string(name(result.piece[0].report.system)).c_str(),
+                        result.piece[0].report.energy.size(), result.piece[0].report.newton.size(), result.seconds);
+        }
+        EXPECT_LT(error.back(), 2e-4);
+        EXPECT_GT(shapes::convergence_order(h, error), 1.5);
+    }
+}
+
+TEST(UnfoldStep, TheCollarOfAHoleConvergesToItsClosedForm)
+{
+    const double r = 1.77, m = r / (1 + r), radius = 40, height = 12;
+    std::vector<double> h, error;
+    for (const int triangles : {4000, 16000, 64000}) {
+        Eigen::Matrix2Xd meridian(2, 3);
+        meridian << radius, radius, 70, /**/ -height, 0, 0;
+        const shapes::AxisymmetricPart part = shapes::axisymmetric(meridian, triangles);
+        const UnfoldStepResult result =
+            unfold_step(part.mesh, part.mesh.position, all_onto_the_plane(part.mesh), steel(r));
+        ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
+        const double R = radius * std::pow(1 - (1 + m) * height / radius, 1 / (1 + m));
+        h.push_back(shapes::mean_edge(part.mesh));
+        error.push_back(std::abs(mean_radius(result.position, inner_edge(part)) / R - 1));
+        std::printf("collar, %d triangles: %.2e\n", triangles, error.back());
+    }
+    EXPECT_LT(error.back(), 5e-4); // the edge was stretched by 41 %
+    EXPECT_GT(shapes::convergence_order(h, error), 1.5);
+}
+
+TEST(UnfoldStep, AStretchFlangeOverARadiusConvergesToTheSolutionAlongItsMeridian)
+{
+    const double r = 1.77, hole = 60, bend = 8;
+    std::vector<double> h, error, thickness_error;
+    for (const int triangles : {4000, 16000, 64000}) {
+        const auto meridian_from = [&](double held) {
+            return shapes::Profile({held, 0}, pi).straight(held - hole).bend(bend, pi / 3).straight(10);
+        };
+        const shapes::Profile whole = meridian_from(90);
+        Eigen::Matrix2Xd points(2, 2001);
+        for (int k = 0; k <= 2000; ++k)
+            points.col(k) = whole.at(whole.length() * (1 - k / 2000.));
+        for (int k = 0; k <= 2000; ++k)
+            if (points(0, k) >= hole - 1e-9)
+                points(1, k) = 0;
+        const shapes::AxisymmetricPart part = shapes::axisymmetric(points, triangles);
+        const UnfoldPick pick = all_onto_the_plane(part.mesh);
+        const UnfoldStepResult result = unfold_step(part.mesh, part.mesh.position, pick, steel(r));
+        ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
+        double held = 90; // the ring where the fixed faces end
+        for (const int f : pick.fixed)
+            for (const int v : part.mesh.triangle.col(f))
+                held = std::min(held, part.mesh.position.col(v).head<2>().norm());
+        const shapes::FlangeBlank truth = shapes::held_flange_blank({meridian_from(held), swift, 206000, r, 0.8});
+        const std::vector<int> edge = inner_edge(part);
+        double thickness = 0, count = 0;
+        for (size_t k = 0; k < result.freed.size(); ++k)
+            for (const int v : part.mesh.triangle.col(result.freed[k]))
+                if (part.arc_length[v] < 1e-9) {
+                    thickness += result.face.thickness[Eigen::Index(k)];
+                    ++count;
+                }
+        h.push_back(shapes::mean_edge(part.mesh));
+        error.push_back(std::abs(mean_radius(result.position, edge) / truth.R.tail(1)[0] - 1));
+        thickness_error.push_back(std::abs(thickness / count / truth.thickness.tail(1)[0] - 1));
+        std::printf("stretch flange, %d triangles: edge %.4f (%.2e), thickness %.4f (%.2e)\n", triangles,
+                    truth.R.tail(1)[0], error.back(), truth.thickness.tail(1)[0], thickness_error.back());
+    }
+    EXPECT_LT(error.back(), 2e-4);
+    EXPECT_LT(thickness_error.back(), 5e-4); // of the faces at the edge
+    EXPECT_GT(shapes::convergence_order(h, error), 1.5);
+}
+
+TEST(UnfoldStep, HasTheSameBitsOnOneThreadAndOnTwo)
+{
+    const shapes::AxisymmetricPart cup = shapes::sharp_cup({.triangles = 12000});
+    const UnfoldPick pick = all_onto_the_plane(cup.mesh);
+    std::vector<Eigen::Matrix3Xd> position;
+    for (const size_t threads : {1, 2}) {
+        const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+        position.push_back(unfold_step(cup.mesh, cup.mesh.position, pick, steel(1.77)).position);
+    }
+    EXPECT_EQ(position[0], position[1]);
+}
+
+} // namespace spia
