@@ -16,6 +16,7 @@
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/unfold/fit_binder.h"
+#include "engine/unfold/pick_border.h"
 
 namespace spia {
 namespace {
@@ -82,7 +83,7 @@ public:
         }
     }
     const BinderFit* of(int region) const { return fit_[size_t(region)] ? &*fit_[size_t(region)] : nullptr; }
-    /// Found only by allowing more than unfold_step() does for itself: the pick has to name it.
+    /// Found only by allowing more than unfold_step() does for itself: the step has to say so.
     bool loose(int region) const { return loose_[size_t(region)]; }
 
 private:
@@ -285,20 +286,29 @@ private:
         PlannedStep& step = same == steps.end() ? steps.emplace_back() : *same;
         step.carrier = carrier;
         step.freed = united(step.freed, cluster);
-        FaceSet freed, beside;
-        for (int f = 0; f < part_.triangles(); ++f) {
-            if (std::binary_search(step.freed.begin(), step.freed.end(), map_.label[f]))
-                freed.push_back(f);
-            else if (std::any_of(part_.triangle.col(f).begin(), part_.triangle.col(f).end(),
-                                 [&](int v) { return held.count(v) > 0; }))
-                beside.push_back(f);
-        }
+        if (step.fixed.empty())
+            step.fixed = {carrier};
+        std::vector<char> carries(size_t(part_.vertices()), 0);
         const FaceSet carrying = map_.faces_of(carrier);
-        step.pick.freed = freed;
-        step.pick.fixed = without(united(step.pick.fixed, united(carrying, beside)), freed);
-        step.pick.carrying = step.pick.fixed.size() > carrying.size() ? carrying : FaceSet{};
-        if (carriers_.loose(carrier))
-            step.pick.target = carriers_.of(carrier)->face;
+        for (const int f : carrying)
+            for (const int v : part_.triangle.col(f))
+                carries[size_t(v)] = 1;
+        for (const int v : held)
+            if (!carries[size_t(v)])
+                for (const int label : of_vertex_[size_t(v)])
+                    if (!std::binary_search(step.freed.begin(), step.freed.end(), label) &&
+                        std::find(step.fixed.begin(), step.fixed.end(), label) == step.fixed.end())
+                        step.fixed.push_back(label);
+        FaceSet fixed;
+        step.pick.freed.clear();
+        for (int f = 0; f < part_.triangles(); ++f)
+            if (std::binary_search(step.freed.begin(), step.freed.end(), map_.label[f]))
+                step.pick.freed.push_back(f);
+            else if (std::find(step.fixed.begin(), step.fixed.end(), map_.label[f]) != step.fixed.end())
+                fixed.push_back(f);
+        step.pick.fixed = united(fixed, pick_border(part_, fixed, step.pick.freed).held);
+        step.pick.carrying = carrying;
+        step.within_mm = carriers_.loose(carrier) ? distance_ : 0;
     }
 
     int depth_of(const std::vector<int>& labels) const
@@ -330,8 +340,10 @@ private:
         step.pick.freed = all_faces();
         step.freed.resize(graph_.edge.size());
         std::iota(step.freed.begin(), step.freed.end(), 0);
-        if (rolls)
-            step.pick.target = fit->face;
+        if (rolls) {
+            step.pick.carrying = map_.faces_of(result_.root);
+            step.within_mm = carriers_.loose(result_.root) ? distance_ : 0;
+        }
         result_.steps.push_back(std::move(step));
     }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/unfold/bends.h"
@@ -15,13 +17,20 @@ enum class UnfoldKind {
 };
 std::string_view name(UnfoldKind kind);
 
-/// One step of a proposal; plain, to be edited.
+/// One step; plain, to be edited.
 struct PlannedStep {
     UnfoldKind kind = UnfoldKind::lay;
-    std::string name;       ///< e.g. "region 4 and bend 2 onto region 1"
-    UnfoldPick pick;        ///< of an unroll or a flatten: nothing is fixed, all is freed
-    std::vector<int> freed; ///< labels of the map, ascending
-    int carrier = -1;       ///< region; -1 where nothing stays
+    std::string name; ///< e.g. "region 4 onto region 1"
+    UnfoldPick
+        pick; ///< of an unroll or a flatten: nothing is fixed, all is freed; an unroll has carrying faces all the same
+    double within_mm =
+        0; ///< how far the carrying faces may be from the plane, cylinder or cone that is looked for; 0: as unfold_step()
+    double offset_mm = 0;                                              ///< the target is moved so far to its outer side
+    std::vector<int> freed;                                            ///< labels of the map, ascending
+    std::vector<int> fixed;                                            ///< labels, the carrier first
+    int carrier = -1;                                                  ///< region; -1 where nothing stays
+    std::optional<double> tolerance = {};                              ///< of the solver, in place of FlattenOptions
+    std::optional<int> most_energy_steps = {}, most_newton_steps = {}; ///< likewise
 };
 
 struct SequenceOptions {
