@@ -418,6 +418,12 @@ FaceSet BendMap::faces_of(int wanted) const
     return faces;
 }
 
+double BendMap::area_of(int wanted) const
+{
+    const auto k = size_t(wanted);
+    return k < regions.size() ? regions[k].area : bends[k - regions.size()].area;
+}
+
 std::string BendMap::name(int wanted) const
 {
     return wanted < int(regions.size()) ? fmt::format("region {}", wanted + 1)

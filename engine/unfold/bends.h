@@ -46,6 +46,7 @@ struct BendMap {
     double side;                      ///< mm, square root of the area
     bool smoothed;                    ///< the part is a scan, say: its normals were smoothed before
     FaceSet faces_of(int label) const;
+    double area_of(int label) const; ///< mm2
 
     int label_of_bend(size_t bend) const { return bends[bend].faces ? int(regions.size() + bend) : -1; }
     /// "region 3", "bend 1": counted from 1. @param label also of a sharp bend: #regions + its place in bends
