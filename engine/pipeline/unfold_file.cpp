@@ -23,7 +23,7 @@ class NamedRegions {
 public:
     NamedRegions(const Json& json, const Place& place, const PartFile& part, const BendMap& map,
                  std::vector<std::string>& findings)
-        : map_(map), search_(part.mesh)
+        : part_(part.mesh), map_(map)
     {
         for (int label = 0; label <= map.label.maxCoeff(); ++label)
             own_[map.name(label)] = label;
@@ -70,27 +70,49 @@ public:
     }
 
 private:
-    /// @returns why there is none
+    /// Of what is near the place and about as large, what is likest. @returns why there is none
     std::string look(const std::string& name, const Eigen::Vector3d& where, const std::string& kind,
                      std::optional<double> area)
     {
         constexpr double near = 0.05, alike = 2; // of the part's side; ratio of areas
-        const ClosestPoint closest = search_.nearest(where);
-        if (closest.distance > near * map_.side)
-            return fmt::format("the part has nothing at its place, the nearest is {:.3g} mm away", closest.distance);
-        const int label = map_.label[closest.face];
-        const bool is_region = label < int(map_.regions.size());
-        if (is_region != (kind == "region"))
-            return fmt::format("at its place there is a {} now", is_region ? "region" : "bend");
-        const double now = map_.area_of(label);
-        if (area && *area > 0 && (now > alike * *area || now < *area / alike))
-            return fmt::format("it had {:.4g} mm2, at its place there are {:.4g} mm2 now", *area, now);
-        named_[name] = label;
-        return {};
+        const auto is_kind = [&](int label) { return (label < int(map_.regions.size())) == (kind == "region"); };
+        const auto unlike = [&](int label) { // ratio of areas, 1 or more
+            const double now = map_.area_of(label), then = area && *area > 0 ? *area : now;
+            return std::max(now / then, then / now);
+        };
+        std::vector<double> distance(size_t(map_.label.maxCoeff() + 1), most_mm);
+        int closest = 0;
+        for (int f = 0; f < part_.triangles(); ++f) {
+            const Eigen::Matrix3d x = part_.position(Eigen::all, part_.triangle.col(f));
+            double& least = distance[size_t(map_.label[f])];
+            least = std::min(least, (x * closest_on_triangle(x, where) - where).norm());
+            if (least < distance[size_t(closest)])
+                closest = map_.label[f];
+        }
+        int best = -1;
+        double least = most_mm;
+        for (int label = 0; label < int(distance.size()); ++label) {
+            const double score = distance[size_t(label)] + near * map_.side * std::log(unlike(label));
+            if (is_kind(label) && distance[size_t(label)] <= near * map_.side && unlike(label) <= alike &&
+                score < least) {
+                best = label;
+                least = score;
+            }
+        }
+        if (best >= 0) {
+            named_[name] = best;
+            return {};
+        }
+        if (distance[size_t(closest)] > near * map_.side)
+            return fmt::format("the part has nothing at its place, the nearest is {:.3g} mm away",
+                               distance[size_t(closest)]);
+        if (!is_kind(closest))
+            return fmt::format("at its place there is a {} now", kind == "bend" ? "region" : "bend");
+        return fmt::format("it had {:.4g} mm2, at its place there are {:.4g} mm2 now", *area, map_.area_of(closest));
     }
 
+    const TriMesh& part_;
     const BendMap& map_;
-    ClosestPointSearch search_;
     std::map<std::string, int> named_, own_;
 };
 

@@ -12,9 +12,12 @@ namespace spia {
 struct BendLimits {
     double curvature = 8; ///< sheet that is curved more, over one side, bends: a radius below 1/8 of the side
     double sharp = 0.35;  ///< radians: an edge between two regions that turns more is a sharp bend
-    double least_area =
-        1e-3; ///< of the part: a smaller region, or a bend that joins nothing, belongs to its neighbour;
-              ///< five times as much on a part that had to be smoothed
+    /// Of the part: a smaller region, or a bend that joins nothing, belongs to its neighbour; five times as much on a part that
+    /// had to be smoothed.
+    double least_area = 1e-3;
+    /// Of the side: what is farther from the plane in which most of a region lies, and touches a bend, belongs to the bend; a
+    /// region of another shape stays as it is.
+    double off_plane = 8e-4;
 };
 
 /// A flat or gently curved piece of the part.

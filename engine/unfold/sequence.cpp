@@ -92,11 +92,41 @@ private:
     std::vector<char> loose_;
 };
 
-int chosen_root(const BendMap& map, const Carriers& carriers)
+/// Per region from 1, where what it is joined to lies outside of it, to -1, where it lies around that, as the flange around a cup.
+std::vector<double> outwards(const TriMesh& part, const BendMap& map)
 {
+    std::vector<double> out(map.regions.size(), 0), most(map.regions.size(), 0);
+    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end - begin != 2)
+            return;
+        for (const auto& [in, beside] : {std::pair(uses[begin], uses[begin + 1]), {uses[begin + 1], uses[begin]}}) {
+            const int r = map.label[in.face];
+            if (r >= int(map.regions.size()) || map.label[beside.face] == r)
+                continue;
+            const Eigen::Matrix3d x = part.position(Eigen::all, part.triangle.col(in.face));
+            const Eigen::Vector3d a = x.col(in.corner), b = x.col((in.corner + 1) % 3), c = x.col((in.corner + 2) % 3),
+                                  along = (b - a).normalized(), up = c - a,
+                                  away = -(up - along.dot(up) * along).normalized(),
+                                  arm = (a + b) / 2 - map.regions[size_t(r)].place;
+            out[size_t(r)] += (b - a).norm() * away.dot(arm);
+            most[size_t(r)] += (b - a).norm() * arm.norm();
+        }
+    });
+    for (size_t r = 0; r < out.size(); ++r)
+        out[r] = most[r] > 0 ? out[r] / most[r] : 1;
+    return out;
+}
+
+int chosen_root(const TriMesh& part, const BendMap& map, const Carriers& carriers)
+{
+    constexpr double around =
+        0.1; // what the area of a region counts that lies around the others: all would be stretched into it
+    const std::vector<double> out = outwards(part, map);
     constexpr double comparable = 0.25; // a face to lay on is worth a smaller region, but not a tiny one
     const auto score = [&](int r) {
-        return map.regions[size_t(r)].area * std::pow(map.regions[size_t(r)].flatness, 2);
+        return map.regions[size_t(r)].area * std::pow(map.regions[size_t(r)].flatness, 2) *
+               (out[size_t(r)] < 0 ? around : 1);
     };
     int best = 0, best_carrier = -1;
     for (int r = 0; r < int(map.regions.size()); ++r) {
@@ -202,7 +232,7 @@ public:
           of_vertex_(labels_of_vertices(part, map)), graph_(label_graph(part, map, of_vertex_)),
           carriers_(part, map, distance_)
     {
-        result_.root = options.root >= 0 ? options.root : chosen_root(map, carriers_);
+        result_.root = options.root >= 0 ? options.root : chosen_root(part, map, carriers_);
         result_.depth = depths(map, graph_, result_.root);
     }
 

@@ -36,7 +36,7 @@ struct PlannedStep {
 struct SequenceOptions {
     int root = -1;          ///< the region that stays; -1: the largest flat one
     bool unite = true;      ///< pieces laid on the same region at the same distance from the root make one step
-    double distance = 5e-4; ///< of the part's diagonal: how far a carrying face may be from its plane, cylinder or cone
+    double distance = 9e-4; ///< of the part's diagonal: how far a carrying face may be from its plane, cylinder or cone
 };
 
 struct UnfoldSequence {

@@ -165,7 +165,13 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     const Eigen::Vector3d normal = area_vectors(now).rowwise().sum().normalized();
     if (!((normal.transpose() * arm).cwiseAbs().maxCoeff() <= flat * bounding_diagonal(now)))
         return std::nullopt;
-    const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
+    // Along the longer side of a long blank.
+    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+    const Eigen::Matrix2d moments =
+        (Eigen::Matrix<double, 2, 3>() << u.transpose(), v.transpose()).finished() * arm * arm.transpose() *
+        (Eigen::Matrix<double, 2, 3>() << u.transpose(), v.transpose()).finished().transpose();
+    const double turn = std::atan2(2 * moments(0, 1), moments(0, 0) - moments(1, 1)) / 2;
+    const Eigen::Vector3d x = std::cos(turn) * u + std::sin(turn) * v, y = normal.cross(x);
     Blank blank{Eigen::Matrix2Xd(2, position.cols())};
     blank.position.row(0) = x.transpose() * arm;
     blank.position.row(1) = y.transpose() * arm;

@@ -141,6 +141,15 @@ TEST(Sequence, ARoundWallIsNotLaidOnItself)
         EXPECT_TRUE(step.carrier == sequence.root || step.carrier < 0);
 }
 
+TEST(Sequence, AFlangeAroundACupIsNotWhatStays)
+{
+    const TriMesh cup = shapes::square_cup({.triangles = 4000});
+    const BendMap map = find_bends(cup);
+    const UnfoldSequence sequence = propose_sequence(cup, map);
+    EXPECT_NE(sequence.root, 0) << "the flange is the largest";
+    EXPECT_NEAR(map.regions[size_t(sequence.root)].place.z(), 0, 1e-6) << "the bottom";
+}
+
 TEST(Sequence, WhatClosesATubeIsNotLaidOnTheTube)
 {
     const TriMesh cup = shapes::sharp_cup({.radius = 40, .height = 20, .triangles = 4000}).mesh;

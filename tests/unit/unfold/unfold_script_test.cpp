@@ -136,6 +136,23 @@ TEST(UnfoldScript, ABoxWithLipsEndsFlatAndWithoutAFlip)
     }
 }
 
+TEST(UnfoldScript, OnAMeshAcrossItsBendLinesTheFlatsAreStillLaidOneByOne)
+{
+    const shapes::PerforatedChannel shape;
+    const TriMesh part = shapes::perforated_channel(shape).mesh;
+    const UnfoldRun run = automatic(part);
+    ASSERT_EQ(run.failure, "");
+    ASSERT_EQ(run.states.size(), 4u) << "two flanges, the walls, and what stands out of the top's plane by a chord";
+    ASSERT_TRUE(run.blank);
+    EXPECT_EQ(run.flipped, 0);
+    EXPECT_LT(run.states.back().face.strain_equivalent.maxCoeff(), 0.02) << "only chords over the radii";
+    const shapes::HatChannel& hat = shape.channel;
+    const double across = 2 * (hat.flange + hat.wall) + hat.top + 4 * hat.radius * pi / 2;
+    const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
+    EXPECT_NEAR(size[0], across, 0.01 * across);
+    EXPECT_NEAR(size[1], hat.length, 0.005 * hat.length) << "the blank lies along its longer side";
+}
+
 TEST(UnfoldScript, TheOrderOfIndependentStepsDoesNotMatter)
 {
     const TriMesh part = shapes::lipped_channel({.triangles = 2000}).mesh;
