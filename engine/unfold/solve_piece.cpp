@@ -138,9 +138,7 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
     constexpr int most_rounds = 30;
     constexpr double still = 1e-8; // of the piece
     const double size = (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).norm();
-    StressCurve::Options curve = job.options.curve;
-    curve.trusted_strain = report.trusted_strain;
-    const Sheet sheet = sheet_with(job, curve);
+    const Sheet sheet = solved_sheet(job, report);
     double way = 0;
     for (int round = 0; round < most_rounds && report.converged; ++round) {
         const Progress mine = progress.part(double(round) / most_rounds, double(round + 1) / most_rounds);
