@@ -116,6 +116,29 @@ TEST(FitHeight, GoesThroughASmoothRegionAndOnBesideItWithItsTangent)
     EXPECT_FALSE(fit_height(hat, faces));
 }
 
+TEST(FitHeight, AcrossAHoleItIsAThinPlate)
+{
+    // A plate bent by its edges alone is biharmonic; the fourth harmonic has all fourth derivatives, those of x and y together, too.
+    TriMesh frame = shapes::plate({.width = 100, .height = 100, .holes = {{{50, 50}, 30}}, .triangles = 6000});
+    const auto height = [](double x, double y) {
+        x -= 50;
+        y -= 50;
+        return 2e-6 * (x * x * x * x - 6 * x * x * y * y + y * y * y * y);
+    };
+    std::vector<int> all;
+    for (int f = 0; f < frame.triangles(); ++f)
+        all.push_back(f);
+    for (int v = 0; v < frame.vertices(); ++v)
+        frame.position(2, v) = height(frame.position(0, v), frame.position(1, v));
+    const auto fit = fit_height(frame, all);
+    ASSERT_TRUE(fit);
+    EXPECT_LT(fit->distance_mm, 1e-2);
+    for (const Eigen::Vector2d& at : {Eigen::Vector2d(50, 50), Eigen::Vector2d(62, 58), Eigen::Vector2d(40, 65)}) {
+        const Eigen::Vector3d x(at[0], at[1], height(at[0], at[1]));
+        EXPECT_LT((placed(fit->face, developed(fit->face, x)) - x).norm(), 0.02);
+    }
+}
+
 TEST(SmoothTarget, OfNoHeightIsThePlaneBitByBitAndOfConstantSlopeThePlaneItIs)
 {
     const Flange flange;
