@@ -369,6 +369,10 @@ TEST(Dxf, BendLinesHaveTheirLayerAndStayOpen)
     EXPECT_EQ(lines[3].announced, 5u);
     const auto named = [&](const DxfPair& wanted) { return std::count(pairs.begin(), pairs.end(), wanted); };
     EXPECT_EQ(named({2, "BENDS"}), 1) << "the layer is declared once";
+    for (size_t i = 0; i + 4 < pairs.size(); ++i)
+        if (pairs[i] == DxfPair(2, "LAYER") && pairs[i - 1] == DxfPair(0, "TABLE")) {
+            EXPECT_EQ(pairs[i + 4], DxfPair(70, "4")) << "0, OUTLINE, HOLES and BENDS";
+        }
     std::vector<long> handles;
     for (const auto& [code, value] : pairs)
         if (code == 5 || code == 105)
