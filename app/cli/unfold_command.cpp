@@ -14,6 +14,7 @@
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
+#include "engine/unfold/sheet_lines.h"
 
 namespace spia::cli {
 namespace {
@@ -89,7 +90,8 @@ std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments,
     }
     if (run.blank) {
         files.push_back(file("-blank.dxf"));
-        write_dxf(files.back(), blank_outline(part.mesh, *run.blank));
+        write_dxf(files.back(), blank_outline(part.mesh, *run.blank), LengthUnit::mm,
+                  bend_lines(part.mesh, map, run.blank->position));
     }
     if (arguments.automatic) {
         files.push_back(file("-script.json"));

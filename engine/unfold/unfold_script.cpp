@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/forming/flips.h"
@@ -156,6 +157,27 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     state.necking = result.necking_triangles;
 }
 
+/// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
+Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat)
+{
+    const std::vector<int> loop = boundary_loops(part).front();
+    const Eigen::Matrix2Xd rim = flat(Eigen::all, loop);
+    Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < rim.cols(); ++k) {
+        const Eigen::Vector2d x = (rim.col((k + 1) % rim.cols()) - rim.col(k)).normalized();
+        Eigen::Matrix2d turn;
+        turn << x[0], x[1], -x[1], x[0];
+        const Eigen::Matrix2Xd turned = turn * rim;
+        const Eigen::Vector2d size = turned.rowwise().maxCoeff() - turned.rowwise().minCoeff();
+        if (size.prod() >= least * (1 - 1e-9))
+            continue;
+        least = size.prod();
+        best = size[0] >= size[1] ? turn : Eigen::Matrix2d((Eigen::Matrix2d() << 0, 1, -1, 0).finished() * turn);
+    }
+    return best * flat;
+}
+
 /// The part in the plane in which it lies, seen from the outer side.
 std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& position, int& flipped)
 {
@@ -165,16 +187,11 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     const Eigen::Vector3d normal = area_vectors(now).rowwise().sum().normalized();
     if (!((normal.transpose() * arm).cwiseAbs().maxCoeff() <= flat * bounding_diagonal(now)))
         return std::nullopt;
-    // Along the longer side of a long blank.
-    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-    const Eigen::Matrix2d moments =
-        (Eigen::Matrix<double, 2, 3>() << u.transpose(), v.transpose()).finished() * arm * arm.transpose() *
-        (Eigen::Matrix<double, 2, 3>() << u.transpose(), v.transpose()).finished().transpose();
-    const double turn = std::atan2(2 * moments(0, 1), moments(0, 0) - moments(1, 1)) / 2;
-    const Eigen::Vector3d x = std::cos(turn) * u + std::sin(turn) * v, y = normal.cross(x);
-    Blank blank{Eigen::Matrix2Xd(2, position.cols())};
-    blank.position.row(0) = x.transpose() * arm;
-    blank.position.row(1) = y.transpose() * arm;
+    const Eigen::Vector3d u = normal.unitOrthogonal();
+    Eigen::Matrix2Xd seen(2, position.cols());
+    seen.row(0) = u.transpose() * arm;
+    seen.row(1) = normal.cross(u).transpose() * arm;
+    Blank blank{upright(part, seen)};
     flipped = flipped_triangles(part.triangle, blank.position);
     return blank;
 }

@@ -15,6 +15,7 @@ expect_exit 0 "$spia" unfold "$part" --auto --out "$out/auto" --json "$out/auto.
 for step in 1 2 3 4 5; do [ -s "$out/auto/lipped-channel-step$step.vtu" ] || fail "no state of step $step"; done
 [ ! -e "$out/auto/lipped-channel-step6.vtu" ] || fail "a sixth step"
 grep -q LWPOLYLINE "$out/auto/lipped-channel-blank.dxf" || fail "no outline"
+[ "$(grep -c '^BENDS' "$out/auto/lipped-channel-blank.dxf")" = 19 ] || fail "not three lines for each of six bends, and their layer"
 grep -q '"flipped_triangles": 0' "$out/auto.json" || fail "the report has no blank"
 expect_exit 0 "$spia" unfold "$part" --script "$out/auto/lipped-channel-script.json" --out "$out/again" --threads 1 --strict
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "the script gives other bits"

@@ -184,6 +184,29 @@ TEST_F(UnfoldFile, OnAChangedPartWhatIsStillThereIsUnfoldedTheRestReported)
     EXPECT_TRUE(read(script, away, map).steps.empty());
 }
 
+TEST_F(UnfoldFile, WhereTwoRegionsMeetTheSizeTellsWhichIsMeant)
+{
+    const auto steps = [&](const std::string& regions) {
+        return read(R"({"regions": [)" + regions +
+                    R"(], "steps": [{"freed": {"regions": ["lip"]}, "fixed": {"regions": ["wall"]}}]})");
+    };
+    const std::string edge = R"("at": [0, -35, 30], "area_mm2": )"; // between the wall and its lip
+    const ReadScript told = steps(R"({"name": "wall", )" + edge + R"(3000}, {"name": "lip", )" + edge + "640}");
+    ASSERT_EQ(told.steps.size(), 1u);
+    EXPECT_EQ(map.regions[size_t(told.steps[0].carrier)].area, map.regions[1].area);
+    EXPECT_EQ(told.steps[0].pick.freed.size(), 64u);
+    // In the corner of a long wall (3000 mm2) and a short one (2100 mm2), either could be meant.
+    const ReadScript corner = steps(
+        R"({"name": "wall", "at": [50, -35, 15], "area_mm2": 2150}, {"name": "lip", "at": [46, 0, 30], "area_mm2": 400})");
+    ASSERT_EQ(corner.steps.size(), 1u) << "the lip can only be laid on its own wall";
+    EXPECT_NEAR(map.regions[size_t(corner.steps[0].carrier)].area, 2100, 1e-6);
+    // Both names on one region: the second means nothing.
+    const ReadScript twice = steps(R"({"name": "wall", "at": [0, -35, 15]}, {"name": "lip", "at": [10, -35, 15]})");
+    EXPECT_TRUE(twice.steps.empty());
+    ASSERT_FALSE(twice.findings.empty());
+    EXPECT_EQ(twice.findings[0], "lip: is now the same region as wall");
+}
+
 TEST_F(UnfoldFile, TheReportSaysWhatCameOfEachStep)
 {
     FlattenOptions options;

@@ -131,14 +131,18 @@ TEST(UnfoldScript, ABoxWithLipsEndsFlatAndWithoutAFlip)
         if (!joined) { // only bent: nothing is strained
             EXPECT_LT(most_stretch(part, run.blank->position), 1e-6);
         }
-        const auto lip = run.states[0].step.array() == 1;
-        EXPECT_EQ(lip.count(), 64) << "faces of the first lip";
+        EXPECT_EQ((run.states[0].step.array() == 1).count(), 64) << "faces of the first lip";
+        EXPECT_EQ((run.states[3].step.array() == 4).count(), 40) << "faces of the last lip";
+        EXPECT_EQ((run.states[4].step.array() == 5).count() + (run.states[4].step.array() == 0).count(),
+                  part.triangles());
+        EXPECT_EQ(run.states[4].face.strain_equivalent.maxCoeff() > 0.05, joined) << "corners are drawn";
     }
 }
 
 TEST(UnfoldScript, OnAMeshAcrossItsBendLinesTheFlatsAreStillLaidOneByOne)
 {
-    const shapes::PerforatedChannel shape;
+    shapes::PerforatedChannel shape;
+    shape.channel.triangles = 3000;
     const TriMesh part = shapes::perforated_channel(shape).mesh;
     const UnfoldRun run = automatic(part);
     ASSERT_EQ(run.failure, "");
@@ -199,7 +203,9 @@ TEST(UnfoldScript, ATargetIsMovedToItsOuterSide)
     const CylinderFace cylinder{{1, 2, 3}, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), 10, true};
     const ConeFace cone{{1, 2, 3}, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), 0.4, false};
     const PlaneFace plane{{1, 2, 3}, Eigen::Matrix<double, 3, 2>::Identity()};
-    for (const BinderFace& face : {BinderFace(cylinder), BinderFace(cone), BinderFace(plane)})
+    CylinderFace hollow = cylinder;
+    hollow.bulges = false;
+    for (const BinderFace& face : {BinderFace(cylinder), BinderFace(hollow), BinderFace(cone), BinderFace(plane)})
         for (const double mm : {2.0, -1.5}) {
             const Eigen::Vector3d on = placed(face, developed(face, {9, 3, 20}));
             const BinderFace moved = moved_out(face, mm);
@@ -207,6 +213,19 @@ TEST(UnfoldScript, ATargetIsMovedToItsOuterSide)
             EXPECT_NEAR((there - on - mm * outer_normal(face, on)).norm(), 0, 1e-9) << name(face);
         }
     EXPECT_THROW(moved_out(cylinder, -10), InputError);
+}
+
+TEST(UnfoldScript, TheTangentPlaneTouchesInTheMiddleOfThePlaces)
+{
+    const CylinderFace cylinder{{1, 2, 3}, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), 10, true};
+    const Eigen::Matrix2Xd places = (Eigen::Matrix2Xd(2, 2) << 4, 10, -3, 5).finished();
+    const PlaneFace plane = tangent_plane(cylinder, places);
+    const Eigen::Vector2d middle(7, 1);
+    EXPECT_LT((placed(BinderFace(plane), middle) - placed(BinderFace(cylinder), middle)).norm(), 1e-9);
+    EXPECT_LT((outer_normal(BinderFace(plane), {0, 0, 0}) -
+               outer_normal(BinderFace(cylinder), placed(BinderFace(cylinder), middle)))
+                  .norm(),
+              1e-6);
 }
 
 TEST(UnfoldScript, ACylinderIsUnrolledOntoThePlaneThatTouchesItInTheMiddle)
