@@ -125,6 +125,8 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
                     sheet.law_of(f), inverse_gradient(e, corners(X, triangle.col(f))), expected[size_t(f)]);
                 const double weight = e.area * sheet.thickness[f];
                 out.force = weight * (w.gradient * e.gradient);
+                if (e.metric)
+                    out.force = *e.metric * out.force;
                 out.stiffness = element_stiffness(e, weight * w.stiffness);
                 for (int a = 0; a < 3 && !fixed.empty(); ++a)
                     if (fixed[size_t(triangle(a, f))]) {

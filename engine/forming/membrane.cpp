@@ -52,17 +52,20 @@ std::vector<Element> elements(const TriMesh& part)
 
 Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<double, 2, 3>& blank_corner)
 {
-    return blank_corner * element.gradient.transpose();
+    Eigen::Matrix2d G = blank_corner * element.gradient.transpose();
+    if (element.metric)
+        G = *element.metric * G;
+    return G;
 }
 
 Eigen::Matrix<double, 4, 6> gradient_operator(const Element& e)
 {
     Eigen::Matrix<double, 4, 6> B = Eigen::Matrix<double, 4, 6>::Zero();
-    for (int a = 0; a < 3; ++a)
-        for (int k = 0; k < 2; ++k) {
-            B(k, 2 * a + k) = e.gradient(0, a);
-            B(2 + k, 2 * a + k) = e.gradient(1, a);
-        }
+    for (int a = 0; a < 3; ++a) {
+        const Eigen::Matrix2d unit = e.metric.value_or(Eigen::Matrix2d::Identity());
+        B.block<2, 2>(0, 2 * a) = e.gradient(0, a) * unit;
+        B.block<2, 2>(2, 2 * a) = e.gradient(1, a) * unit;
+    }
     return B;
 }
 
@@ -74,6 +77,10 @@ Eigen::Matrix<double, 6, 6> element_stiffness(const Element& e, const Eigen::Mat
             e.gradient(0, a) * H.topRows<2>() + e.gradient(1, a) * H.bottomRows<2>();
         for (int b = 0; b < 3; ++b)
             K.block<2, 2>(2 * a, 2 * b) = e.gradient(0, b) * row.leftCols<2>() + e.gradient(1, b) * row.rightCols<2>();
+    }
+    for (int k = 0; k < 9 && e.metric; ++k) {
+        auto block = K.block<2, 2>(2 * (k / 3), 2 * (k % 3));
+        block = (*e.metric * block * *e.metric).eval();
     }
     return K;
 }

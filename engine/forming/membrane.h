@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "engine/forming/expected_stress.h"
@@ -13,12 +14,15 @@ struct Element {
     Eigen::Matrix<double, 3, 2> frame;    ///< J: orthonormal axes in the triangle's plane, from 2 to 3 dimensions
     Eigen::Matrix<double, 2, 3> gradient; ///< column a: gradient of corner a's shape function, 1/mm, in the frame
     double area;                          ///< mm2, of the formed part
+    /// Where the blank is told in coordinates that are no lengths, those of a curved face: what makes them lengths around this
+    /// triangle, symmetric and positive definite.
+    std::optional<Eigen::Matrix2d> metric = {};
 };
 
 /// @throws InputError if a face has no area; names it
 std::vector<Element> elements(const TriMesh& part);
 
-/// Inverse deformation gradient G = F^-1 = sum over corners of X_a g_a^T. [theory of one-step forming, eqs. 10-12]
+/// Inverse deformation gradient G = F^-1 = metric * sum over corners of X_a g_a^T. [theory of one-step forming, eqs. 10-12]
 Eigen::Matrix2d inverse_gradient(const Element& element, const Eigen::Matrix<double, 2, 3>& blank_corner);
 
 /// The same as a matrix: from the corners (x_0, y_0, x_1, ...) to G, column by column.

@@ -47,7 +47,8 @@ Eigen::Matrix4d definite(const Eigen::Matrix4d& K, const Svd2& G)
 }
 
 /// Change of M (h sigma) g with G, column by column.
-/// @param relaxed share in which M is F^T, which changes with G
+/// @param pull_back F^T
+/// @param relaxed   share in which M is F^T, or that seen in the blank's coordinates, and changes with G
 Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Matrix2d& pull_back,
                                          const Eigen::Matrix2d& M, double relaxed, const Eigen::Vector2d& g)
 {
@@ -55,7 +56,7 @@ Eigen::Matrix<double, 2, 4> force_change(const MembraneForce& m, const Eigen::Ma
     if (relaxed > 0) { // dF^T = -F^T dG^T F^T, and dG has a single one in row k % 2, column k / 2
         const Eigen::Vector2d pulled = relaxed * (pull_back * (m.force * g));
         for (int k = 0; k < 4; ++k)
-            change.col(k) -= pull_back.col(k / 2) * pulled[k % 2];
+            change.col(k) -= M.col(k / 2) * pulled[k % 2];
     }
     return change;
 }
@@ -96,6 +97,8 @@ void VirtualWork::set_axes(const Eigen::Matrix2Xd& X)
     for (int f = 0; f < part_.triangles(); ++f) {
         const Element& e = element_[size_t(f)];
         F_[size_t(f)] = inverse_gradient(e, corners(X, part_.triangle.col(f))).inverse();
+        if (e.metric)
+            F_[size_t(f)] *= *e.metric;
         for (int a = 0; a < 3; ++a) {
             const int v = part_.triangle(a, f);
             axes_[size_t(v)] += e.area * turned_[size_t(f)][size_t(a)] * F_[size_t(f)];
@@ -154,7 +157,10 @@ void VirtualWork::expect(const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& step
 Eigen::Matrix2d VirtualWork::to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const
 {
     const size_t v = size_t(part_.triangle(a, f));
-    return relaxed_[v] ? pull_back : Eigen::Matrix2d(axes_[v].transpose() * turned_[size_t(f)][size_t(a)]);
+    if (!relaxed_[v])
+        return axes_[v].transpose() * turned_[size_t(f)][size_t(a)];
+    const Element& e = element_[size_t(f)];
+    return e.metric ? Eigen::Matrix2d(*e.metric * pull_back) : pull_back;
 }
 
 Eigen::VectorXd VirtualWork::residual(const Eigen::Matrix2Xd& X) const
@@ -259,6 +265,8 @@ Matrix6d VirtualWork::element_tangent(int f, const Formed& at) const
         for (int b = 0; b < 3; ++b)
             K.block<2, 2>(2 * a, 2 * b) =
                 change.leftCols<2>() * e.gradient(0, b) + change.rightCols<2>() * e.gradient(1, b);
+        for (int b = 0; b < 3 && e.metric; ++b)
+            K.block<2, 2>(2 * a, 2 * b) *= *e.metric;
     }
     return K;
 }

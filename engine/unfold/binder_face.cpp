@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "engine/unfold/height_spline.h"
+
 namespace spia {
 namespace {
 
@@ -31,6 +33,7 @@ struct Developed {
     const Eigen::Vector3d& point;
 
     Eigen::Vector2d operator()(const PlaneFace& p) const { return p.axes.transpose() * (point - p.origin); }
+    Eigen::Vector2d operator()(const HeightFace& h) const { return h.axes.transpose() * (point - h.origin); }
     Eigen::Vector2d operator()(const CylinderFace& c) const
     {
         const AboutAxis at = about_axis(c.origin, c.axis, c.towards, point);
@@ -49,6 +52,10 @@ struct Placed {
     const Eigen::Vector2d& place;
 
     Eigen::Vector3d operator()(const PlaneFace& p) const { return p.origin + p.axes * place; }
+    Eigen::Vector3d operator()(const HeightFace& h) const
+    {
+        return h.origin + h.axes * place + height_at(h, place).value * h.axes.col(0).cross(h.axes.col(1));
+    }
     Eigen::Vector3d operator()(const CylinderFace& c) const
     {
         const double angle = (c.bulges ? 1 : -1) * place[0] / c.radius;
@@ -67,6 +74,11 @@ struct OuterNormal {
     const Eigen::Vector3d& point;
 
     Eigen::Vector3d operator()(const PlaneFace& p) const { return p.axes.col(0).cross(p.axes.col(1)); }
+    Eigen::Vector3d operator()(const HeightFace& h) const
+    {
+        const Eigen::Vector2d slope = height_at(h, h.axes.transpose() * (point - h.origin)).slope;
+        return (h.axes.col(0).cross(h.axes.col(1)) - h.axes * slope).normalized();
+    }
     Eigen::Vector3d operator()(const CylinderFace& c) const
     {
         return (c.bulges ? 1 : -1) * about_axis(c.origin, c.axis, c.towards, point).out;
@@ -82,7 +94,7 @@ struct OuterNormal {
 
 std::string_view name(const BinderFace& face)
 {
-    constexpr std::string_view names[] = {"plane", "cylinder", "cone"};
+    constexpr std::string_view names[] = {"plane", "cylinder", "cone", "smooth"};
     return names[face.index()];
 }
 
@@ -96,6 +108,17 @@ Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place) { r
 Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point)
 {
     return std::visit(OuterNormal{point}, face);
+}
+
+Eigen::Matrix2d metric(const BinderFace& face, const Eigen::Vector2d& place)
+{
+    const auto* height = std::get_if<HeightFace>(&face);
+    if (!height)
+        return Eigen::Matrix2d::Identity();
+    // J^T J = I + s s^T with the slope s: lengths along s are longer, those across it as they are.
+    const Eigen::Vector2d slope = height_at(*height, place).slope;
+    const double longer = std::sqrt(1 + slope.squaredNorm());
+    return Eigen::Matrix2d::Identity() + slope * slope.transpose() / (1 + longer);
 }
 
 } // namespace spia

@@ -5,8 +5,9 @@
 
 namespace spia {
 
-// Faces in space on which sheet can be unfolded without strain, each with its development: a map to the plane that keeps all lengths.
-// Its axes are such that a triangle that is seen counter-clockwise from the outer side is so in the plane.
+// Faces in space on which sheet can be unfolded, each with a map to the plane, its development. That of a plane, a cylinder or a cone
+// keeps all lengths; that of a smooth face is the view along the normal of a plane, and metric() tells its lengths.
+// The axes are such that a triangle that is seen counter-clockwise from the outer side is so in the plane.
 
 struct PlaneFace {
     Eigen::Vector3d origin;           ///< mm; of the development, too
@@ -30,14 +31,26 @@ struct ConeFace {
     bool bulges;
 };
 
-using BinderFace = std::variant<PlaneFace, CylinderFace, ConeFace>;
+/// A smooth height over a plane: a bicubic spline on even knots, and where these end straight on.
+struct HeightFace {
+    Eigen::Vector3d origin;           ///< mm, of the plane and of the development
+    Eigen::Matrix<double, 3, 2> axes; ///< as of a plane
+    Eigen::Vector2d corner;           ///< mm, in the plane: the first knot of either way
+    double spacing;                   ///< mm, of the knots
+    Eigen::MatrixXd coefficient;      ///< mm, of the B-splines; 3 more than cells in x (rows) and y (columns)
+};
+
+using BinderFace = std::variant<PlaneFace, CylinderFace, ConeFace, HeightFace>;
 std::string_view name(const BinderFace& face);
 
-/// The place of the face that is nearest to a point in space, in the development. mm
+/// The place of the face that is nearest to a point in space, in the development. mm; of a smooth face the one above or below it
 Eigen::Vector2d developed(const BinderFace& face, const Eigen::Vector3d& point);
 /// The point in space of a place of the development. mm
 Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place);
 /// The unit normal on the outer side, where the face is nearest to the point.
 Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point);
+/// The lengths of the face around a place of its development: M = sqrt(J^T J), J the derivative of placed(); a small way d of the
+/// development is |M d| long. The identity, but on a smooth face.
+Eigen::Matrix2d metric(const BinderFace& face, const Eigen::Vector2d& place);
 
 } // namespace spia

@@ -202,7 +202,8 @@ InitialGuess guess(const TriMesh& mesh, int vertices, const Progress& progress)
 } // namespace
 
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                       const FreedPiece& piece, const Job& job, const Progress& progress)
+                       const FreedPiece& piece, const Job& job,
+                       const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
 {
     constexpr double far_off = 0.7; // of the held vertices' spread: turned inside out
     const std::vector<std::vector<int>> choice = choices(fixed_rings(part, fixed, piece), piece);
@@ -216,6 +217,7 @@ PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const
         const double off = move_onto(job.external.held, start.position);
         if (off > far_off && k + 1 < choice.size())
             continue;
+        measure(start.position);
         Attempt attempt = drawn_to_places(job, std::move(start.position), mine.part(0.5, 1));
         if (attempt.position)
             return {std::move(*attempt.position), start.method};

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "engine/forming/initial_guess.h"
 #include "engine/forming/stages.h"
 #include "engine/unfold/freed_piece.h"
@@ -17,8 +19,10 @@ struct PieceStart {
 /// @param state  3 by #V of the part, mm
 /// @param fixed  faces of the part, ascending
 /// @param job    of the piece; `external.held` says where its held vertices lie
+/// @param measure  called with a place of the piece: takes the lengths of the target there into the elements of the job
 /// @throws SolveError if there is none: names the face whose triangle stands in the way
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                       const FreedPiece& piece, const Job& job, const Progress& progress = {});
+                       const FreedPiece& piece, const Job& job,
+                       const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress = {});
 
 } // namespace spia

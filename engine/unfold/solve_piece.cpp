@@ -5,9 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
+#include <functional>
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/forming/equilibrium.h"
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/sheet_fields.h"
@@ -80,6 +83,8 @@ Eigen::Matrix<double, 3, 2> axes_at(const BinderFace& target, const Eigen::Vecto
 {
     if (const auto* plane = std::get_if<PlaneFace>(&target))
         return plane->axes;
+    if (const auto* height = std::get_if<HeightFace>(&target))
+        return height->axes;
     const bool round = std::holds_alternative<CylinderFace>(target); // on a cone the axes turn beside its middle
     const Eigen::Vector3d at = placed(target, round ? place : Eigen::Vector2d(0, place.norm())),
                           n = outer_normal(target, at);
@@ -114,6 +119,57 @@ int first_flipped(const FreedPiece& piece, const Eigen::Matrix2Xd& X)
     return -1;
 }
 
+/// The lengths of the target around the middle of each triangle.
+void take_lengths(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix2Xd& X,
+                  const Eigen::Vector2d& middle, std::vector<Element>& element)
+{
+    if (!std::holds_alternative<HeightFace>(target)) // true everywhere
+        return;
+    parallel_for(piece.mesh.triangles(), [&](int f) {
+        element[size_t(f)].metric = metric(target, corners(X, piece.mesh.triangle.col(f)).rowwise().mean() + middle);
+    });
+}
+
+/// Solves anew with the lengths where the piece has come to lie, until it lies where they were taken.
+/// @param X the solution with other lengths
+Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
+                           Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
+{
+    constexpr int most_rounds = 30;
+    constexpr double still = 1e-8; // of the piece
+    const double size = (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).norm();
+    StressCurve::Options curve = job.options.curve;
+    curve.trusted_strain = report.trusted_strain;
+    const Sheet sheet = sheet_with(job, curve);
+    double way = 0;
+    for (int round = 0; round < most_rounds && report.converged; ++round) {
+        const Progress mine = progress.part(double(round) / most_rounds, double(round + 1) / most_rounds);
+        measure(X);
+        Eigen::Matrix2Xd next;
+        if (report.relaxed_vertices == 0) {
+            VirtualWork work(job.part, job.element, sheet, job.external);
+            const EquilibriumOptions newton{job.options.most_newton_steps, job.options.tolerance, {}};
+            EquilibriumResult solved =
+                solve_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky, newton, mine);
+            report.newton.insert(report.newton.end(), solved.steps.begin(), solved.steps.end());
+            report.residual = solved.residual;
+            report.converged = solved.ended == Ended::converged;
+            next = std::move(solved.position);
+        } else
+            next = solve(job, X, report, mine);
+        way = (next - X).colwise().norm().maxCoeff();
+        X = std::move(next);
+        if (report.converged && way <= still * size)
+            return X;
+    }
+    report.reason = report.converged
+                        ? fmt::format("the piece still moves by {:.1e} mm from round to round on the smooth face", way)
+                        : "the equations were solved on the smooth face with lengths from nearby, not with its own; " +
+                              report.reason;
+    report.converged = false;
+    return X;
+}
+
 } // namespace
 
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
@@ -141,15 +197,20 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
         h.place -= middle;
     external.plane = axes_at(target, middle);
 
-    const std::vector<Element> element = elements(piece.mesh);
+    std::vector<Element> element = elements(piece.mesh);
+    const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, target, X, middle, element); };
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
     const Job job{piece.mesh, element, options, external, external.plane, matrix, cholesky, true};
     SolvedPiece result;
-    const PieceStart start = piece_start(part, state, fixed, piece, job, progress.part(0.03, 0.2));
+    const PieceStart start = piece_start(part, state, fixed, piece, job, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
-    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, 1));
+    measure(start.position);
+    const bool smooth = std::holds_alternative<HeightFace>(target);
+    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, smooth ? 0.6 : 1));
+    if (smooth)
+        X = in_rounds(job, measure, std::move(X), result.report, progress.part(0.6, 1));
 
     StressCurve::Options curve = options.curve;
     curve.trusted_strain = result.report.trusted_strain;

@@ -78,7 +78,11 @@ BinderFace turned_over(const BinderFace& face)
     BinderFace out = face;
     if (auto* plane = std::get_if<PlaneFace>(&out))
         plane->axes = plane->axes.rowwise().reverse().eval();
-    else if (auto* cylinder = std::get_if<CylinderFace>(&out))
+    else if (auto* height = std::get_if<HeightFace>(&out)) { // x and y change places, and up is down
+        height->axes = height->axes.rowwise().reverse().eval();
+        height->corner = height->corner.reverse().eval();
+        height->coefficient = -height->coefficient.transpose().eval();
+    } else if (auto* cylinder = std::get_if<CylinderFace>(&out))
         cylinder->bulges = !cylinder->bulges;
     else if (auto* cone = std::get_if<ConeFace>(&out))
         cone->bulges = !cone->bulges;

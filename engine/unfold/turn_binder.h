@@ -10,7 +10,7 @@ namespace spia {
 /// The face with its inner side outside.
 BinderFace turned_over(const BinderFace& face);
 
-/// The same face with its development cut where it is farthest from some points and the edges between them; a plane as it is.
+/// The same face with its development cut where it is farthest from some points and the edges between them; a plane or a smooth face as it is.
 /// @param edges pairs of columns of `point`, each less than half a turn long
 /// @returns none if the edges run all the way around the axis
 std::optional<BinderFace> turned_towards(const BinderFace& face, const Eigen::Matrix3Xd& point,

@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/fit_height.h"
 #include "engine/unfold/freed_piece.h"
 #include "engine/unfold/solve_piece.h"
 #include "engine/unfold/turn_binder.h"
@@ -92,12 +93,15 @@ BinderFace target_of(const TriMesh& part, const TriMesh& state, const UnfoldPick
         return seen_from_outside(*pick.target, state, picked.fixed);
     if (picked.fixed.empty())
         throw InputError("nothing says where the freed faces shall lie; fix some faces or give a target");
-    const std::optional<BinderFit> fit = fit_binder(state, carrying.empty() ? picked.fixed : carrying);
+    const std::vector<int>& faces = carrying.empty() ? picked.fixed : carrying;
+    std::optional<BinderFit> fit = fit_binder(state, faces);
+    if (!fit)
+        fit = fit_height(state, faces);
     if (!fit)
         throw InputError(
-            fmt::format("the fixed faces around face {} lie on no plane, cylinder or cone; pick those that "
-                        "carry the target, or give one",
-                        (carrying.empty() ? picked.fixed : carrying)[0]));
+            fmt::format("the fixed faces around face {} lie on no plane, cylinder or cone and turn too far for a "
+                        "smooth face over a plane; pick those that carry the target, or give one",
+                        faces[0]));
     return fit->face;
 }
 

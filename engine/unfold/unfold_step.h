@@ -29,9 +29,10 @@ struct UnfoldStepResult {
 };
 
 /// One step of local unfolding: the freed faces are laid on a target face in space without moving the fixed ones. Positions live
-/// in the target's development, in which all lengths are true; vertices shared with fixed faces stay where they are. In it the
-/// equations are those of flatten(): equilibrium of the freed material, whose strain is measured from its place on the target to the
-/// original part, whatever steps were before.
+/// in the target's development, and vertices shared with fixed faces stay where they are. On a smooth face, which has no
+/// development with true lengths, those around each triangle are taken from where it lies, in rounds until it lies still. The
+/// equations are those of flatten(): equilibrium of the freed material, whose strain is measured from its place on the target
+/// to the original part, whatever steps were before.
 /// @param part   as it is formed, mm
 /// @param state  3 by #V, mm: where its vertices are now; before the first step the part's own positions
 /// @param options of flatten(); of the process only tailored pieces and the rolling direction, seen square to the target in the

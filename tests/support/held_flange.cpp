@@ -62,7 +62,7 @@ FlangeBlank held_flange_blank(const HeldFlange& flange, int steps)
     const auto change = [&](double s, State y) -> State {
         const double r = flange.meridian.at(s).x(), around = std::log(r / y.R),
                      along = strain_for(flange, y.force / r, around);
-        return {way * std::exp(-along),
+        return {way * std::exp(-along) / std::hypot(1, flange.slope(y.R)),
                 forces(flange, along, around).around * std::cos(heading_at(flange.meridian, s))};
     };
     FlangeBlank out{Eigen::VectorXd::LinSpaced(steps + 1, 0, length), Eigen::VectorXd(steps + 1),

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 
 #include "engine/forming/hardening.h"
 #include "tests/support/profile.h"
@@ -13,9 +14,11 @@ struct HeldFlange {
     double young = 206000;        ///< MPa
     double normal_anisotropy = 1; ///< r
     double thickness = 1;         ///< mm, before forming
+    /// Of the surface of revolution that it is unfolded onto, dz/dR at a radius.
+    std::function<double(double R)> slope = [](double) { return 0.; };
 };
 
-/// Where its rings lie when it is unfolded onto the plane of the held ring, inwards or outwards as the meridian begins.
+/// Where its rings lie when it is unfolded onto the plane of the held ring, or a surface of revolution through it, inwards or outwards as the meridian begins.
 struct FlangeBlank {
     Eigen::VectorXd s;         ///< mm along the meridian, from the held ring on
     Eigen::VectorXd R;         ///< mm

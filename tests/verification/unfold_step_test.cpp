@@ -140,6 +140,43 @@ TEST(UnfoldStep, AStretchFlangeOverARadiusConvergesToTheSolutionAlongItsMeridian
     EXPECT_GT(shapes::convergence_order(h, error), 1.5);
 }
 
+TEST(UnfoldStep, TheWallAroundACrownedBottomConvergesToTheSolutionAlongItsMeridian)
+{
+    // The bottom is a paraboloid, and so is the target: as a height it is exactly a spline.
+    const double r = 1.77, radius = 40, height = 20, crown = 0.012; // z = -crown R^2: a slope of 44 degrees at the edge
+    HeightFace paraboloid{
+        {0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity(), {-100, -100}, 10, Eigen::MatrixXd(23, 23)};
+    for (int i = 0; i < 23; ++i)
+        for (int j = 0; j < 23; ++j) {
+            const double x = -110 + 10 * i, y = -110 + 10 * j;
+            paraboloid.coefficient(i, j) = -crown * (x * x + y * y - 200. / 3);
+        }
+    const double edge = -crown * radius * radius;
+    std::vector<double> h, error;
+    for (const int triangles : {3000, 12000, 48000}) {
+        Eigen::Matrix2Xd meridian(2, 1002);
+        for (int k = 0; k <= 1000; ++k)
+            meridian.col(k) << radius * k / 1000, -crown * std::pow(radius * k / 1000, 2);
+        meridian.col(1001) << radius, edge - height;
+        const shapes::AxisymmetricPart cup = shapes::axisymmetric(meridian, triangles);
+        UnfoldPick pick;
+        for (int f = 0; f < cup.mesh.triangles(); ++f)
+            (cup.mesh.position.row(2)(cup.mesh.triangle.col(f)).mean() > edge ? pick.fixed : pick.freed).push_back(f);
+        pick.target = paraboloid;
+        const UnfoldStepResult result = unfold_step(cup.mesh, cup.mesh.position, pick, steel(r));
+        ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
+        shapes::HeldFlange wall{shapes::Profile({radius, 0}, -pi / 2).straight(height), swift, 206000, r, 0.8};
+        wall.slope = [&](double R) { return -2 * crown * R; };
+        const double truth = shapes::held_flange_blank(wall).R.tail(1)[0];
+        h.push_back(shapes::mean_edge(cup.mesh));
+        error.push_back(std::abs(mean_radius(result.position, cup.rim) / truth - 1));
+        std::printf("crowned cup, %d triangles: R0 %.4f (%.2e), %zu Newton steps, %.2f s\n", triangles, truth,
+                    error.back(), result.piece[0].report.newton.size(), result.seconds);
+    }
+    EXPECT_LT(error.back(), 2e-4);
+    EXPECT_GT(shapes::convergence_order(h, error), 1.5);
+}
+
 TEST(UnfoldStep, HasTheSameBitsOnOneThreadAndOnTwo)
 {
     const shapes::AxisymmetricPart cup = shapes::sharp_cup({.triangles = 12000});

@@ -516,4 +516,5 @@ TEST(UnfoldStep, ALoopBetweenFixedEdgesThatOverlapHasNoPlaceWithoutAFlip)
         EXPECT_NE(std::string(error.what()).find("finds no place on the target"), std::string::npos) << error.what();
     }
 }
+
 } // namespace spia
