@@ -1,8 +1,10 @@
 #include "engine/forming/line_on_part.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
@@ -56,8 +58,14 @@ ClosestPoint LineOnPart::at(const std::string& what, const Eigen::Vector3d& poin
 
 std::vector<LinePlace> LineOnPart::places(const std::string& what, const std::vector<Eigen::Vector3d>& line) const
 {
+    const auto off = [&](const Eigen::Vector3d& point) {
+        return point.allFinite() ? search_.nearest(point).distance : std::numeric_limits<double>::infinity();
+    };
+    std::vector<double> distance;
     for (const Eigen::Vector3d& given : line)
-        at(what, given);
+        distance.push_back(off(given));
+    if (!line.empty()) // the worst is named first
+        at(what, line[size_t(std::max_element(distance.begin(), distance.end()) - distance.begin())]);
     std::vector<LinePlace> result;
     for (size_t k = 0; k + 1 < line.size(); ++k) {
         const Eigen::Vector3d way = line[k + 1] - line[k];

@@ -42,6 +42,9 @@ Json face_json(const BinderFace& face)
     if (const auto* cylinder = std::get_if<CylinderFace>(&face))
         return {{"cylinder",
                  {{"origin", xyz(cylinder->origin)}, {"axis", xyz(cylinder->axis)}, {"radius", cylinder->radius}}}};
+    if (const auto* height = std::get_if<HeightFace>(&face)) // it is found again from its carrying faces
+        return {{"smooth",
+                 {{"origin", xyz(height->origin)}, {"normal", xyz(height->axes.col(0).cross(height->axes.col(1)))}}}};
     const auto& cone = std::get<ConeFace>(face);
     return {
         {"cone", {{"apex", xyz(cone.apex)}, {"axis", xyz(cone.axis)}, {"half_angle_deg", cone.half_angle * degrees}}}};

@@ -219,6 +219,12 @@ BinderFace moved_out(const BinderFace& face, double mm)
                                          cylinder->radius, mm));
         return moved;
     }
+    if (const auto* height =
+            std::get_if<HeightFace>(&face)) { // along its plane's normal: nearly square to a flat-ish face
+        HeightFace moved = *height;
+        moved.origin += mm * moved.axes.col(0).cross(moved.axes.col(1));
+        return moved;
+    }
     ConeFace moved = std::get<ConeFace>(face);
     moved.apex -= (moved.bulges ? mm : -mm) / std::sin(moved.half_angle) * moved.axis;
     return moved;

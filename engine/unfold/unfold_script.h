@@ -39,7 +39,7 @@ struct UnfoldRun {
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
                         const Progress& progress = {}, const UnfoldRun* before = nullptr, size_t keep = 0);
 
-/// The face moved to its outer side. @throws InputError if a cylinder or cone would vanish
+/// The face moved to its outer side; a smooth one along the normal of its plane. @throws InputError if a cylinder or cone would vanish
 BinderFace moved_out(const BinderFace& face, double mm);
 
 /// The plane in which the development of a face lies where it touches it in the middle of some places.

@@ -242,6 +242,8 @@ TEST(Process, WhatIsWrongIsNamed)
     EXPECT_NE(refusal(process, part).find("0.9 mm off the part"), std::string::npos) << refusal(process, part);
     process.drawbeads = {{"b1", {{45, 2, 0}, {50, 20, 0}, {55, 40, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("off the part"), std::string::npos);
+    process.drawbeads = {{"b1", {{20, 5, 3}, {20, 20, 40}, {20, 35, 4}}, 80}}; // the worst of its places is named
+    EXPECT_NE(refusal(process, part).find("(20, 20, 40) is 40 mm off"), std::string::npos) << refusal(process, part);
     process.drawbeads = {{"b1", {{20, 5, 0}}, 80}};
     EXPECT_NE(refusal(process, part).find("at least two different places"), std::string::npos);
     process.drawbeads = {{"b1", {{20, 5, 0}, {20, 35, 0}}, -1}};
