@@ -91,7 +91,7 @@ public:
             // A short step tells that the expected stresses lead astray: begin anew with the ones that are there.
             if (result.steps.size() > 1 && result.steps[result.steps.size() - 2].step_length < short_step)
                 work_.steady(X);
-            if (no_progress(result.steps) || !advance(X, R, result.steps)) {
+            if (no_progress(result.steps, size_t(options_.patience)) || !advance(X, R, result.steps)) {
                 result.ended = Ended::stalled;
                 return result;
             }
@@ -106,9 +106,9 @@ private:
     }
 
     /// The residual has not halved in a while, or steps have become tiny: most often a triangle is about to turn over.
-    static bool no_progress(const std::vector<NewtonStep>& steps)
+    static bool no_progress(const std::vector<NewtonStep>& steps, size_t patience)
     {
-        constexpr size_t patience = 10, few = 6;
+        constexpr size_t few = 6;
         constexpr double tiny = 0.02; // mean step length
         const size_t n = steps.size();
         if (n > patience && steps.back().residual > 0.5 * steps[n - 1 - patience].residual)

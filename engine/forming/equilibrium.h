@@ -9,6 +9,7 @@ struct EquilibriumOptions {
     int most_steps = 60;
     double tolerance = 1e-9; ///< on |R| relative to the nodal forces of a sheet at its yield stress
     StepWatch watch = {};
+    int patience = 10;   ///< steps in which the residual has to halve
     bool patient = true; ///< not: give up where a sparse LU would be needed, which costs ten steps
 };
 

@@ -108,10 +108,10 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     progress.checkpoint(0.08, "first guess: as rigid as possible");
     guess.position = more_rigid(part, RigidSteps(part, element, matrix, cholesky), std::move(guess.position));
 
-    const Job job{part, element, options, external, plane, matrix, cholesky};
+    const Job job{part, element, options, external, plane, matrix, cholesky, false, pull_of(external, part, options)};
     result.blank.position = solve(job, guess.position, result.report, progress.part(0.1, 1));
     if (result.report.system == SolvedSystem::energy) // the others lie there
-        place_under_part(part, element, plane, result.blank.position);
+        place(job, result.blank.position);
 
     const Sheet sheet = solved_sheet(job, result.report);
     result.face = face_fields(part, element, result.blank, sheet);

@@ -31,4 +31,19 @@ void place_under_part(const TriMesh& part, const std::vector<Element>& element,
     X = (Eigen::Rotation2Dd(angle).toRotationMatrix() * (X.colwise() - from)).colwise() + to;
 }
 
+double place_on(const std::vector<HeldVertex>& held, Eigen::Matrix2Xd& X)
+{
+    Eigen::Matrix2Xd from(2, Eigen::Index(held.size())), to = from;
+    for (size_t k = 0; k < held.size(); ++k) {
+        from.col(Eigen::Index(k)) = X.col(held[k].vertex);
+        to.col(Eigen::Index(k)) = held[k].place;
+    }
+    const Eigen::Vector2d c = from.rowwise().mean(), d = to.rowwise().mean();
+    const Eigen::Matrix2d moment = (to.colwise() - d) * (from.colwise() - c).transpose();
+    const double angle = std::atan2(moment(1, 0) - moment(0, 1), moment(0, 0) + moment(1, 1));
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    X = (turn * (X.colwise() - c)).colwise() + d;
+    return ((turn * (from.colwise() - c)) - (to.colwise() - d)).norm() / (to.colwise() - d).norm();
+}
+
 } // namespace spia

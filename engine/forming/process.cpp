@@ -2,15 +2,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "engine/core/error.h"
 #include "engine/forming/contact_pressure.h"
+#include "engine/forming/held_edges.h"
 #include "engine/forming/line_on_part.h"
 #include "engine/mesh/topology.h"
 
@@ -51,6 +50,8 @@ void add_tractions(const ProcessConditions& process, const TriMesh& part, const 
         else
             require_positive("the pressure of " + what, *region.pressure_MPa, "MPa");
         const double pressure = contact_pressure(region, area_vector, direction).MPa;
+        if (region.friction == 0)
+            continue;
         Eigen::VectorXd& traction = region.sides == 2 ? out.traction : out.travelling;
         if (traction.size() == 0)
             traction = Eigen::VectorXd::Zero(part.triangles());
@@ -82,9 +83,8 @@ void add_drawbead(const Drawbead& bead, const TriMesh& part, const LineOnPart& l
                   const Eigen::Matrix3Xd& area_vector, std::vector<Restraint>& restraint)
 {
     const std::string what = fmt::format("the drawbead \"{}\"", bead.name);
-    if (bead.force_N_mm == 0) // of a shape too shallow to bend the sheet
-        return;
-    require_positive("the force of " + what, bead.force_N_mm, "N/mm");
+    if (bead.force_N_mm != 0) // else of a shape too shallow to bend the sheet
+        require_positive("the force of " + what, bead.force_N_mm, "N/mm");
     RestraintSum sum;
     for (const LinePlace& place : lines.places(what, bead.line)) {
         const Eigen::Vector3d normal = area_vector.col(place.on_part.face).normalized();
@@ -105,32 +105,12 @@ void add_edge_restraint(const Eigen::VectorXd& force, const TriMesh& part, const
                         std::vector<Restraint>& restraint)
 {
     RestraintSum sum;
-    const std::vector<int> outline = boundary_loops(part).front();
-    std::map<std::pair<int, int>, int> face_of; // of the outline's edges
-    for (size_t k = 0; k < outline.size(); ++k)
-        face_of[{outline[k], outline[(k + 1) % outline.size()]}] = -1;
-    for (int f = 0; f < part.triangles(); ++f)
-        for (int c = 0; c < 3; ++c)
-            if (const auto edge = face_of.find({part.triangle(c, f), part.triangle((c + 1) % 3, f)});
-                edge != face_of.end())
-                edge->second = f;
-    const auto key = [&](int a, int b) {
-        std::array<double, 6> places;
-        Eigen::Map<Eigen::Vector3d>(places.data()) = part.position.col(a);
-        Eigen::Map<Eigen::Vector3d>(places.data() + 3) = part.position.col(b);
-        return places;
-    };
-    std::set<std::array<double, 6>> sides;
-    for (const auto& [ends, unused] : face_of)
-        sides.insert(key(ends.first, ends.second));
-    for (const auto& [ends, face] : face_of) {
-        if (sides.contains(key(ends.second, ends.first))) // the other side of a seam lies here: no edge of the part
-            continue;
-        const Eigen::Vector3d edge = part.position.col(ends.second) - part.position.col(ends.first);
-        for (const int v : {ends.first, ends.second}) {
+    for (const HeldEdge& held : held_edges(part)) {
+        const Eigen::Vector3d edge = part.position.col(held.to) - part.position.col(held.from);
+        for (const int v : {held.from, held.to}) {
             const Eigen::Vector3d across = edge.cross(normal.col(v));
             if (across.norm() > 0)
-                sum.add(v, 0.5 * force[face] * edge.norm() * across.normalized());
+                sum.add(v, 0.5 * force[held.face] * edge.norm() * across.normalized());
         }
     }
     sum.append_to(restraint);

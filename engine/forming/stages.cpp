@@ -9,6 +9,7 @@
 #include "engine/forming/equilibrium.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/stuck_places.h"
+#include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
@@ -55,13 +56,6 @@ EnergyResult energy_stage(const Job& job, Curve curve, Eigen::Matrix2Xd X, doubl
     return result;
 }
 
-/// The blank of the energy stage may lie anywhere, unless it is held.
-void place(const Job& job, Eigen::Matrix2Xd& X)
-{
-    if (!job.anchored)
-        place_under_part(job.part, job.element, job.plane, X);
-}
-
 void take(EquilibriumResult& equilibrium, SolveReport& report)
 {
     report.newton.insert(report.newton.end(), equilibrium.steps.begin(), equilibrium.steps.end());
@@ -75,7 +69,7 @@ std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix
                                                    SolveReport& report, const Progress& progress)
 {
     place(job, X);
-    const Sheet sheet = sheet_with(job, job.wanted());
+    const Sheet sheet = sheet_with(job, Curve::given);
     VirtualWork work(job.part, job.element, sheet, job.external);
     EquilibriumResult result =
         solve_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky, newton, progress);
@@ -98,24 +92,50 @@ Sheet sheet_with(const Job& job, Curve curve, double growth)
         how.continuation_rate *= growth;
         return sheet_of(options.material, options.thickness, how, options.process, job.part, job.plane);
     };
-    Sheet sheet = from(trusted_strain(job, curve));
-    if (curve == Curve::continued)
-        for (size_t piece = 0; piece < options.process.tailored.size(); ++piece) {
-            const Hardening& own = options.process.tailored[piece].material.hardening;
-            sheet.law[piece + 1] = from(uniform_strain(own, options.curve.trusted_strain)).law[piece + 1];
-        }
+    Sheet sheet = from(trusted_strain(job, curve, options.material.hardening));
+    for (size_t piece = 0; piece < options.process.tailored.size(); ++piece) {
+        const Hardening& own = options.process.tailored[piece].material.hardening;
+        sheet.law[piece + 1] = from(trusted_strain(job, curve, own)).law[piece + 1];
+    }
     return sheet;
 }
 
-double trusted_strain(const Job& job, Curve curve)
+double pull_of(const ExternalForces& external, const TriMesh& part, const FlattenOptions& options)
 {
-    const double given = job.options.curve.trusted_strain;
-    return curve == Curve::given ? given : uniform_strain(job.options.material.hardening, given);
+    double force = 0, around = 0;
+    for (const Restraint& each : external.restraint)
+        force += each.force;
+    const Eigen::VectorXd area = area_vectors(part).colwise().norm();
+    for (const Eigen::VectorXd* traction : {&external.traction, &external.travelling})
+        if (traction->size() > 0)
+            force += traction->dot(area);
+    if (force == 0)
+        return 0;
+    const std::vector<int> outline = boundary_loops(part).front();
+    for (size_t k = 0; k < outline.size(); ++k)
+        around += (part.position.col(outline[(k + 1) % outline.size()]) - part.position.col(outline[k])).norm();
+    return force / (around * lock_force(options.material, options.thickness));
+}
+
+double trusted_strain(const Job& job, Curve curve, const Hardening& grade)
+{
+    constexpr double much = 0.1; // square cup: from a pull of 0.3 on strain would gather in rows
+    const double given = job.options.curve.trusted_strain, uniform = uniform_strain(grade, given);
+    return curve == Curve::continued ? uniform : uniform + (given - uniform) * std::exp(-job.pull / much);
+}
+
+void place(const Job& job, Eigen::Matrix2Xd& X)
+{
+    if (job.anchored)
+        return;
+    place_under_part(job.part, job.element, job.plane, X);
+    if (!job.external.held.empty())
+        place_on(job.external.held, X);
 }
 
 Sheet solved_sheet(const Job& job, const SolveReport& report)
 {
-    const bool as_given = job.wanted() == Curve::given && report.trusted_strain == trusted_strain(job, Curve::given);
+    const bool as_given = report.trusted_strain == trusted_strain(job, Curve::given, job.options.material.hardening);
     return sheet_with(job, as_given ? Curve::given : Curve::continued);
 }
 
@@ -164,7 +184,7 @@ std::optional<Eigen::Matrix2Xd> as_asked_for(const Job& job, const Eigen::Matrix
 {
     constexpr int few_steps = 40; // more means that strain is gathering in single elements
     const EnergyResult energy =
-        energy_stage(job, job.wanted(), X, near_enough, std::min(few_steps, job.options.most_energy_steps), report,
+        energy_stage(job, Curve::given, X, near_enough, std::min(few_steps, job.options.most_energy_steps), report,
                      progress.part(0, 0.3));
     obstacle = "the energy stage did not end";
     if (energy.ended != Ended::converged)
@@ -182,7 +202,7 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
 {
     const FlattenOptions& options = job.options;
     const Sheet sheet = sheet_with(job, Curve::continued);
-    report.trusted_strain = trusted_strain(job, Curve::continued);
+    report.trusted_strain = trusted_strain(job, Curve::continued, options.material.hardening);
     VirtualWork work(job.part, job.element, sheet, job.external);
     EnergyResult held{std::move(X)};
     double from = 0;
@@ -198,9 +218,9 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
         if (!report.converged)
             continue;
         report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
-        if (report.relaxed_vertices == 0 && job.wanted() == Curve::given) { // from here it may be near
+        if (report.relaxed_vertices == 0) { // from here the curve as given may be near
             SolveReport again = report;
-            again.trusted_strain = options.curve.trusted_strain;
+            again.trusted_strain = trusted_strain(job, Curve::given, options.material.hardening);
             const std::optional<Eigen::Matrix2Xd> solved =
                 strict_equilibrium(job, result.position, quick(newton_of(options)), again, progress.part(from, from));
             if (solved && near_each_other(*solved, result.position)) {
@@ -228,7 +248,7 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
 Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
 {
     const FlattenOptions& options = job.options;
-    report.trusted_strain = trusted_strain(job, job.wanted());
+    report.trusted_strain = trusted_strain(job, Curve::given, options.material.hardening);
     X = energy_stage(job, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
                      progress.part(0, 0.2))
             .position;

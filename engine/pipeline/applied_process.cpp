@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "engine/forming/contact_pressure.h"
+#include "engine/forming/held_edges.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -62,6 +63,16 @@ AppliedProcess applied_process(const Session& session)
         out.drawbeads.push_back({bead.name, length(bead.line), bead.force_N_mm});
     out.edge_restraint = process.edge_restraint;
     out.lock_force_N_mm = lock_force(options.material, options.thickness);
+    if (process.edge_restraint > 0)
+        for (const HeldEdge& edge : held_edges(session.part->mesh)) {
+            constexpr double least_seen = 0.1; // share of a face's area
+            const Eigen::Matrix3Xd& x = session.part->mesh.position;
+            const double length = (x.col(edge.to) - x.col(edge.from)).norm();
+            const Eigen::Vector3d area = area_vector.col(edge.face);
+            out.held_mm += length;
+            if (std::abs(area.dot(session.blank->stamping.direction)) < least_seen * area.norm())
+                out.upright_mm += length;
+        }
     for (const Pilot& pilot : process.pilots)
         out.pilots.push_back({pilot.name, int(pilot.line.size())});
     out.tailored = applied(process.tailored, process.edge_restraint, area_vector);
@@ -80,10 +91,11 @@ std::vector<std::string> in_words(const AppliedProcess& process)
         lines.push_back(
             fmt::format("drawbead {}: {:.4g} N/mm over {:.4g} mm", each.name, each.force_N_mm, each.length_mm));
     if (process.edge_restraint > 0)
-        lines.push_back(fmt::format("edge restraint {:.4g} % of the lock force of {:.4g} N/mm: {:.4g} N/mm",
-                                    100 * process.edge_restraint, process.lock_force_N_mm,
-                                    process.edge_restraint * process.lock_force_N_mm) +
-                        (process.tailored.empty() ? "" : " on the base sheet"));
+        lines.push_back(
+            fmt::format("edge restraint {:.4g} % of the lock force of {:.4g} N/mm: {:.4g} N/mm over {:.4g} mm",
+                        100 * process.edge_restraint, process.lock_force_N_mm,
+                        process.edge_restraint * process.lock_force_N_mm, process.held_mm) +
+            (process.tailored.empty() ? "" : " on the base sheet"));
     for (const AppliedPilot& each : process.pilots)
         lines.push_back(fmt::format("pilot {}: {}", each.name,
                                     each.places == 1 ? "1 place" : fmt::format("{} places", each.places)));

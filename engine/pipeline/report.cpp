@@ -269,7 +269,9 @@ Json process_json(const Session& session)
     if (process.edge_restraint > 0)
         edge = {{"share", process.edge_restraint},
                 {"lock_force_N_mm", process.lock_force_N_mm},
-                {"force_N_mm", process.edge_restraint * process.lock_force_N_mm}};
+                {"force_N_mm", process.edge_restraint * process.lock_force_N_mm},
+                {"held_mm", process.held_mm},
+                {"upright_mm", process.upright_mm}};
     if (const auto& r = process.rolling)
         rolling = {(*r)[0], (*r)[1], (*r)[2]};
     return {{"acting_share", session.blank->report.process_share},
@@ -332,10 +334,43 @@ std::vector<std::string> unlikely_input(const FlattenOptions& options)
     check(options.material);
     for (const TailoredPiece& piece : options.process.tailored)
         check(piece.material);
+    const auto gauge = [&](const std::string& what, double thickness) {
+        constexpr double thinnest = 0.02, thickest = 20; // foil; plate, which no membrane stands for
+        if (thickness < thinnest || thickness > thickest)
+            list.push_back(fmt::format("{} is {:.3g} mm thick: is that in mm?", what, thickness));
+    };
+    gauge("the sheet", options.thickness);
+    for (const TailoredPiece& piece : options.process.tailored)
+        gauge(piece.name, piece.thickness);
     for (const ContactRegion& region : options.process.contact)
         if (region.friction > 1)
             list.push_back(fmt::format("the friction coefficient of {} is {:.3g}: tools rub by less than 1",
                                        region.name, region.friction));
+    for (const Drawbead& bead : options.process.drawbeads)
+        if (const double lock = lock_force(options.material, options.thickness); bead.force_N_mm > lock)
+            list.push_back(
+                fmt::format("the drawbead {} holds by {:.4g} N/mm, more than the {:.4g} N/mm that tear the sheet",
+                            bead.name, bead.force_N_mm, lock));
+        else if (bead.force_N_mm == 0)
+            list.push_back(fmt::format("the drawbead {} does nothing: it is too shallow to bend the sheet", bead.name));
+    return list;
+}
+
+/// What was asked for and does not act as it was meant.
+std::vector<std::string> idle_process(const Session& session)
+{
+    std::vector<std::string> list;
+    if (session.options.flatten.process.edge_restraint == 0)
+        return list;
+    constexpr double much = 0.1;
+    const AppliedProcess process = applied_process(session);
+    if (process.held_mm == 0)
+        list.push_back("the edge restraint holds nothing: all of the outer edge is a seam");
+    else if (process.upright_mm > much * process.held_mm)
+        list.push_back(fmt::format(
+            "on {:.4g} of {:.4g} mm of the edge the sheet stands along the stamping direction: slip cannot be seen there, and the "
+            "restraint may push instead of pull; give another direction",
+            process.upright_mm, process.held_mm));
     return list;
 }
 
@@ -346,15 +381,19 @@ std::vector<std::string> shortcomings(const Session& session)
     std::vector<std::string> list;
     if (session.blank) {
         list = unlikely_input(session.options.flatten);
+        for (std::string& line : idle_process(session))
+            list.push_back(std::move(line));
         const FlattenResult& flat = *session.blank;
         if (!flat.report.whole())
             list.push_back(flat.report.reason);
         if (flat.necking_triangles > 0)
             list.push_back(
-                fmt::format("{} triangles are strained beyond {:.2f}", flat.necking_triangles,
-                            flat.report.trusted_strain) +
+                fmt::format("{} strained beyond {:.2f}{}",
+                            counted(flat.necking_triangles, "triangle is", "triangles are"), flat.report.trusted_strain,
+                            session.options.flatten.process.tailored.empty() ? ""
+                                                                             : " (other grades beyond their own)") +
                 (flat.report.trusted_strain < session.options.flatten.curve.trusted_strain
-                     ? ", the uniform strain: the hardening curve is extrapolated there, and in tension the sheet necks"
+                     ? ": there the hardening curve is extrapolated, and in tension the sheet necks"
                      : ": extrapolated, the sheet would neck or tear there"));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));

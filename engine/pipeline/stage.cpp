@@ -148,9 +148,14 @@ Session judge_limits(Session session)
     const FlattenResult& flat = *session.blank;
     if (flat.necking_triangles > 0 && flat.report.trusted_strain < sheet.curve.trusted_strain)
         limits.notes.push_back(fmt::format(
-            "{} of the faces are strained beyond the uniform strain {:.2f}, from which on the hardening curve was continued: a real "
-            "sheet gathers its strain there and cracks earlier than the zones say",
-            flat.necking_triangles, flat.report.trusted_strain));
+            "{} strained beyond {:.2f}{}, from which on the hardening curve was continued: in tension a real sheet gathers its strain "
+            "there and cracks earlier than the zones say",
+            counted(flat.necking_triangles, "face is", "faces are"), flat.report.trusted_strain,
+            sheet.process.tailored.empty() ? "" : " (other grades beyond their own)"));
+    if (!sheet.process.pilots.empty())
+        limits.notes.push_back(
+            "a pilot holds the sheet at single vertices: the strains of the faces around them are those of a point "
+            "load, and grow the finer the mesh");
     if (flat.report.process_share < 1)
         limits.notes.push_back(
             fmt::format("the zones are those of {:.2g} % of the forces of the tools", 100 * flat.report.process_share));

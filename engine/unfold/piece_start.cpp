@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/energy_stage.h"
+#include "engine/forming/placing.h"
 #include "engine/forming/rigid_steps.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/edge_uses.h"
@@ -106,23 +107,6 @@ std::vector<std::vector<int>> choices(const std::vector<std::vector<int>>& rings
     return out;
 }
 
-/// The rigid motion that brings the held vertices nearest to their places. [Kabsch 1976 in the plane]
-/// @returns the root of their mean squared distance after it, over that of the places from their mean
-double move_onto(const std::vector<HeldVertex>& held, Eigen::Matrix2Xd& X)
-{
-    Eigen::Matrix2Xd from(2, Eigen::Index(held.size())), to = from;
-    for (size_t k = 0; k < held.size(); ++k) {
-        from.col(Eigen::Index(k)) = X.col(held[k].vertex);
-        to.col(Eigen::Index(k)) = held[k].place;
-    }
-    const Eigen::Vector2d c = from.rowwise().mean(), d = to.rowwise().mean();
-    const Eigen::Matrix2d moment = (to.colwise() - d) * (from.colwise() - c).transpose();
-    const double angle = std::atan2(moment(1, 0) - moment(0, 1), moment(0, 0) + moment(1, 1));
-    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-    X = (turn * (X.colwise() - c)).colwise() + d;
-    return ((turn * (from.colwise() - c)) - (to.colwise() - d)).norm() / (to.colwise() - d).norm();
-}
-
 Eigen::Matrix2Xd snapped(Eigen::Matrix2Xd X, const std::vector<HeldVertex>& held)
 {
     for (const HeldVertex& h : held)
@@ -212,7 +196,7 @@ PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const
         if (!choice[k].empty() && !is_sheet(mesh))
             continue;
         InitialGuess start = guess(mesh, piece.mesh.vertices(), mine.part(0, 0.5));
-        const double off = move_onto(job.external.held, start.position);
+        const double off = place_on(job.external.held, start.position);
         if (off > far_off && k + 1 < choice.size())
             continue;
         measure(start.position);

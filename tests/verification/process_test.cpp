@@ -245,26 +245,50 @@ TEST(Process, WhatTheSheetBearsDoesNotDependOnHowMuchIsAskedFor)
         borne.push_back(asked * flat.report.process_share);
     }
     std::printf("spiral: %.4f and %.4f of the lock force\n", borne[0], borne[1]);
-    EXPECT_NEAR(borne[0], borne[1], 0.1 * borne[0]);
+    EXPECT_NEAR(borne[0], borne[1], 0.03 * borne[0]);
     options.process.edge_restraint = 0.9 * borne[0];
     EXPECT_EQ(flatten(part, options).report.process_share, 1);
 }
 
-TEST(Process, ThinningGrowsSteadilyWithTheForceBeyondTheUniformStrain)
+TEST(Process, ThinningGrowsSteadilyWithTheForceFromNoneOn)
 {
-    // With a curve that softens strain gathers in rows of elements at some forces and not at others.
+    // With a curve that softens strain gathers in rows of elements at some forces and not at others; with one curve for all
+    // forces and another for none the smallest force would change the blank.
     const TriMesh cup = shapes::square_cup();
     FlattenOptions options = steel(1.79, 1.51, 2.27);
-    double last = 0;
-    for (const double share : {0.01, 0.1, 0.2, 0.3, 0.33, 0.36, 0.4, 0.5, 0.7, 1.}) {
+    const FlattenResult free = flatten(cup, options);
+    EXPECT_EQ(free.report.trusted_strain, options.curve.trusted_strain);
+    double last = 0, first = 0;
+    for (const double share : {1e-4, 0.03, 0.06, 0.1, 0.2, 0.3, 0.33, 0.36, 0.4, 0.5, 0.7, 1.}) {
         options.process.edge_restraint = share;
         const FlattenResult flat = flatten(cup, options);
         EXPECT_EQ(flat.report.system, SolvedSystem::continued) << share;
-        EXPECT_NEAR(flat.report.trusted_strain, uniform_strain(options.material.hardening, 0.5), 1e-12);
+        EXPECT_LT(flat.report.trusted_strain, options.curve.trusted_strain);
         EXPECT_GT(flat.necking_triangles, 0);
         const double thinning = flat.face.thinning.maxCoeff();
         EXPECT_GT(thinning, last) << share;
         last = thinning;
+        first = first > 0 ? first : thinning;
+    }
+    EXPECT_NEAR(first, free.face.thinning.maxCoeff(), 1e-3);
+}
+
+TEST(Process, OnePilotOnlyMovesAFreeSheet)
+{
+    FlattenOptions options = steel(1.79, 1.51, 2.27);
+    for (const TriMesh& part : {shapes::square_cup(), shapes::hat_channel({}).mesh}) {
+        options.process.pilots.clear();
+        const FlattenResult free = flatten(part, options);
+        int lowest = 0; // far from the middle, on the rim
+        part.position.row(2).minCoeff(&lowest);
+        options.process.pilots = {{"pin", {part.position.col(lowest)}}};
+        const FlattenResult held = flatten(part, options);
+        EXPECT_EQ(held.report.system, SolvedSystem::strict) << held.report.reason;
+        // The pin takes as a point load what the three multipliers spread: as little as it is, it is seen.
+        EXPECT_LT((held.face.thinning - free.face.thinning).cwiseAbs().maxCoeff(), 5e-4);
+        const Eigen::Vector2d move = held.blank.position.col(lowest) - free.blank.position.col(lowest);
+        EXPECT_GT(move.norm(), 1);
+        EXPECT_LT(((held.blank.position - free.blank.position).colwise() - move).colwise().norm().maxCoeff(), 0.02);
     }
 }
 
@@ -287,11 +311,13 @@ TEST(Process, EveryGradeIsTrustedToItsOwnUniformStrain)
     for (int f = 0; f < cup.triangles(); ++f) {
         const double limit =
             uniform_strain(is_soft[size_t(f)] ? soft.material.hardening : options.material.hardening, 0.5);
-        EXPECT_EQ(flat.face.necking[f] != 0, flat.face.strain_equivalent[f] > limit) << f;
+        constexpr double near = 0.01; // what is left of the curve as given under this force
+        if (std::abs(flat.face.strain_equivalent[f] - limit) > near)
+            EXPECT_EQ(flat.face.necking[f] != 0, flat.face.strain_equivalent[f] > limit) << f;
         beyond += flat.face.necking[f];
     }
     EXPECT_GT(beyond, 0);
-    EXPECT_NEAR(flat.report.trusted_strain, uniform_strain(options.material.hardening, 0.5), 1e-12);
+    EXPECT_NEAR(flat.report.trusted_strain, uniform_strain(options.material.hardening, 0.5), 0.01);
 }
 
 TEST(Process, TheDirectionMayBeGivenEitherWay)

@@ -160,9 +160,10 @@ void unfold_step(Frame& frame)
     ImGui::TextColored(old    ? p.muted
                        : fine ? p.good
                               : p.warning,
-                       fine                    ? "converged"
-                       : flat.report.converged ? "converged, relaxed"
-                                               : "not converged");
+                       fine ? "converged"
+                       : flat.report.converged
+                           ? flat.report.relaxed_vertices > 0 ? "converged, relaxed" : "converged, with a note"
+                           : "not converged");
     if (!fine)
         coloured(p.warning, as_sentence(flat.report.reason) + ". " + advice(flat.report));
     direction_control(frame);

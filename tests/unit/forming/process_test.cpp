@@ -212,6 +212,17 @@ TEST(Process, ATailoredPieceHasItsOwnGradeAndGauge)
     EXPECT_EQ(sheet.law_of(2).curve()(0.1).stress, sheet.law_of(5).curve()(0.1).stress);
 }
 
+TEST(Process, WithoutFrictionOrForceNothingActs)
+{
+    const TriMesh part = shapes::rectangle(50, 40, 5, 4);
+    ProcessConditions process;
+    process.contact = {{"smooth", {0, 1}, 5.0, {}, 0, 2}};
+    process.drawbeads = {{"shallow", {{20, 5, 0}, {20, 35, 0}}, 0}};
+    EXPECT_FALSE(forces(process, part).any());
+    process.drawbeads[0].line = {{20, 5, 70}, {20, 35, 70}};
+    EXPECT_NE(refusal(process, part).find("70 mm off the part"), std::string::npos);
+}
+
 TEST(Process, WhatIsWrongIsNamed)
 {
     const TriMesh part = shapes::rectangle(50, 40, 5, 4);

@@ -144,6 +144,10 @@ TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
     EXPECT_EQ(process["edge_restraint"]["share"], 0.1);
     EXPECT_NEAR(process["edge_restraint"]["lock_force_N_mm"].get<double>(), lock, 1e-9);
     EXPECT_NEAR(process["edge_restraint"]["force_N_mm"].get<double>(), 0.1 * lock, 1e-9);
+    EXPECT_NEAR(process["edge_restraint"]["held_mm"].get<double>(), 180, 1e-9);
+    EXPECT_EQ(process["edge_restraint"]["upright_mm"], 0);
+    EXPECT_EQ(process["acting_share"], session.blank->report.process_share);
+    EXPECT_NEAR(process["tailored"][1]["edge_force_N_mm"].get<double>(), 0.1 * lock_force(options.material, 0.7), 1e-9);
     EXPECT_EQ(process["pilots"][0]["places"], 1);
     EXPECT_EQ(process["tailored"][0]["faces"], 16); // what the later one leaves
     EXPECT_NEAR(process["tailored"][0]["area_mm2"].get<double>(), 800, 1e-9);
@@ -166,6 +170,35 @@ TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
         if (session.part->mesh.position(0, Eigen::all)(session.part->mesh.triangle.col(f)).mean() > 20) {
             EXPECT_NEAR(session.limits->zones.distance[f], engineering_strain(thin.at_plane_strain()), 1e-3);
         }
+}
+
+TEST(Shortcomings, TellOfConditionsThatCannotBeMeant)
+{
+    Session session;
+    const auto says = [&](const char* text) {
+        const auto list = shortcomings(session);
+        return std::any_of(list.begin(), list.end(),
+                           [&](const std::string& line) { return line.find(text) != std::string::npos; });
+    };
+    PartFile part;
+    part.mesh = shapes::rectangle(50, 40, 5, 4);
+    session.part = std::make_shared<PartFile>(part);
+    session.options.flatten.material = find_material("mild_steel", materials);
+    session = run_stage(Stage::solve, std::move(session), {});
+    EXPECT_TRUE(shortcomings(session).empty());
+    session.options.flatten.thickness = 0.001;
+    EXPECT_TRUE(says("0.001 mm thick"));
+    session.options.flatten.thickness = 1;
+    session.options.flatten.process.drawbeads = {{"b", {{20, 5, 0}, {20, 35, 0}}, 1000}};
+    EXPECT_TRUE(says("b holds by 1000 N/mm"));
+    session.options.flatten.process.drawbeads[0].force_N_mm = 0;
+    EXPECT_TRUE(says("b does nothing"));
+    session.options.flatten.process.edge_restraint = 0.2;
+    EXPECT_FALSE(says("of the edge the sheet stands"));
+    auto along = std::make_shared<FlattenResult>(*session.blank);
+    along->stamping.direction = Eigen::Vector3d::UnitX();
+    session.blank = along;
+    EXPECT_TRUE(says("on 180 of 180 mm of the edge the sheet stands"));
 }
 
 } // namespace spia
