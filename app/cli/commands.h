@@ -54,6 +54,19 @@ struct CompareArguments {
 /// @returns 0, or 3 if no method had a result
 int compare(const CompareArguments& arguments);
 
+struct UnfoldArguments {
+    std::filesystem::path part, script, folder, json;
+    bool automatic = false;
+    std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
+    double thickness = 1;
+    int root = 0; ///< of --auto: the region that stays, from 1; 0: the largest flat one
+    bool strict = false, weld = false, keep_largest = false;
+};
+
+/// Unfolds a part step by step, as a script says or by steps of its own, writes the states and prints a summary.
+/// @returns 0, 1 if the result is poorer or the script did not fit and `strict` was asked for, or 3 if a step had no result
+int unfold(const UnfoldArguments& arguments);
+
 /// Prints the built-in grades. @returns 0
 int materials();
 

@@ -190,6 +190,48 @@ int main(int count, char** values)
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
 
+    cli::UnfoldArguments unfolding;
+    CLI::App* unfold_command = app.add_subcommand(
+        "unfold", "Unfold a part step by step: outer flanges first, each onto the face of its neighbour");
+    unfold_command->add_option("part", unfolding.part, "STL, OBJ, PLY, OFF, glTF or GLB file")
+        ->required()
+        ->type_name("PART");
+    CLI::Option* by_script =
+        unfold_command->add_option("--script", unfolding.script, "the steps (JSON, engine/pipeline/README.md)")
+            ->type_name("FILE");
+    unfold_command
+        ->add_flag("--auto", unfolding.automatic,
+                   "steps of its own; with --out they are written as a script, to be edited")
+        ->excludes(by_script);
+    unfold_command
+        ->add_option("--root", unfolding.root, "with --auto: the region that stays (default: the largest flat one)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000))
+        ->excludes(by_script);
+    unfold_command
+        ->add_option("--out", unfolding.folder, "folder for the states, the outline of the blank and the script")
+        ->type_name("DIR");
+    unfold_command->add_option("--name", unfolding.name, "of the files, without ending (default: the part's)");
+    unfold_command->add_option("--json", unfolding.json, "write the figures of the run")->type_name("FILE");
+    unfold_command->add_option("--material", unfolding.material, "a grade of `spia materials`, or a material file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    unfold_command->add_option("--thickness", unfolding.thickness, "of the flat sheet")
+        ->type_name("MM")
+        ->capture_default_str();
+    unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
+        ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
+    unfold_command->add_flag("--weld", unfolding.weld, "join vertices at one place (always done for STL and glTF)");
+    unfold_command->add_flag("--keep-largest", unfolding.keep_largest,
+                             "leave out all but the largest piece, and ribs on edges of three faces");
+    unfold_command->add_option("--seam", unfolding.seam, "where a closed part is cut open, as for `spia run`")
+        ->type_name("auto|none|FILE")
+        ->capture_default_str();
+    unfold_command->add_flag("--strict", unfolding.strict, "exit 1 if the result is poorer or a script did not fit");
+    unfold_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+
     CLI::App* materials_command = app.add_subcommand("materials", "List the built-in sheet grades");
 
     cli::FitArguments fit;
@@ -238,6 +280,8 @@ int main(int count, char** values)
             return cli::info(info);
         if (*compare_command)
             return cli::compare(comparison);
+        if (*unfold_command)
+            return cli::unfold(unfolding);
         if (*materials_command)
             return cli::materials();
         if (*fit_command)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 
 namespace spia {
@@ -71,6 +72,7 @@ enum : int {
     acad,
     standard_dimstyle,
     active,
+    layer_bends,
     first_entity = 0x100,
 };
 
@@ -111,7 +113,7 @@ void write_header(DxfText& dxf, const Extent& extent, int next_handle, LengthUni
     dxf.end_section();
 }
 
-void write_tables(DxfText& dxf, const Extent& extent)
+void write_tables(DxfText& dxf, const Extent& extent, bool bends)
 {
     dxf.begin_section("CLASSES");
     dxf.end_section();
@@ -127,10 +129,12 @@ void write_tables(DxfText& dxf, const Extent& extent)
     for (const auto& [own, name] : {std::pair{by_block, "ByBlock"}, {by_layer, "ByLayer"}, {continuous, "Continuous"}})
         dxf.entry("LTYPE", "AcDbLinetypeTableRecord", own, ltypes, name)(3, "")(72, 65)(73, 0)(40, 0.0);
     dxf.end_table();
-    dxf.begin_table("LAYER", layers, 3);
+    dxf.begin_table("LAYER", layers, bends ? 4 : 3);
     for (const auto& [own, name, colour] :
          {std::tuple{layer_0, "0", 7}, {layer_outline, "OUTLINE", 7}, {layer_holes, "HOLES", 1}})
         dxf.entry("LAYER", "AcDbLayerTableRecord", own, layers, name)(62, colour)(6, "Continuous");
+    if (bends)
+        dxf.entry("LAYER", "AcDbLayerTableRecord", layer_bends, layers, "BENDS")(62, 5)(6, "Continuous");
     dxf.end_table();
     dxf.begin_table("STYLE", styles, 1);
     dxf.entry("STYLE", "AcDbTextStyleTableRecord", standard_style, styles,
@@ -171,16 +175,22 @@ void write_blocks(DxfText& dxf)
     dxf.end_section();
 }
 
-void write_loops(DxfText& dxf, const std::vector<OutlineLoop>& loops)
+void write_line(DxfText& dxf, int handle, const char* layer, const Eigen::Matrix2Xd& points, bool closed)
 {
-    constexpr int closed = 1;
+    dxf(0, "LWPOLYLINE").handle(5, handle).handle(330, model_space)(100, "AcDbEntity");
+    dxf(8, layer)(100, "AcDbPolyline")(90, int(points.cols()))(70, int(closed));
+    for (const auto point : points.colwise())
+        dxf.point(10, point);
+}
+
+void write_entities(DxfText& dxf, const std::vector<OutlineLoop>& loops, const std::vector<SheetLine>& bends)
+{
     dxf.begin_section("ENTITIES");
-    for (size_t i = 0; i < loops.size(); ++i) {
-        dxf(0, "LWPOLYLINE").handle(5, first_entity + int(i)).handle(330, model_space)(100, "AcDbEntity");
-        dxf(8, i == 0 ? "OUTLINE" : "HOLES")(100, "AcDbPolyline")(90, int(loops[i].cols()))(70, closed);
-        for (const auto point : loops[i].colwise())
-            dxf.point(10, point);
-    }
+    int handle = first_entity;
+    for (size_t i = 0; i < loops.size(); ++i)
+        write_line(dxf, handle++, i == 0 ? "OUTLINE" : "HOLES", loops[i], true);
+    for (const SheetLine& bend : bends)
+        write_line(dxf, handle++, "BENDS", bend.point.topRows<2>(), bend.closed);
     dxf.end_section();
 }
 
@@ -197,18 +207,25 @@ void write_objects(DxfText& dxf)
 
 } // namespace
 
-void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops_mm, LengthUnit unit)
+void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops_mm, LengthUnit unit,
+               std::span<const SheetLine> bends_mm)
 {
     require_outline(loops_mm);
     std::vector<OutlineLoop> loops = loops_mm;
     for (OutlineLoop& loop : loops)
         loop /= millimetres(unit);
+    std::vector<SheetLine> bends(bends_mm.begin(), bends_mm.end());
+    for (SheetLine& bend : bends) {
+        if (bend.point.cols() < 2 || !bend.point.allFinite())
+            throw InputError(fmt::format("the line \"{}\" needs two finite points or more", bend.name));
+        bend.point /= millimetres(unit);
+    }
     const Extent extent = extent_of(loops);
     DxfText dxf;
-    write_header(dxf, extent, first_entity + int(loops.size()), unit);
-    write_tables(dxf, extent);
+    write_header(dxf, extent, first_entity + int(loops.size() + bends.size()), unit);
+    write_tables(dxf, extent, !bends.empty());
     write_blocks(dxf);
-    write_loops(dxf, loops);
+    write_entities(dxf, loops, bends);
     write_objects(dxf);
     dxf(0, "EOF");
     write_atomically(path, dxf.text());

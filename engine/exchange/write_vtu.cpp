@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fmt/core.h>
 
+#include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/text_encoding.h"
@@ -91,6 +92,24 @@ std::string cells(const TriMesh& part)
     return array("connectivity", part.triangle) + array("offsets", offset) + array("types", type);
 }
 
+/// @param scalars of the points that a viewer shows first; may be empty
+std::string vtu_text(const Eigen::Matrix3Xd& position, const TriMesh& part, const std::string& point_data,
+                     const std::string& face_data, const std::string& scalars, LengthUnit unit,
+                     const std::string& field_data)
+{
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<!-- {} : lengths {}, stresses MPa, strains logarithmic -->\n"
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\">\n"
+        "<UnstructuredGrid>\n<FieldData>\n{}</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+        "<PointData{}>\n{}</PointData>\n"
+        "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
+        "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+        program_name(), name(unit), text_array("length_unit", name(unit)) + field_data, part.vertices(),
+        part.triangles(), scalars.empty() ? "" : fmt::format(" Scalars=\"{}\"", scalars), point_data, face_data,
+        array("Points", Eigen::Matrix3Xd(position / millimetres(unit)), 3), cells(part));
+}
+
 } // namespace
 
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
@@ -112,19 +131,29 @@ void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Bla
         require_finite(field, part.triangles(), "face");
         face_data += array(field.name, *field.value);
     }
-    write_atomically(
-        path,
-        fmt::format(
-            "<?xml version=\"1.0\"?>\n<!-- {} : lengths {}, stresses MPa, strains logarithmic -->\n"
-            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-            "header_type=\"UInt64\">\n"
-            "<UnstructuredGrid>\n<FieldData>\n{}</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-            "<PointData Scalars=\"thinning\">\n{}</PointData>\n"
-            "<CellData Scalars=\"thinning\">\n{}</CellData>\n"
-            "<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-            program_name(), name(unit), text_array("length_unit", name(unit)) + (zones ? zone_names() : ""),
-            part.vertices(), part.triangles(), point_data, face_data,
-            array("Points", Eigen::Matrix3Xd(part.position / mm), 3), cells(part)));
+    write_atomically(path, vtu_text(part.position, part, point_data, face_data, "thinning", unit,
+                                    zones ? zone_names() : std::string()));
+}
+
+void write_state_vtu(const std::filesystem::path& path, const TriMesh& part, const Eigen::Matrix3Xd& state,
+                     const SheetFields& face_fields,
+                     std::span<const std::pair<std::string, const Eigen::VectorXi*>> numbers, LengthUnit unit)
+{
+    const double mm = millimetres(unit);
+    if (part.triangles() == 0 || state.cols() != part.position.cols() || !state.allFinite() ||
+        !part.position.allFinite())
+        throw InputError("the state has not a finite place for each vertex of the part; unfold this part again");
+    require_fields(face_fields, part.triangles(), "face");
+    std::string face_data = sheet_fields(face_fields, mm);
+    for (const auto& [name, values] : numbers) {
+        if (values->size() != part.triangles())
+            throw InputError(
+                fmt::format("{} has {} numbers, the part {} faces", name, values->size(), part.triangles()));
+        face_data += array(name, *values);
+    }
+    write_atomically(path, vtu_text(state, part,
+                                    array("displacement_to_part", Eigen::Matrix3Xd((part.position - state) / mm), 3),
+                                    face_data, {}, unit, {}));
 }
 
 } // namespace spia

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "engine/exchange/length_unit.h"
 #include "engine/exchange/sheet_field_list.h"
@@ -21,5 +23,15 @@ namespace spia {
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {},
                LengthUnit unit = LengthUnit::mm, const Zones* zones = nullptr, const SkinStrains* skins = nullptr);
+
+/// Writes a part while it is unfolded: the places of a state with the part's faces. Point data: displacement_to_part ("Warp By
+/// Vector" with factor 1 shows the part). Cell data: the fields of forming the state into the part, and the numbers.
+/// @param state  3 by #V, mm
+/// @param numbers by the names they have in the file, one per face each
+/// @throws as write_vtu()
+void write_state_vtu(const std::filesystem::path& path, const TriMesh& part, const Eigen::Matrix3Xd& state,
+                     const SheetFields& face_fields,
+                     std::span<const std::pair<std::string, const Eigen::VectorXi*>> numbers = {},
+                     LengthUnit unit = LengthUnit::mm);
 
 } // namespace spia

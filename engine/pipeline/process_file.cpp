@@ -1,133 +1,16 @@
 #include "engine/pipeline/process_file.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <fmt/format.h>
-#include <initializer_list>
+#include <optional>
 
-#include "engine/core/error.h"
 #include "engine/core/json_file.h"
 #include "engine/forming/drawbead.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/file_members.h"
 
 namespace spia {
 namespace {
 
-void require_object(const Json& json, const Place& place, std::initializer_list<std::string_view> members)
-{
-    if (!json.is_object())
-        place.fail("must be an object { }");
-    for (const auto& item : json.items())
-        if (std::find(members.begin(), members.end(), item.key()) == members.end())
-            place.fail(fmt::format("has no member \"{}\"; there are: {}", item.key(), fmt::join(members, ", ")));
-}
-
-/// @returns the value, or null where it may be missing
-const Json* find(const Json& json, const Place& place, std::string_view name, bool required)
-{
-    const auto found = json.find(name);
-    if (found == json.end() && required)
-        place.fail(fmt::format("needs the member \"{}\"", name));
-    return found == json.end() ? nullptr : &*found;
-}
-
-double number(const Json& json, const Place& place, double least, double greatest)
-{
-    if (!json.is_number() || !std::isfinite(json.get<double>()))
-        place.fail("must be a number");
-    const double value = json.get<double>();
-    if (value < least || value > greatest)
-        place.fail(fmt::format("is {} but must be from {} to {}", value, least, greatest));
-    return value;
-}
-
-std::optional<double> number_in(const Json& json, const Place& place, std::string_view name, double least,
-                                double greatest, bool required = false)
-{
-    const Json* value = find(json, place, name, required);
-    return value ? std::optional(number(*value, place.member(name), least, greatest)) : std::nullopt;
-}
-
-std::string text_in(const Json& json, const Place& place, std::string_view name, const std::string& otherwise)
-{
-    const Json* value = find(json, place, name, false);
-    if (value && !value->is_string())
-        place.member(name).fail("must be a text in \" \"");
-    return value ? value->get<std::string>() : otherwise;
-}
-
-Eigen::Vector3d vector(const Json& json, const Place& place)
-{
-    if (!json.is_array() || json.size() != 3)
-        place.fail("must be three numbers [x, y, z]");
-    Eigen::Vector3d v;
-    for (size_t k = 0; k < 3; ++k)
-        v[Eigen::Index(k)] = number(json[k], place.entry(k), -1e9, 1e9);
-    return v;
-}
-
-std::vector<Eigen::Vector3d> line(const Json& json, const Place& place)
-{
-    if (!json.is_array() || json.empty())
-        place.fail("must be a list of places [[x, y, z], ...]");
-    std::vector<Eigen::Vector3d> result;
-    for (size_t i = 0; i < json.size(); ++i)
-        result.push_back(vector(json[i], place.entry(i)));
-    return result;
-}
-
-/// By "faces", numbers in the file, and by "box", the least and the greatest corner; both together are united.
-std::vector<int> faces_in(const Json& json, const Place& place, const PartFile& part)
-{
-    std::vector<char> chosen(size_t(part.mesh.triangles()), 0);
-    const Json *faces = find(json, place, "faces", false), *box = find(json, place, "box", false);
-    if (!faces && !box)
-        place.fail("needs the member \"faces\" or \"box\"");
-    if (faces) {
-        const Place at = place.member("faces");
-        if (!faces->is_array())
-            at.fail("must be a list of face numbers");
-        for (size_t i = 0; i < faces->size(); ++i) {
-            const double wanted = number((*faces)[i], at.entry(i), 0, 2147483647);
-            const auto [from, to] =
-                std::equal_range(part.source_face.begin(), part.source_face.end(), int(wanted)); // never decreases
-            if (wanted != std::floor(wanted) || from == to)
-                at.entry(i).fail(fmt::format("is {}: the part has no such face", wanted));
-            for (auto f = from; f != to; ++f)
-                chosen[size_t(f - part.source_face.begin())] = 1;
-        }
-    }
-    if (box) {
-        const std::vector<Eigen::Vector3d> ends = line(*box, place.member("box"));
-        if (ends.size() != 2)
-            place.member("box").fail("must be two places: the least and the greatest corner");
-        for (int f = 0; f < part.mesh.triangles(); ++f) {
-            const Eigen::Vector3d middle = part.mesh.position(Eigen::all, part.mesh.triangle.col(f)).rowwise().mean();
-            chosen[size_t(f)] |= char((middle.array() >= ends[0].array() && middle.array() <= ends[1].array()).all());
-        }
-    }
-    std::vector<int> result;
-    for (size_t f = 0; f < chosen.size(); ++f)
-        if (chosen[f])
-            result.push_back(int(f));
-    if (result.empty())
-        place.fail("picks no face of the part");
-    return result;
-}
-
-/// Reads the entries of a list member, each at its place.
-template <class Read> void each_of(const Json& json, const Place& place, std::string_view name, const Read& read)
-{
-    const Json* list = find(json, place, name, false);
-    if (!list)
-        return;
-    const Place at = place.member(name);
-    if (!list->is_array())
-        at.fail("must be a list [ ]");
-    for (size_t i = 0; i < list->size(); ++i)
-        read((*list)[i], at.entry(i), fmt::format("{} {}", name, i + 1));
-}
+using namespace members;
 
 constexpr double most_force = 1e9, most_mm = 1e9;
 

@@ -5,17 +5,9 @@
 #include "engine/core/progress.h"
 #include "engine/forming/flatten.h"
 #include "engine/unfold/fit_binder.h"
+#include "engine/unfold/unfold_pick.h"
 
 namespace spia {
-
-/// What one step of local unfolding moves, and onto what.
-struct UnfoldPick {
-    std::vector<int> fixed; ///< faces that stay where they are and carry the target
-    std::vector<int> freed; ///< faces to move onto it
-    std::optional<BinderFace> target =
-        {};                         ///< not given: the plane, cylinder or cone of the carrying faces in the state
-    std::vector<int> carrying = {}; ///< of the fixed ones; empty: all of them
-};
 
 /// A connected piece of the freed faces, solved for itself.
 struct UnfoldedPiece {

@@ -64,7 +64,23 @@ template <class Place> DevelopablePart strips(int columns, int rows, const Place
     return part;
 }
 
-/// A profile in the xz plane, extruded along y from 0 to length. The outer side is to the left of the profile.
+Profile profile_of(const HatChannel& shape)
+{
+    const double angle = shape.angle_deg * pi / 180;
+    return Profile({0, 0}, 0)
+        .straight(shape.flange)
+        .bend(shape.radius, angle)
+        .straight(shape.wall)
+        .bend(shape.radius, -angle)
+        .straight(shape.top)
+        .bend(shape.radius, -angle)
+        .straight(shape.wall)
+        .bend(shape.radius, angle)
+        .straight(shape.flange);
+}
+
+} // namespace
+
 DevelopablePart extruded(const Profile& profile, double length, int triangles)
 {
     const double edge = std::sqrt(4 / std::sqrt(3.0) * profile.length() * length / triangles);
@@ -84,23 +100,6 @@ DevelopablePart extruded(const Profile& profile, double length, int triangles)
         flat << chords[c], y;
     });
 }
-
-Profile profile_of(const HatChannel& shape)
-{
-    const double angle = shape.angle_deg * pi / 180;
-    return Profile({0, 0}, 0)
-        .straight(shape.flange)
-        .bend(shape.radius, angle)
-        .straight(shape.wall)
-        .bend(shape.radius, -angle)
-        .straight(shape.top)
-        .bend(shape.radius, -angle)
-        .straight(shape.wall)
-        .bend(shape.radius, angle)
-        .straight(shape.flange);
-}
-
-} // namespace
 
 DevelopablePart quarter_cylinder(const QuarterCylinder& shape)
 {

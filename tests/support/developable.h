@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "engine/mesh/tri_mesh.h"
+#include "tests/support/profile.h"
 
 /// Parts that are flat sheets, only bent. All vertices lie on the straight generators of the surface, so the
 /// strips between generators are flat and the polyhedron itself, not just the smooth surface, unrolls without
@@ -12,6 +13,9 @@ struct DevelopablePart {
     TriMesh mesh;
     Eigen::Matrix2Xd flat; ///< 2 by #V, mm: the same vertices unrolled, faces counter-clockwise
 };
+
+/// A profile in the xz plane, extruded along y from 0 to length. The outer side is to the left of the profile.
+DevelopablePart extruded(const Profile& profile, double length, int triangles);
 
 /// A quarter of a cylinder around y, convex upwards.
 struct QuarterCylinder {

@@ -303,6 +303,26 @@ TEST(Vtu, WarpingByTheDisplacementGivesTheBlank)
     }
 }
 
+TEST(Vtu, AStateHasItsPlacesItsNumbersAndTheWayToThePart)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const Eigen::Matrix3Xd state = 2 * chain.part.position.colwise().reverse();
+    const Eigen::VectorXi step = Eigen::VectorXi::LinSpaced(chain.part.triangles(), 0, chain.part.triangles() - 1);
+    const std::pair<std::string, const Eigen::VectorXi*> numbers[] = {{"step", &step}};
+    write_state_vtu(folder / "x.vtu", chain.part, state, chain.face, numbers);
+    const std::string text = content_of(folder / "x.vtu");
+    expect_array(arrays_of(text, "Points"), "Points", state, 3);
+    expect_array(arrays_of(text, "PointData"), "displacement_to_part", Eigen::Matrix3Xd(chain.part.position - state),
+                 3);
+    expect_array(arrays_of(text, "CellData"), "step", step);
+    expect_array(arrays_of(text, "CellData"), "thinning", chain.face.thinning);
+    EXPECT_THROW(write_state_vtu(folder / "y.vtu", chain.part, state.leftCols(3), chain.face), InputError);
+    const Eigen::VectorXi few = step.head(2);
+    const std::pair<std::string, const Eigen::VectorXi*> wrong[] = {{"step", &few}};
+    EXPECT_THROW(write_state_vtu(folder / "y.vtu", chain.part, state, chain.face, wrong), InputError);
+}
+
 TEST(Dxf, LoopsAreClosedOnTheirLayersAndEncloseTheBlanksArea)
 {
     const ScratchFolder folder;
@@ -329,6 +349,39 @@ TEST(Dxf, LoopsAreClosedOnTheirLayersAndEncloseTheBlanksArea)
     EXPECT_NEAR(enclosed, 1.07 * 1.04 * 400 * 300 * (1 - 1.0 / 9), 1e-6);
     EXPECT_GT(signed_area(loops[0]), 0);
     EXPECT_LT(signed_area(loops[1]), 0);
+}
+
+TEST(Dxf, BendLinesHaveTheirLayerAndStayOpen)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    const auto loops = blank_outline(chain.part, chain.blank);
+    const std::vector<SheetLine> bends = {{"bend 1", (Eigen::Matrix3Xd(3, 2) << 0, 25.4, 1, 2, 9, 9).finished(), false},
+                                          {"bend 2", Eigen::Matrix3Xd::Random(3, 5), true}};
+    write_dxf(folder / "x.dxf", loops, LengthUnit::inch, bends);
+    const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
+    const auto lines = polylines(pairs);
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_EQ(lines[2].layer, "BENDS");
+    EXPECT_FALSE(lines[2].closed);
+    EXPECT_EQ(lines[2].x, (std::vector<double>{0, 1}));
+    EXPECT_TRUE(lines[3].closed);
+    EXPECT_EQ(lines[3].announced, 5u);
+    const auto named = [&](const DxfPair& wanted) { return std::count(pairs.begin(), pairs.end(), wanted); };
+    EXPECT_EQ(named({2, "BENDS"}), 1) << "the layer is declared once";
+    for (size_t i = 0; i + 4 < pairs.size(); ++i)
+        if (pairs[i] == DxfPair(2, "LAYER") && pairs[i - 1] == DxfPair(0, "TABLE")) {
+            EXPECT_EQ(pairs[i + 4], DxfPair(70, "4")) << "0, OUTLINE, HOLES and BENDS";
+        }
+    std::vector<long> handles;
+    for (const auto& [code, value] : pairs)
+        if (code == 5 || code == 105)
+            handles.push_back(std::stol(value, nullptr, 16));
+    std::sort(handles.begin(), handles.end());
+    EXPECT_EQ(std::adjacent_find(handles.begin() + 1, handles.end()), handles.end())
+        << "after the seed, a handle is one's own";
+    const std::vector<SheetLine> none = {{"short", Eigen::Matrix3Xd::Zero(3, 1), false}};
+    EXPECT_THROW(write_dxf(folder / "y.dxf", loops, LengthUnit::mm, none), InputError);
 }
 
 TEST(Dxf, UnitsAreMillimetresAndEveryHandleIsUniqueAndBelowTheSeed)

@@ -1,0 +1,163 @@
+#include <fmt/core.h>
+
+#include <chrono>
+#include <numbers>
+
+#include "app/cli/commands.h"
+#include "app/cli/terminal.h"
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
+#include "engine/exchange/blank_outline.h"
+#include "engine/exchange/read_part.h"
+#include "engine/exchange/write_dxf.h"
+#include "engine/exchange/write_vtu.h"
+#include "engine/forming/material_library.h"
+#include "engine/pipeline/seam_file.h"
+#include "engine/pipeline/unfold_file.h"
+#include "engine/unfold/sheet_lines.h"
+
+namespace spia::cli {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+FlattenOptions flatten_options(const UnfoldArguments& arguments)
+{
+    FlattenOptions options;
+    options.material = find_material(arguments.material, assets() / "materials");
+    options.thickness = arguments.thickness;
+    return options;
+}
+
+PartFile part_of(const UnfoldArguments& arguments)
+{
+    ReadOptions read;
+    if (!arguments.unit.empty())
+        read.unit = length_unit(arguments.unit);
+    if (arguments.weld)
+        read.weld = true;
+    read.doctor.keep_largest = arguments.keep_largest;
+    read.seam = seam_options(arguments.seam);
+    JobDisplay display{"read"};
+    return read_part(arguments.part, read, display.progress());
+}
+
+void print_map(const BendMap& map)
+{
+    fmt::print("part      {} regions, {} bends{}\n", map.regions.size(), map.bends.size(),
+               map.smoothed ? ", its noise smoothed for this" : "");
+    constexpr size_t most = 12;
+    for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
+        const Bend& bend = map.bends[k];
+        fmt::print("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm\n",
+                   map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
+                   bend.angle * degrees, bend.radius, bend.length);
+    }
+    if (map.bends.size() > most)
+        fmt::print("          and {} more\n", map.bends.size() - most);
+}
+
+void print_states(const UnfoldRun& run)
+{
+    for (size_t k = 0; k < run.states.size(); ++k) {
+        const UnfoldState& state = run.states[k];
+        fmt::print("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1,
+                   state.name, state.plain, state.face.strain_equivalent.maxCoeff(),
+                   100 * state.face.thinning.minCoeff(), 100 * state.face.thinning.maxCoeff(),
+                   state.converged ? "" : ", NOT converged");
+    }
+    if (!run.blank)
+        return;
+    const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
+    fmt::print("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
+}
+
+std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
+                                               const BendMap& map, const UnfoldScript& steps, const UnfoldRun& run)
+{
+    if (arguments.folder.empty())
+        return {};
+    std::filesystem::create_directories(arguments.folder);
+    const std::string stem = arguments.name.empty() ? arguments.part.stem().string() : arguments.name;
+    const auto file = [&](const std::string& rest) { return arguments.folder / (stem + rest); };
+    std::vector<std::filesystem::path> files;
+    for (size_t k = 0; k < run.states.size(); ++k) {
+        const UnfoldState& state = run.states[k];
+        const std::pair<std::string, const Eigen::VectorXi*> numbers[] = {{"step", &state.step},
+                                                                          {"region", &map.label}};
+        files.push_back(file(fmt::format("-step{}.vtu", k + 1)));
+        write_state_vtu(files.back(), part.mesh, state.position, state.face, numbers);
+    }
+    if (run.blank) {
+        files.push_back(file("-blank.dxf"));
+        write_dxf(files.back(), blank_outline(part.mesh, *run.blank), LengthUnit::mm,
+                  bend_lines(part.mesh, map, run.blank->position));
+    }
+    if (arguments.automatic) {
+        files.push_back(file("-script.json"));
+        write_atomically(files.back(), unfold_script_json(map, steps));
+    }
+    return files;
+}
+
+std::vector<std::string> shortcomings(const UnfoldRun& run, const std::vector<std::string>& findings)
+{
+    std::vector<std::string> poorer = findings;
+    for (const UnfoldState& state : run.states)
+        if (!state.converged)
+            poorer.push_back(fmt::format("step \"{}\" did not converge: {}", state.name, state.reason));
+    if (run.flipped > 0)
+        poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
+    if (!run.blank && run.failure.empty())
+        poorer.push_back("after the last step the part does not lie in a plane");
+    return poorer;
+}
+
+} // namespace
+
+int unfold(const UnfoldArguments& arguments)
+{
+    if (arguments.automatic == !arguments.script.empty())
+        throw InputError("give either --script FILE or --auto");
+    if (!arguments.json.empty())
+        require_writable(arguments.json);
+    const FlattenOptions options = flatten_options(arguments);
+    const PartFile part = part_of(arguments);
+    const BendMap map = find_bends(part.mesh);
+    print_map(map);
+    UnfoldScript steps;
+    std::vector<std::string> findings;
+    if (arguments.automatic) {
+        UnfoldSequence sequence = propose_sequence(part.mesh, map, {.root = arguments.root - 1});
+        for (const std::string& note : sequence.notes)
+            fmt::print("  note: {}\n", note);
+        steps = std::move(sequence.steps);
+        if (steps.empty())
+            throw InputError("the part is flat already; there is nothing to unfold");
+    } else {
+        ReadScript script = read_unfold_script(arguments.script, part, map);
+        steps = std::move(script.steps);
+        findings = std::move(script.findings);
+        if (steps.empty())
+            throw InputError(fmt::format("no step of the script makes sense on this part; {}", findings.front()));
+    }
+    JobDisplay display{"unfold"};
+    const auto clock = std::chrono::steady_clock::now();
+    const UnfoldRun run = run_unfolding(part.mesh, steps, options, display.progress());
+    display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+    const auto files = write_files(arguments, part, map, steps, run);
+    if (!arguments.json.empty())
+        write_atomically(arguments.json, unfold_report_json(arguments.part, part, map, steps, run, findings, files));
+    print_states(run);
+    for (const auto& file : files)
+        fmt::print("wrote     {}\n", file.string());
+    const auto poorer = shortcomings(run, findings);
+    for (const std::string& text : poorer)
+        fmt::print("WARNING   {}\n", text);
+    if (!run.failure.empty())
+        throw SolveError(
+            fmt::format("step {} \"{}\": {}", run.states.size() + 1, steps[run.states.size()].name, run.failure));
+    return arguments.strict && !poorer.empty() ? 1 : 0;
+}
+
+} // namespace spia::cli

@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/exchange/read_part.h"
+#include "engine/unfold/bends.h"
+#include "engine/unfold/unfold_script.h"
+
+namespace spia {
+
+/// A script as far as it makes sense for a part.
+struct ReadScript {
+    UnfoldScript steps;
+    std::vector<std::string> findings; ///< what of it made no sense on this part, and what became of it; empty: all did
+};
+
+/// Reads a script (JSON; the form is documented in engine/pipeline/README.md). A region that it names by a place is looked for
+/// there on this part, which may have changed: what is not found is left out, with a finding; so is a step that then has nothing
+/// to move or would tear faces off.
+/// @param map of the part
+/// @throws InputError naming file, place and fault: no JSON, an unknown member, a value out of its bounds, a face or a region
+///                    that the part does not have, a choice that picks no face
+ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile& part, const BendMap& map);
+
+/// A proposal as a script to be edited: regions are named, with the places by which they are found again.
+std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps);
+
+/// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
+/// @param files written, in order
+std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
+                               const UnfoldScript& steps, const UnfoldRun& run,
+                               const std::vector<std::string>& findings,
+                               const std::vector<std::filesystem::path>& files);
+
+} // namespace spia

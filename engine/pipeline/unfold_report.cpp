@@ -1,0 +1,179 @@
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "engine/core/json_file.h"
+#include "engine/mesh/topology.h"
+#include "engine/pipeline/unfold_file.h"
+
+namespace spia {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+Json xyz(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
+
+Json names_of(const BendMap& map, const std::vector<int>& labels)
+{
+    Json list = Json::array();
+    for (const int label : labels)
+        list.push_back(map.name(label));
+    return list;
+}
+
+Json regions_json(const BendMap& map)
+{
+    Json list = Json::array();
+    for (int label = 0; label <= map.label.maxCoeff(); ++label) {
+        const bool region = label < int(map.regions.size());
+        list.push_back({{"name", map.name(label)},
+                        {"kind", region ? "region" : "bend"},
+                        {"at", xyz(region ? map.regions[size_t(label)].place
+                                          : map.bends[size_t(label) - map.regions.size()].place)},
+                        {"area_mm2", map.area_of(label)}});
+    }
+    return list;
+}
+
+Json face_json(const BinderFace& face)
+{
+    if (const auto* plane = std::get_if<PlaneFace>(&face))
+        return {
+            {"plane", {{"origin", xyz(plane->origin)}, {"normal", xyz(plane->axes.col(0).cross(plane->axes.col(1)))}}}};
+    if (const auto* cylinder = std::get_if<CylinderFace>(&face))
+        return {{"cylinder",
+                 {{"origin", xyz(cylinder->origin)}, {"axis", xyz(cylinder->axis)}, {"radius", cylinder->radius}}}};
+    if (const auto* height = std::get_if<HeightFace>(&face)) // it is found again from its carrying faces
+        return {{"smooth",
+                 {{"origin", xyz(height->origin)}, {"normal", xyz(height->axes.col(0).cross(height->axes.col(1)))}}}};
+    const auto& cone = std::get<ConeFace>(face);
+    return {
+        {"cone", {{"apex", xyz(cone.apex)}, {"axis", xyz(cone.axis)}, {"half_angle_deg", cone.half_angle * degrees}}}};
+}
+
+Json step_json(const BendMap& map, const PlannedStep& step)
+{
+    Json json = {{"name", step.name}, {"kind", name(step.kind)}};
+    if (step.kind == UnfoldKind::lay) {
+        json["freed"] = {{"regions", names_of(map, step.freed)}};
+        json["fixed"] = {{"regions", names_of(map, step.fixed)}};
+        if (step.fixed.size() > 1)
+            json["carrying"] = {{"regions", names_of(map, {step.carrier})}};
+    } else if (step.kind == UnfoldKind::unroll) {
+        const int carrier = map.label[step.pick.carrying.front()];
+        json["carrying"] = {{"regions", names_of(map, {carrier})}};
+    }
+    Json target = step.pick.target ? face_json(*step.pick.target) : Json::object();
+    if (step.within_mm > 0)
+        target["within_mm"] = step.within_mm;
+    if (step.offset_mm != 0)
+        target["offset_mm"] = step.offset_mm;
+    if (!target.empty())
+        json["target"] = target;
+    Json options = Json::object();
+    if (step.tolerance)
+        options["tolerance"] = *step.tolerance;
+    if (step.most_energy_steps)
+        options["most_energy_steps"] = *step.most_energy_steps;
+    if (step.most_newton_steps)
+        options["most_newton_steps"] = *step.most_newton_steps;
+    if (!options.empty())
+        json["options"] = options;
+    return json;
+}
+
+Json bends_json(const BendMap& map)
+{
+    Json list = Json::array();
+    for (size_t k = 0; k < map.bends.size(); ++k) {
+        const Bend& bend = map.bends[k];
+        list.push_back({{"name", map.name(int(map.regions.size() + k))},
+                        {"between", bend.b >= 0 ? names_of(map, {bend.a, bend.b}) : names_of(map, {bend.a})},
+                        {"angle_deg", bend.angle * degrees},
+                        {"radius_mm", bend.radius},
+                        {"length_mm", bend.length},
+                        {"faces", bend.faces},
+                        {"area_mm2", bend.area},
+                        {"at_mm", xyz(bend.place)}});
+    }
+    return list;
+}
+
+Json found_regions_json(const BendMap& map)
+{
+    Json list = Json::array();
+    for (size_t k = 0; k < map.regions.size(); ++k) {
+        const SheetRegion& region = map.regions[k];
+        list.push_back({{"name", map.name(int(k))},
+                        {"faces", region.faces},
+                        {"area_mm2", region.area},
+                        {"flatness", region.flatness},
+                        {"normal", xyz(region.normal)},
+                        {"at_mm", xyz(region.place)}});
+    }
+    return list;
+}
+
+Json state_json(const UnfoldState& state)
+{
+    Json json = {{"name", state.name},
+                 {"face", state.plain},
+                 {"converged", state.converged},
+                 {"reason", state.reason},
+                 {"equivalent_strain_max", state.face.strain_equivalent.maxCoeff()},
+                 {"thinning_max", state.face.thinning.maxCoeff()},
+                 {"thinning_min", state.face.thinning.minCoeff()},
+                 {"necking_triangles", state.necking},
+                 {"seconds", state.seconds}};
+    if (state.on) {
+        json["target"] = face_json(state.on->face);
+        json["distance_to_held_mm"] = state.on->distance_mm;
+        json["angle_to_fixed_deg"] = state.on->angle * degrees;
+    }
+    return json;
+}
+
+} // namespace
+
+std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps)
+{
+    Json list = Json::array();
+    for (const PlannedStep& step : steps)
+        list.push_back(step_json(map, step));
+    return Json{{"schema", "spia.unfold/1"}, {"regions", regions_json(map)}, {"steps", list}}.dump(
+               1, ' ', false, Json::error_handler_t::replace) +
+           "\n";
+}
+
+std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
+                               const UnfoldScript& steps, const UnfoldRun& run,
+                               const std::vector<std::string>& findings,
+                               const std::vector<std::filesystem::path>& files)
+{
+    Json states = Json::array(), names = Json::array();
+    for (const UnfoldState& state : run.states)
+        states.push_back(state_json(state));
+    for (const auto& file : files)
+        names.push_back(file.string());
+    Json json = {
+        {"schema", "spia.unfold-result/1"},
+        {"input", input.string()},
+        {"part",
+         {{"vertices", part.mesh.vertices()}, {"triangles", part.mesh.triangles()}, {"area_mm2", area(part.mesh)}}},
+        {"regions", found_regions_json(map)},
+        {"bends", bends_json(map)},
+        {"smoothed", map.smoothed},
+        {"steps", steps.size()},
+        {"states", states},
+        {"failure", run.failure.empty() ? Json(nullptr) : Json(run.failure)},
+        {"findings", findings}};
+    if (run.blank) {
+        const Eigen::Vector2d size =
+            run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
+        json["blank"] = {{"size_mm", {size[0], size[1]}}, {"flipped_triangles", run.flipped}};
+    } else
+        json["blank"] = nullptr;
+    json["files"] = names;
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace spia

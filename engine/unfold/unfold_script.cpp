@@ -1,0 +1,290 @@
+#include "engine/unfold/unfold_script.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+#include <limits>
+
+#include "engine/core/error.h"
+#include "engine/forming/flips.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/topology.h"
+#include "engine/unfold/turn_binder.h"
+
+namespace spia {
+namespace {
+
+SheetFields unformed(const TriMesh& part, double thickness)
+{
+    const Eigen::Index count = part.triangles();
+    SheetFields fields;
+    for (const auto field : {&SheetFields::thinning, &SheetFields::strain_major, &SheetFields::strain_minor,
+                             &SheetFields::strain_equivalent, &SheetFields::stress_major, &SheetFields::stress_minor,
+                             &SheetFields::stress_equivalent})
+        fields.*field = Eigen::VectorXd::Zero(count);
+    fields.thickness = Eigen::VectorXd::Constant(count, thickness);
+    fields.direction_major.resize(3, count);
+    for (Eigen::Index f = 0; f < count; ++f)
+        fields.direction_major.col(f) =
+            (part.position.col(part.triangle(1, f)) - part.position.col(part.triangle(0, f))).normalized();
+    fields.necking = Eigen::VectorXi::Zero(count);
+    return fields;
+}
+
+Eigen::VectorXd sheet_thickness(const TriMesh& part, const FlattenOptions& options)
+{
+    Eigen::VectorXd thickness = Eigen::VectorXd::Constant(part.triangles(), options.thickness);
+    for (const auto& piece : options.process.tailored)
+        for (const int f : piece.faces)
+            thickness[f] = piece.thickness;
+    return thickness;
+}
+
+void take(const SheetFields& from, const std::vector<int>& faces, SheetFields& to)
+{
+    for (size_t k = 0; k < faces.size(); ++k) {
+        const auto i = Eigen::Index(faces[k]), j = Eigen::Index(k);
+        for (const auto field :
+             {&SheetFields::thickness, &SheetFields::thinning, &SheetFields::strain_major, &SheetFields::strain_minor,
+              &SheetFields::strain_equivalent, &SheetFields::stress_major, &SheetFields::stress_minor,
+              &SheetFields::stress_equivalent})
+            (to.*field)[i] = (from.*field)[j];
+        to.direction_major.col(i) = from.direction_major.col(j);
+        to.necking[i] = from.necking[j];
+    }
+}
+
+double diagonal(const TriMesh& mesh, const std::vector<int>& faces)
+{
+    Eigen::AlignedBox3d box;
+    for (const int f : faces)
+        for (const int v : mesh.triangle.col(f))
+            box.extend(mesh.position.col(v));
+    return box.diagonal().norm();
+}
+
+const std::vector<int>& carrying_faces(const PlannedStep& step)
+{
+    return step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
+}
+
+/// The target where the script leaves it to be found with a distance of its own, or moves it.
+std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
+{
+    std::optional<BinderFace> target = step.pick.target;
+    if (!target && (step.within_mm > 0 || step.offset_mm != 0 || step.kind == UnfoldKind::unroll)) {
+        const std::vector<int>& faces = carrying_faces(step);
+        if (faces.empty())
+            throw InputError("nothing carries the target; name the faces that do, or give one");
+        const double within = std::max(1e-4, step.within_mm / diagonal(now, faces));
+        const std::optional<BinderFit> fit = fit_binder(now, faces, within);
+        if (!fit)
+            throw InputError(fmt::format("the carrying faces around face {} lie on no plane, cylinder or cone within "
+                                         "{:.3g} mm; pick others, allow more or give a target",
+                                         faces[0], within * diagonal(now, faces)));
+        target = fit->face;
+    }
+    if (target && step.offset_mm != 0)
+        target = moved_out(*target, step.offset_mm);
+    return target;
+}
+
+PlaneFace mean_plane(const TriMesh& now)
+{
+    const Eigen::Matrix3Xd normal = area_vectors(now);
+    Eigen::Vector3d mean = normal.rowwise().sum();
+    if (mean.norm() < 1e-6 * normal.colwise().norm().sum()) // a part that looks every way alike
+        mean = Eigen::Vector3d::UnitZ();
+    mean.normalize();
+    Eigen::Matrix<double, 3, 2> axes;
+    axes.col(0) = mean.unitOrthogonal();
+    axes.col(1) = mean.cross(axes.col(0));
+    return {now.position.rowwise().mean(), axes};
+}
+
+void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
+{
+    constexpr double beside = 1e-3; // of the part
+    const TriMesh now{state.position, part.triangle};
+    std::vector<std::array<int, 2>> edges;
+    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t) { edges.push_back({uses[begin].low, uses[begin].high}); });
+    const std::optional<BinderFace> cut = turned_towards(*target_of(now, step), now.position, edges);
+    if (!cut)
+        throw InputError("the part goes all around the face that shall be unrolled; cut it open along a line first");
+    const BinderFace& face = *cut;
+    Eigen::Matrix2Xd places(2, now.vertices());
+    for (int v = 0; v < now.vertices(); ++v) {
+        const Eigen::Vector3d x = now.position.col(v);
+        places.col(v) = developed(face, x);
+        const double off = (x - placed(face, places.col(v))).norm();
+        if (off > std::max(2 * step.within_mm, beside * bounding_diagonal(part)))
+            throw InputError(
+                fmt::format("vertex {} is {:.3g} mm beside the {} that shall be unrolled; lay its faces on "
+                            "it first",
+                            v, off, name(face)));
+    }
+    const PlaneFace plane = tangent_plane(face, places);
+    for (int v = 0; v < now.vertices(); ++v)
+        state.position.col(v) = placed(BinderFace(plane), places.col(v));
+    state.plain = name(face);
+}
+
+void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& options, const Progress& progress,
+         UnfoldState& state)
+{
+    FlattenOptions own = options;
+    own.tolerance = step.tolerance.value_or(options.tolerance);
+    own.most_energy_steps = step.most_energy_steps.value_or(options.most_energy_steps);
+    own.most_newton_steps = step.most_newton_steps.value_or(options.most_newton_steps);
+    const TriMesh now{state.position, part.triangle};
+    UnfoldPick pick = step.pick;
+    pick.target = target_of(now, step);
+    if (step.kind == UnfoldKind::flatten && !pick.target)
+        pick.target = mean_plane(now);
+    const UnfoldStepResult result = unfold_step(part, state.position, pick, own, progress);
+    state.position = result.position;
+    take(result.face, result.freed, state.face);
+    state.on = result.binder;
+    state.plain = name(result.binder.face);
+    state.converged = result.converged();
+    for (const UnfoldedPiece& piece : result.piece)
+        if (!piece.report.converged && state.reason.empty())
+            state.reason = fmt::format("the piece around face {}: {}", piece.faces[0], piece.report.reason);
+    state.necking = result.necking_triangles;
+}
+
+/// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
+Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat)
+{
+    const std::vector<int> loop = boundary_loops(part).front();
+    const Eigen::Matrix2Xd rim = flat(Eigen::all, loop);
+    Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < rim.cols(); ++k) {
+        const Eigen::Vector2d x = (rim.col((k + 1) % rim.cols()) - rim.col(k)).normalized();
+        Eigen::Matrix2d turn;
+        turn << x[0], x[1], -x[1], x[0];
+        const Eigen::Matrix2Xd turned = turn * rim;
+        const Eigen::Vector2d size = turned.rowwise().maxCoeff() - turned.rowwise().minCoeff();
+        if (size.prod() >= least * (1 - 1e-9))
+            continue;
+        least = size.prod();
+        best = size[0] >= size[1] ? turn : Eigen::Matrix2d((Eigen::Matrix2d() << 0, 1, -1, 0).finished() * turn);
+    }
+    return best * flat;
+}
+
+/// The part in the plane in which it lies, seen from the outer side.
+std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& position, int& flipped)
+{
+    constexpr double flat = 1e-6; // of the part
+    const TriMesh now{position, part.triangle};
+    const Eigen::Matrix3Xd arm = position.colwise() - position.rowwise().mean();
+    const Eigen::Vector3d normal = area_vectors(now).rowwise().sum().normalized();
+    if (!((normal.transpose() * arm).cwiseAbs().maxCoeff() <= flat * bounding_diagonal(now)))
+        return std::nullopt;
+    const Eigen::Vector3d u = normal.unitOrthogonal();
+    Eigen::Matrix2Xd seen(2, position.cols());
+    seen.row(0) = u.transpose() * arm;
+    seen.row(1) = normal.cross(u).transpose() * arm;
+    Blank blank{upright(part, seen)};
+    flipped = flipped_triangles(part.triangle, blank.position);
+    return blank;
+}
+
+void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t keep)
+{
+    if (script.empty())
+        throw InputError("the script has no step; there is nothing to unfold");
+    if (keep > script.size() || (keep > 0 && (!before || before->states.size() < keep)))
+        throw InputError(fmt::format("cannot go on after step {}: only {} steps are done", keep,
+                                     before ? std::min(before->states.size(), script.size()) : 0));
+}
+
+} // namespace
+
+BinderFace moved_out(const BinderFace& face, double mm)
+{
+    if (const auto* plane = std::get_if<PlaneFace>(&face))
+        return PlaneFace{plane->origin + mm * plane->axes.col(0).cross(plane->axes.col(1)), plane->axes};
+    if (const auto* cylinder = std::get_if<CylinderFace>(&face)) {
+        CylinderFace moved = *cylinder;
+        moved.radius += cylinder->bulges ? mm : -mm;
+        if (!(moved.radius > 0))
+            throw InputError(fmt::format("a cylinder of {:.4g} mm radius vanishes if it is moved by {:.4g} mm",
+                                         cylinder->radius, mm));
+        return moved;
+    }
+    if (const auto* height =
+            std::get_if<HeightFace>(&face)) { // along its plane's normal: nearly square to a flat-ish face
+        HeightFace moved = *height;
+        moved.origin += mm * moved.axes.col(0).cross(moved.axes.col(1));
+        return moved;
+    }
+    ConeFace moved = std::get<ConeFace>(face);
+    moved.apex -= (moved.bulges ? mm : -mm) / std::sin(moved.half_angle) * moved.axis;
+    return moved;
+}
+
+PlaneFace tangent_plane(const BinderFace& face, const Eigen::Matrix2Xd& places)
+{
+    const Eigen::Vector2d middle = (places.rowwise().minCoeff() + places.rowwise().maxCoeff()) / 2;
+    const double step = 1e-4 * (places.rowwise().maxCoeff() - places.rowwise().minCoeff()).norm();
+    Eigen::Matrix<double, 3, 2> axes;
+    for (int k = 0; k < 2; ++k)
+        axes.col(k) = (placed(face, middle + step * Eigen::Vector2d::Unit(k)) -
+                       placed(face, middle - step * Eigen::Vector2d::Unit(k)))
+                          .normalized();
+    axes.col(1) = (axes.col(1) - axes.col(0).dot(axes.col(1)) * axes.col(0)).normalized();
+    return {placed(face, middle) - axes * middle, axes};
+}
+
+UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
+                        const Progress& progress, const UnfoldRun* before, size_t keep)
+{
+    require_script(script, before, keep);
+    UnfoldRun run;
+    if (keep > 0)
+        run.states.assign(before->states.begin(), before->states.begin() + Eigen::Index(keep));
+    UnfoldState state;
+    if (keep > 0)
+        state = run.states.back();
+    else {
+        state.position = part.position;
+        state.face = unformed(part, options.thickness);
+        state.face.thickness = sheet_thickness(part, options);
+        state.step = Eigen::VectorXi::Zero(part.triangles());
+    }
+    for (size_t k = keep; k < script.size(); ++k) {
+        const auto clock = std::chrono::steady_clock::now();
+        const PlannedStep& step = script[k];
+        const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
+        own.checkpoint(0, step.name);
+        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, 0};
+        try {
+            if (step.kind == UnfoldKind::unroll)
+                unroll(part, step, next);
+            else
+                lay(part, step, options, own, next);
+        } catch (const InputError& error) {
+            run.failure = error.what();
+        } catch (const SolveError& error) {
+            run.failure = error.what();
+        }
+        if (!run.failure.empty())
+            return run;
+        for (const int f : step.pick.freed)
+            next.step[f] = int(k + 1);
+        next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+        state = next;
+        run.states.push_back(std::move(next));
+    }
+    run.blank = blank_of(part, state.position, run.flipped);
+    return run;
+}
+
+} // namespace spia

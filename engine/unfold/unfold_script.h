@@ -1,0 +1,48 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/unfold/sequence.h"
+#include "engine/unfold/unfold_step.h"
+
+namespace spia {
+
+/// The steps that unfold a part, in order.
+using UnfoldScript = std::vector<PlannedStep>;
+
+/// A part after one step of a script.
+struct UnfoldState {
+    std::string name;          ///< of the step
+    Eigen::Matrix3Xd position; ///< 3 by #V, mm
+    SheetFields face;          ///< #F: of forming what was moved so far into the part; a face never moved has no strain
+    Eigen::VectorXi step;      ///< #F: the last step that moved the face, from 1; 0: none
+    std::optional<BinderFit> on; ///< the target; none for an unroll
+    std::string plain;           ///< plane, cylinder, cone: what it was laid on or unrolled from
+    bool converged = true;       ///< else the best shape found
+    std::string reason;          ///< why not
+    int necking = 0;             ///< faces beyond the trusted strain
+    double seconds = 0;
+};
+
+struct UnfoldRun {
+    std::vector<UnfoldState> states; ///< one per step that was done
+    std::string failure;             ///< empty, or why the step after the last state had no result
+    std::optional<Blank> blank;      ///< if all steps were done and the part lies in one plane
+    int flipped = 0;                 ///< triangles of the blank
+};
+
+/// Runs all steps; of a step that has no result the run keeps the states before it.
+/// @param before of a run of the same part whose first `keep` steps are those of this script: they are not solved again
+/// @param progress one checkpoint per iteration; cancelling takes effect at the next one
+/// @throws InputError if there is no step, an option is not as described or there are fewer steps before than to keep
+UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
+                        const Progress& progress = {}, const UnfoldRun* before = nullptr, size_t keep = 0);
+
+/// The face moved to its outer side; a smooth one along the normal of its plane. @throws InputError if a cylinder or cone would vanish
+BinderFace moved_out(const BinderFace& face, double mm);
+
+/// The plane in which the development of a face lies where it touches it in the middle of some places.
+PlaneFace tangent_plane(const BinderFace& face, const Eigen::Matrix2Xd& places);
+
+} // namespace spia
