@@ -112,15 +112,15 @@ void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
     std::vector<std::array<int, 2>> edges;
     const std::vector<EdgeUse> uses = edge_uses(part.triangle);
     for_each_edge(uses, [&](size_t begin, size_t) { edges.push_back({uses[begin].low, uses[begin].high}); });
-    const std::optional<BinderFace> cut = turned_towards(*target_of(now, step), now.position, edges);
-    if (!cut)
+    const BinderFace target = *target_of(now, step);
+    const BinderFace face = turned_towards(target, now.position, edges).value_or(target);
+    const std::optional<Eigen::Matrix2Xd> flat = unwound(face, now.position, edges);
+    if (!flat)
         throw InputError("the part goes all around the face that shall be unrolled; cut it open along a line first");
-    const BinderFace& face = *cut;
-    Eigen::Matrix2Xd places(2, now.vertices());
+    const Eigen::Matrix2Xd& places = *flat;
     for (int v = 0; v < now.vertices(); ++v) {
         const Eigen::Vector3d x = now.position.col(v);
-        places.col(v) = developed(face, x);
-        const double off = (x - placed(face, places.col(v))).norm();
+        const double off = (x - placed(face, developed(face, x))).norm();
         if (off > std::max(2 * step.within_mm, beside * bounding_diagonal(part)))
             throw InputError(
                 fmt::format("vertex {} is {:.3g} mm beside the {} that shall be unrolled; lay its faces on "
