@@ -92,6 +92,8 @@ TEST(LandedOverlap, CountsOnlyWhatLiesOnTheTargetWithItsOuterSideOut)
     TriMesh turned = rectangle(90, 10, 50, 20);
     turned.triangle.row(0).swap(turned.triangle.row(1));
     EXPECT_EQ(places(base, turned), 0); // waits to be unfolded, as a hem does
+    const TriMesh low = shapes::patchwork({{{{{30, 20, 0}, {60, 20, 0}, {60, 20.05, 0.2}, {30, 20.05, 0.2}}}, 4, 1}});
+    EXPECT_EQ(landed_overlap(together(base, low), ground, 0.3).places, 0); // a wall lower than what the target allows
 }
 
 TEST(LandedOverlap, FacesThatMeetInACornerDoNotLieOnEachOther)
