@@ -119,6 +119,17 @@ Eigen::Vector3d square_to(const Eigen::Vector3d& axis, const Eigen::Vector3d& v)
     return across.norm() > 0 ? Eigen::Vector3d(across.normalized()) : axis.unitOrthogonal();
 }
 
+/// Whether the outer side looks away from an axis; also of a region that goes all around it.
+bool looks_away(const Region& region, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis)
+{
+    double sum = 0;
+    for (Eigen::Index f = 0; f < region.area.size(); ++f) {
+        const Eigen::Vector3d arm = region.middle.col(f) - origin;
+        sum += region.area[f] * region.normal.col(f).dot((arm - axis.dot(arm) * axis).normalized());
+    }
+    return sum > 0;
+}
+
 /// The normals are square to the axis; seen along it the vertices lie on a circle. [Kasa 1976 for a first one]
 BinderFace cylinder(const Region& region)
 {
@@ -136,7 +147,7 @@ BinderFace cylinder(const Region& region)
     const double radius = region.size * std::sqrt(std::max(circle[2] + circle.head<2>().squaredNorm() / 4, 1e-12));
     const Eigen::Vector3d middle = region.centre + region.size / 2 * (circle[0] * x + circle[1] * y),
                           towards = square_to(axis, region.centre - middle);
-    const bool bulges = region.facing.dot(towards) > 0;
+    const bool bulges = looks_away(region, middle, axis);
     return refined(region, 5, [=, size = region.size](const Eigen::VectorXd& d) -> BinderFace {
         const Eigen::Vector3d now = leaned(axis, d[0], d[1]);
         return CylinderFace{middle + size * (d[2] * x + d[3] * y), now, square_to(now, towards), radius + size * d[4],
@@ -160,7 +171,7 @@ BinderFace cone(const Region& region)
     const double along = (axis.transpose() * arm).mean(),
                  off = (arm - axis * (axis.transpose() * arm)).colwise().norm().mean();
     const double half_angle = std::atan2(off, along);
-    const bool bulges = region.facing.dot(towards) > 0;
+    const bool bulges = looks_away(region, apex, axis);
     return refined(region, 6, [=, size = region.size](const Eigen::VectorXd& d) -> BinderFace {
         const Eigen::Vector3d now = leaned(axis, d[0], d[1]);
         return ConeFace{apex + size * d.segment<3>(2), now, square_to(now, towards), half_angle + d[5], bulges};

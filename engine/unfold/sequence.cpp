@@ -128,14 +128,21 @@ int chosen_root(const TriMesh& part, const BendMap& map, const Carriers& carrier
         return map.regions[size_t(r)].area * std::pow(map.regions[size_t(r)].flatness, 2) *
                (out[size_t(r)] < 0 ? around : 1);
     };
-    int best = 0, best_carrier = -1;
+    int best = 0, best_carrier = -1, best_plane = -1;
+    const auto better = [&](int r, int than) { return than < 0 || score(r) > score(than) * (1 + 1e-9); };
     for (int r = 0; r < int(map.regions.size()); ++r) {
-        if (score(r) > score(best) * (1 + 1e-9))
+        if (better(r, best))
             best = r;
-        if (carriers.of(r) && (best_carrier < 0 || score(r) > score(best_carrier) * (1 + 1e-9)))
+        const BinderFit* fit = carriers.of(r);
+        if (fit && better(r, best_carrier))
             best_carrier = r;
+        if (fit && std::holds_alternative<PlaneFace>(fit->face) && better(r, best_plane))
+            best_plane = r;
     }
-    return best_carrier >= 0 && score(best_carrier) > comparable * score(best) ? best_carrier : best;
+    for (const int r : {best_plane, best_carrier}) // what lies on a plane is not to be unrolled
+        if (r >= 0 && score(r) > comparable * score(best))
+            return r;
+    return best;
 }
 
 /// Regions: by breadth first, bends cost nothing. Bends: as the outer region beside them; a curled rim is one further out.

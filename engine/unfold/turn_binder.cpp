@@ -71,6 +71,34 @@ bool turn_to(const Around& face, const Eigen::Matrix3Xd& point, const std::vecto
     return true;
 }
 
+/// Per point how many turns it is beyond where its angle is counted, along the edges from point 0; none: of a closed way some are left.
+std::optional<std::vector<int>> turns_along(const Eigen::VectorXd& angle, const std::vector<std::array<int, 2>>& edges)
+{
+    std::vector<std::vector<int>> beside(size_t(angle.size()));
+    for (const auto& [a, b] : edges) {
+        beside[size_t(a)].push_back(b);
+        beside[size_t(b)].push_back(a);
+    }
+    const auto over = [&](int a, int b) { // turns that the short way from a to b adds
+        return int(std::lround((std::remainder(angle[b] - angle[a], turn) - (angle[b] - angle[a])) / turn));
+    };
+    std::vector<int> turns(beside.size(), 0);
+    std::vector<char> seen(beside.size(), 0);
+    std::vector<int> queue = {0};
+    seen[0] = 1;
+    for (size_t k = 0; k < queue.size(); ++k)
+        for (const int b : beside[size_t(queue[k])])
+            if (!seen[size_t(b)]) {
+                seen[size_t(b)] = 1;
+                turns[size_t(b)] = turns[size_t(queue[k])] + over(queue[k], b);
+                queue.push_back(b);
+            }
+    for (const auto& [a, b] : edges)
+        if (turns[size_t(b)] != turns[size_t(a)] + over(a, b))
+            return std::nullopt;
+    return turns;
+}
+
 } // namespace
 
 BinderFace turned_over(const BinderFace& face)
@@ -101,6 +129,36 @@ std::optional<BinderFace> turned_towards(const BinderFace& face, const Eigen::Ma
     else if (auto* cone = std::get_if<ConeFace>(&out))
         open = turn_to({cone->apex, cone->axis, cone->towards}, point, edges);
     return open ? std::optional(out) : std::nullopt;
+}
+
+std::optional<Eigen::Matrix2Xd> unwound(const BinderFace& face, const Eigen::Matrix3Xd& point,
+                                        const std::vector<std::array<int, 2>>& edges)
+{
+    Eigen::Matrix2Xd places(2, point.cols());
+    for (Eigen::Index v = 0; v < point.cols(); ++v)
+        places.col(v) = developed(face, point.col(v));
+    BinderFace round = face;
+    const auto angles = [&](const Around& around) {
+        Eigen::VectorXd angle(point.cols());
+        for (Eigen::Index v = 0; v < point.cols(); ++v)
+            angle[v] = around.angle(point.col(v));
+        return angle;
+    };
+    if (auto* cylinder = std::get_if<CylinderFace>(&round)) {
+        const auto turns = turns_along(angles({cylinder->origin, cylinder->axis, cylinder->towards}), edges);
+        if (!turns)
+            return std::nullopt;
+        for (Eigen::Index v = 0; v < point.cols(); ++v)
+            places(0, v) += (cylinder->bulges ? 1 : -1) * cylinder->radius * turn * (*turns)[size_t(v)];
+    } else if (auto* cone = std::get_if<ConeFace>(&round)) {
+        const auto turns = turns_along(angles({cone->apex, cone->axis, cone->towards}), edges);
+        if (!turns)
+            return std::nullopt;
+        const double flat_turn = (cone->bulges ? -1 : 1) * std::sin(cone->half_angle) * turn;
+        for (Eigen::Index v = 0; v < point.cols(); ++v)
+            places.col(v) = (Eigen::Rotation2Dd(flat_turn * (*turns)[size_t(v)]) * places.col(v)).eval();
+    }
+    return places;
 }
 
 } // namespace spia

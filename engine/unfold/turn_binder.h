@@ -16,4 +16,10 @@ BinderFace turned_over(const BinderFace& face);
 std::optional<BinderFace> turned_towards(const BinderFace& face, const Eigen::Matrix3Xd& point,
                                          const std::vector<std::array<int, 2>>& edges);
 
+/// The development of sheet that lies on a face and may wind around it more than once, from edge to edge on from point 0.
+/// @param edges as above; they join all points
+/// @returns 2 by #points, mm; none if a way along the edges ends elsewhere than another: a tube
+std::optional<Eigen::Matrix2Xd> unwound(const BinderFace& face, const Eigen::Matrix3Xd& point,
+                                        const std::vector<std::array<int, 2>>& edges);
+
 } // namespace spia

@@ -107,20 +107,20 @@ PlaneFace mean_plane(const TriMesh& now)
 
 void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
 {
-    constexpr double beside = 1e-3; // of the part
+    constexpr double beside = 1e-3, own_plane = 1e-9; // of the part
     const TriMesh now{state.position, part.triangle};
     std::vector<std::array<int, 2>> edges;
     const std::vector<EdgeUse> uses = edge_uses(part.triangle);
     for_each_edge(uses, [&](size_t begin, size_t) { edges.push_back({uses[begin].low, uses[begin].high}); });
-    const std::optional<BinderFace> cut = turned_towards(*target_of(now, step), now.position, edges);
-    if (!cut)
+    const BinderFace target = *target_of(now, step);
+    const BinderFace face = turned_towards(target, now.position, edges).value_or(target);
+    const std::optional<Eigen::Matrix2Xd> flat = unwound(face, now.position, edges);
+    if (!flat)
         throw InputError("the part goes all around the face that shall be unrolled; cut it open along a line first");
-    const BinderFace& face = *cut;
-    Eigen::Matrix2Xd places(2, now.vertices());
+    const Eigen::Matrix2Xd& places = *flat;
     for (int v = 0; v < now.vertices(); ++v) {
         const Eigen::Vector3d x = now.position.col(v);
-        places.col(v) = developed(face, x);
-        const double off = (x - placed(face, places.col(v))).norm();
+        const double off = (x - placed(face, developed(face, x))).norm();
         if (off > std::max(2 * step.within_mm, beside * bounding_diagonal(part)))
             throw InputError(
                 fmt::format("vertex {} is {:.3g} mm beside the {} that shall be unrolled; lay its faces on "
@@ -131,6 +131,21 @@ void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
     for (int v = 0; v < now.vertices(); ++v)
         state.position.col(v) = placed(BinderFace(plane), places.col(v));
     state.plain = name(face);
+    state.overlap = landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part));
+}
+
+/// How far beside the target what lies on it is: as far as what carries it, and no less than rounding.
+double carried_within(const Eigen::Matrix3Xd& position, const TriMesh& part, const PlannedStep& step,
+                      const UnfoldStepResult& result)
+{
+    constexpr double rounding = 1e-9; // of the part
+    double within = std::max(rounding * bounding_diagonal(part), result.binder.distance_mm);
+    for (const int f : carrying_faces(step))
+        for (const int v : part.triangle.col(f)) {
+            const Eigen::Vector3d x = position.col(v);
+            within = std::max(within, (x - placed(result.binder.face, developed(result.binder.face, x))).norm());
+        }
+    return (1 + rounding) * within;
 }
 
 void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& options, const Progress& progress,
@@ -155,6 +170,8 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
         if (!piece.report.converged && state.reason.empty())
             state.reason = fmt::format("the piece around face {}: {}", piece.faces[0], piece.report.reason);
     state.necking = result.necking_triangles;
+    state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
+                                   carried_within(state.position, part, step, result));
 }
 
 /// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
@@ -264,7 +281,7 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         const PlannedStep& step = script[k];
         const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
         own.checkpoint(0, step.name);
-        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, 0};
+        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, 0};
         try {
             if (step.kind == UnfoldKind::unroll)
                 unroll(part, step, next);

@@ -8,6 +8,7 @@
 
 #include "engine/forming/material_library.h"
 #include "tests/robustness/shape_run.h"
+#include "tests/robustness/unfold_run.h"
 #include "tests/support/shape_family.h"
 
 namespace {
@@ -45,6 +46,40 @@ std::string line(const std::string& name, Row& row)
         row.overlapping, row.short_of_force, row.most_strain, row.slowest);
 }
 
+std::string cells(const MethodRun& run)
+{
+    if (!run.failure.empty())
+        return "none | none";
+    return fmt::format("{:.3g} | {:.3g}{}", run.quality.angular_rms, run.quality.area_rms,
+                       run.quality.flips > 0 ? fmt::format(" ({} flips)", run.quality.flips) : "");
+}
+
+/// A table of the bent parts, step by step and by others. @returns how many have no blank, or one with flips
+int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const FlattenOptions& options)
+{
+    fmt::print(
+        "| part | triangles | regions | steps | converged | flips | on itself | strain up to | off exact mm | steps: angular | "
+        "area | at once: angular | area | strain up to | ABF++: angular | area | ARAP: angular | area | seconds |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    int wrong = 0;
+    for (const shapes::BentShape& shape : shapes::bent_family(triangles, seed)) {
+        if (shape.family.find(only) == std::string::npos)
+            continue;
+        const BentRun run = run_bent(shape.make(), options);
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.3g}{} | {} | {} | {} | {:.3g}{} | {} | {} | {:.2f} |\n",
+                   shape.name(), run.triangles, run.regions, run.steps, run.converged, run.local.quality.flips,
+                   run.overlaps, run.strain, run.necking > 0 ? fmt::format(" ({} neck)", run.necking) : "",
+                   run.local.off_exact ? fmt::format("{:.1e}", *run.local.off_exact) : "", cells(run.local),
+                   cells(run.whole), run.whole_strain, run.whole_converged ? "" : " (not converged)", cells(run.abf),
+                   cells(run.arap), run.seconds);
+        std::fflush(stdout);
+        if (!run.local.failure.empty())
+            fmt::print("no blank of {}: {}\n", shape.name(), run.local.failure);
+        wrong += !run.local.failure.empty() || run.local.quality.flips > 0;
+    }
+    return wrong;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -54,7 +89,7 @@ int main(int argc, char** argv)
     std::uint64_t seed = 1;
     std::string only;
     std::filesystem::path folder;
-    bool verbose = false;
+    bool verbose = false, unfold = false;
     double edge = 0;
     app.add_option("--triangles", triangles, "about how many each shape has")->capture_default_str();
     app.add_option("--seed", seed, "of all lots")->capture_default_str();
@@ -62,10 +97,13 @@ int main(int argc, char** argv)
     app.add_option("--folder", folder, "meshes to run as well");
     app.add_option("--edge", edge, "restraint of the outer edge, a share of the lock force")->capture_default_str();
     app.add_flag("--verbose", verbose, "a line per shape");
+    app.add_flag("--unfold", unfold, "the bent parts instead, step by step, beside other methods");
     CLI11_PARSE(app, argc, argv);
 
     FlattenOptions flattening;
     flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    if (unfold)
+        return unfold_all(triangles, seed, only, flattening) == 0 ? 0 : 1;
     flattening.process.edge_restraint = edge;
     std::vector<std::pair<std::string, Row>> rows;
     Row all;

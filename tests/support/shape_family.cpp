@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <set>
 
 #include "tests/support/developable.h"
 #include "tests/support/grid_surface.h"
+#include "tests/support/lots.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 #include "tests/support/rings.h"
@@ -20,18 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
-
-/// Lots that are the same on every platform, unlike those of the standard library's distributions.
-class Lots {
-public:
-    explicit Lots(std::uint64_t seed) : random_(seed) {}
-    double between(double low, double high) { return low + (high - low) * double(random_() >> 11) * 0x1p-53; }
-    int whole(int low, int high) { return low + int(random_() % std::uint64_t(high - low + 1)); }
-    bool coin() { return random_() & 1; }
-
-private:
-    std::mt19937_64 random_;
-};
 
 /// Cells of a grid_surface() of about so many triangles, as even as the lengths of its sides allow.
 GridPlan cells(int triangles, double across, double up, bool around = false)

@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <numeric>
 
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/bent_parts.h"
+#include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 
@@ -243,6 +245,42 @@ TEST(UnfoldScript, ACylinderIsUnrolledOntoThePlaneThatTouchesItInTheMiddle)
         least = std::min(least, (run.states[0].position.col(v) - part.position.col(v)).norm());
     EXPECT_LT(least, 1e-2);
     EXPECT_EQ(run.flipped, 0);
+}
+
+TEST(UnfoldScript, UnrollsSheetThatGoesAroundMoreThanOnceButNoTube)
+{
+    for (const double taper : {0.0, 0.3}) // a cylinder, a cone
+        for (const double angle : {1.5 * pi, 2 * pi, 3 * pi, 5 * pi}) {
+            const auto round = [&](double u, double v) {
+                const double r = 50 + 30 * taper * v;
+                return Eigen::Vector3d(r * std::cos(angle * u), r * std::sin(angle * u), 30 * v);
+            };
+            const TriMesh part = shapes::grid_surface({300, 4}, round);
+            PlannedStep step;
+            step.kind = UnfoldKind::unroll;
+            step.pick.freed.resize(size_t(part.triangles()));
+            std::iota(step.pick.freed.begin(), step.pick.freed.end(), 0);
+            step.pick.carrying = step.pick.freed;
+            const UnfoldRun run = run_unfolding(part, {step}, steel());
+            ASSERT_TRUE(run.blank) << taper << ", " << angle << ": " << run.failure;
+            EXPECT_EQ(run.flipped, 0);
+            double area = 0; // of the face, not of its facets
+            for (const auto& t : part.triangle.colwise()) {
+                const Eigen::Vector2d a = run.blank->position.col(t[0]), p = run.blank->position.col(t[1]) - a,
+                                      q = run.blank->position.col(t[2]) - a;
+                area += (p.x() * q.y() - p.y() * q.x()) / 2;
+            }
+            EXPECT_NEAR(area / (angle * (50 + 15 * taper) * 30 * std::hypot(1, taper)), 1, 2e-3) << angle;
+        }
+    const TriMesh tube = shapes::grid_surface({60, 4, true}, [](double u, double v) {
+        return Eigen::Vector3d(50 * std::cos(2 * pi * u), 50 * std::sin(2 * pi * u), 30 * v);
+    });
+    PlannedStep step;
+    step.kind = UnfoldKind::unroll;
+    step.pick.freed.resize(size_t(tube.triangles()));
+    std::iota(step.pick.freed.begin(), step.pick.freed.end(), 0);
+    step.pick.carrying = step.pick.freed;
+    EXPECT_NE(run_unfolding(tube, {step}, steel()).failure.find("goes all around"), std::string::npos);
 }
 
 } // namespace spia
