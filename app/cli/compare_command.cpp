@@ -10,6 +10,7 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 
 namespace spia::cli {
@@ -51,10 +52,13 @@ int compare(const CompareArguments& arguments)
         display.done(rows.back().seconds);
     }
     if (!arguments.json.empty())
-        write_atomically(arguments.json, comparison_json(arguments.part, part.mesh, rows));
+        write_atomically(arguments.json, comparison_json(arguments.part, part.mesh, rows, reading_notes(part)));
     if (!arguments.markdown)
-        fmt::print("{}: {} triangles, {} vertices\n\n", arguments.part.string(), part.mesh.triangles(),
+        fmt::print("{}: {} triangles, {} vertices\n", arguments.part.string(), part.mesh.triangles(),
                    part.mesh.vertices());
+    for (const std::string& line : reading_notes(part))
+        fmt::print("{}{}\n", arguments.markdown ? "- " : "  ", line);
+    fmt::print("\n");
     fmt::print("{}", comparison_table(rows, arguments.markdown ? TableStyle::markdown : TableStyle::text));
     const bool none = std::all_of(rows.begin(), rows.end(), [](const auto& row) { return !row.failure.empty(); });
     return none ? 3 : 0;

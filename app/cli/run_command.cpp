@@ -91,15 +91,6 @@ OutputOptions output_options(const RunArguments& arguments)
     return result;
 }
 
-void print_doctor(const PartFile& part)
-{
-    for (const std::string& note : part.notes)
-        fmt::print("  note: {}\n", note);
-    for (const Finding& finding : part.doctor.findings)
-        fmt::print("  {}: {}{}{}\n", finding.severity == Severity::repaired ? "repaired" : "note", finding.text,
-                   finding.advice.empty() ? "" : "; ", finding.advice);
-}
-
 void print_spots(const Zones& zones, const PartFile& part)
 {
     constexpr size_t most = 3;
@@ -197,7 +188,8 @@ int run(const RunArguments& arguments)
                 read_process(arguments.process, *session.part, session.options.flatten.material,
                              session.options.flatten.thickness, assets() / "materials");
         if (stage == Stage::read) {
-            print_doctor(*session.part);
+            for (const std::string& line : reading_notes(*session.part))
+                fmt::print("  {}\n", line);
             require_possible(session);
             require_place(session, arguments.folder, arguments.formats, arguments.json, wanted);
         }

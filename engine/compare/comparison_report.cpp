@@ -92,7 +92,7 @@ std::string comparison_table(const std::vector<ComparisonRow>& rows, TableStyle 
 }
 
 std::string comparison_json(const std::filesystem::path& file, const TriMesh& part,
-                            const std::vector<ComparisonRow>& rows)
+                            const std::vector<ComparisonRow>& rows, const std::vector<std::string>& notes)
 {
     using Json = nlohmann::ordered_json;
     const auto optional = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
@@ -102,7 +102,8 @@ std::string comparison_json(const std::filesystem::path& file, const TriMesh& pa
                   {{"vertices", part.vertices()},
                    {"triangles", part.triangles()},
                    {"boundary_loops", boundary_loops(part).size()},
-                   {"area_mm2", area(part)}}},
+                   {"area_mm2", area(part)},
+                   {"notes", notes}}},
                  {"definitions", quality_definitions()},
                  {"methods", Json::array()}};
     for (const ComparisonRow& row : rows) {

@@ -17,12 +17,14 @@ ContactPressure contact_pressure(const ContactRegion& region, const Eigen::Matri
     }
     if (region.pressure_MPa)
         return {area, *region.pressure_MPa};
-    constexpr double least_share = 1e-3; // a wall within 0.06 degrees of the stamping direction
+    constexpr double least_share =
+        0.1; // a wall within 6 degrees of the stamping direction: the pressure would be ten times
+             // what a tool makes of that force
     if (!(seen > least_share * area))
-        throw InputError(
-            fmt::format("the contact region \"{}\" is not seen along the stamping direction: a force cannot "
-                        "press there; give a pressure",
-                        region.name));
+        throw InputError(fmt::format(
+            "the contact region \"{}\" is seen along the stamping direction ({:.3g}, {:.3g}, {:.3g}) with {:.2g} % of its area only: "
+            "a force cannot press there; give a pressure, or another direction",
+            region.name, direction[0], direction[1], direction[2], 100 * seen / area));
     return {area, *region.force_N / seen};
 }
 

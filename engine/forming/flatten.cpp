@@ -113,9 +113,7 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place_under_part(part, element, plane, result.blank.position);
 
-    StressCurve::Options curve = options.curve;
-    curve.trusted_strain = result.report.trusted_strain;
-    const Sheet sheet = sheet_with(job, curve);
+    const Sheet sheet = solved_sheet(job, result.report);
     result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
     if (options.skins)

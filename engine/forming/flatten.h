@@ -25,7 +25,7 @@ struct FlattenOptions {
     bool skins = false;         ///< also the strains of both skins, with bending
     int most_energy_steps = 200;
     int most_newton_steps = 60;
-    double tolerance = 1e-9; ///< on |R| relative to the nodal forces at the yield stress
+    double tolerance = 1e-8; ///< on |R| relative to the nodal forces at the yield stress
     StepWatch watch = {};    ///< sees the blank while it converges
 };
 

@@ -30,9 +30,9 @@ LineOnPart::LineOnPart(const TriMesh& part, double spacing)
 ClosestPoint LineOnPart::within(const std::string& what, const Eigen::Vector3d& point, double reach) const
 {
     const auto refuse = [&](double distance) {
-        throw InputError(
-            fmt::format("{}: the place ({:.6g}, {:.6g}, {:.6g}) is {:.3g} mm off the part; it must lie on it", what,
-                        point[0], point[1], point[2], distance));
+        throw InputError(fmt::format(
+            "{}: the place ({:.6g}, {:.6g}, {:.6g}) is {:.3g} mm off the part; it must lie on it (places are in mm)",
+            what, point[0], point[1], point[2], distance));
     };
     if (!point.allFinite())
         refuse(std::numeric_limits<double>::infinity());

@@ -32,16 +32,14 @@ constexpr double first_try = 0.1, rough = 1e-2, near_enough = 1e-3, exact = 1e-6
 
 /// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
 /// is no number to begin with.
-EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eigen::Matrix2Xd X, double decrement,
-                          int most_steps, SolveReport& report, const Progress& progress)
+EnergyResult energy_stage(const Job& job, Curve curve, Eigen::Matrix2Xd X, double decrement, int most_steps,
+                          SolveReport& report, const Progress& progress)
 {
     std::vector<double> shares{1};
     if (largest_strain(job.part, job.element, X) > 2)
         shares = {0.25, 0.5, 1};
     EnergyResult result;
     for (size_t level = 0; level < shares.size(); ++level) {
-        StressCurve::Options gentle = curve;
-        gentle.continuation_rate *= shares[level];
         EnergyOptions energy;
         energy.most_steps = most_steps;
         energy.watch = job.options.watch;
@@ -49,7 +47,7 @@ EnergyResult energy_stage(const Job& job, const StressCurve::Options& curve, Eig
             energy.held = job.external.held;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
         result = minimise_energy(
-            job.part.triangle, job.element, sheet_with(job, gentle), X, job.matrix, job.cholesky, energy,
+            job.part.triangle, job.element, sheet_with(job, curve, shares[level]), X, job.matrix, job.cholesky, energy,
             progress.part(double(level) / double(shares.size()), double(level + 1) / double(shares.size())));
         X = result.position;
         report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
@@ -77,7 +75,7 @@ std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix
                                                    SolveReport& report, const Progress& progress)
 {
     place(job, X);
-    const Sheet sheet = sheet_with(job, job.options.curve);
+    const Sheet sheet = sheet_with(job, job.wanted());
     VirtualWork work(job.part, job.element, sheet, job.external);
     EquilibriumResult result =
         solve_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky, newton, progress);
@@ -91,18 +89,34 @@ std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix
 
 } // namespace
 
-Sheet sheet_with(const Job& job, const StressCurve::Options& curve)
+Sheet sheet_with(const Job& job, Curve curve, double growth)
 {
-    return sheet_of(job.options.material, job.options.thickness, curve, job.options.process, job.part, job.plane);
+    const FlattenOptions& options = job.options;
+    const auto from = [&](double strain) {
+        StressCurve::Options how = options.curve;
+        how.trusted_strain = strain;
+        how.continuation_rate *= growth;
+        return sheet_of(options.material, options.thickness, how, options.process, job.part, job.plane);
+    };
+    Sheet sheet = from(trusted_strain(job, curve));
+    if (curve == Curve::continued)
+        for (size_t piece = 0; piece < options.process.tailored.size(); ++piece) {
+            const Hardening& own = options.process.tailored[piece].material.hardening;
+            sheet.law[piece + 1] = from(uniform_strain(own, options.curve.trusted_strain)).law[piece + 1];
+        }
+    return sheet;
 }
 
-StressCurve::Options hardening_on(const FlattenOptions& options)
+double trusted_strain(const Job& job, Curve curve)
 {
-    StressCurve::Options hardening = options.curve;
-    hardening.trusted_strain = uniform_strain(options.material.hardening, options.curve.trusted_strain);
-    for (const TailoredPiece& piece : options.process.tailored)
-        hardening.trusted_strain = uniform_strain(piece.material.hardening, hardening.trusted_strain);
-    return hardening;
+    const double given = job.options.curve.trusted_strain;
+    return curve == Curve::given ? given : uniform_strain(job.options.material.hardening, given);
+}
+
+Sheet solved_sheet(const Job& job, const SolveReport& report)
+{
+    const bool as_given = job.wanted() == Curve::given && report.trusted_strain == trusted_strain(job, Curve::given);
+    return sheet_with(job, as_given ? Curve::given : Curve::continued);
 }
 
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
@@ -121,13 +135,15 @@ std::string converged_in_words(const SolveReport& report, const std::string& obs
     return words;
 }
 
+namespace {
+
+/// Whether two blanks differ by a hundredth of their size at most. The curve as given lets the sheet soften: far from the blank of
+/// the continued one its equations may have another solution, in which strain gathers in a few rows of elements.
 bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
 {
     constexpr double near = 0.01;
     return (a - b).colwise().norm().maxCoeff() <= near * (b.rowwise().maxCoeff() - b.rowwise().minCoeff()).norm();
 }
-
-namespace {
 
 EquilibriumOptions newton_of(const FlattenOptions& options)
 {
@@ -148,7 +164,7 @@ std::optional<Eigen::Matrix2Xd> as_asked_for(const Job& job, const Eigen::Matrix
 {
     constexpr int few_steps = 40; // more means that strain is gathering in single elements
     const EnergyResult energy =
-        energy_stage(job, job.options.curve, X, near_enough, std::min(few_steps, job.options.most_energy_steps), report,
+        energy_stage(job, job.wanted(), X, near_enough, std::min(few_steps, job.options.most_energy_steps), report,
                      progress.part(0, 0.3));
     obstacle = "the energy stage did not end";
     if (energy.ended != Ended::converged)
@@ -165,15 +181,14 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
                            const Progress& progress)
 {
     const FlattenOptions& options = job.options;
-    const StressCurve::Options hardening = hardening_on(options);
-    const Sheet sheet = sheet_with(job, hardening);
-    report.trusted_strain = sheet.law.front().curve().trusted_strain();
+    const Sheet sheet = sheet_with(job, Curve::continued);
+    report.trusted_strain = trusted_strain(job, Curve::continued);
     VirtualWork work(job.part, job.element, sheet, job.external);
     EnergyResult held{std::move(X)};
     double from = 0;
     for (const double decrement : {near_enough, exact}) { // most often the first will do
-        held = energy_stage(job, hardening, std::move(held.position), decrement, options.most_energy_steps, report,
-                            progress.part(from, from + 0.12));
+        held = energy_stage(job, Curve::continued, std::move(held.position), decrement, options.most_energy_steps,
+                            report, progress.part(from, from + 0.12));
         place(job, held.position);
         EquilibriumResult result =
             solve_relaxed_equilibrium(job.part, job.element, work, held.position, job.matrix, job.cholesky,
@@ -183,7 +198,7 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
         if (!report.converged)
             continue;
         report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
-        if (report.relaxed_vertices == 0) { // from here the curve as given may be near
+        if (report.relaxed_vertices == 0 && job.wanted() == Curve::given) { // from here it may be near
             SolveReport again = report;
             again.trusted_strain = options.curve.trusted_strain;
             const std::optional<Eigen::Matrix2Xd> solved =
@@ -213,9 +228,9 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
 Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
 {
     const FlattenOptions& options = job.options;
-    const StressCurve::Options hardening = hardening_on(options);
-    report.trusted_strain = options.curve.trusted_strain;
-    X = energy_stage(job, hardening, std::move(X), first_try, options.most_energy_steps, report, progress.part(0, 0.2))
+    report.trusted_strain = trusted_strain(job, job.wanted());
+    X = energy_stage(job, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
+                     progress.part(0, 0.2))
             .position;
     if (job.external.travelling.size() > 0) {
         Eigen::Matrix2Xd placed = X;
@@ -225,7 +240,8 @@ Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& 
     if (std::optional<Eigen::Matrix2Xd> solved =
             strict_equilibrium(job, X, quick(newton_of(options)), report, progress.part(0.2, 0.4)))
         return std::move(*solved);
-    X = energy_stage(job, hardening, std::move(X), rough, options.most_energy_steps, report, progress.part(0.4, 0.45))
+    X = energy_stage(job, Curve::continued, std::move(X), rough, options.most_energy_steps, report,
+                     progress.part(0.4, 0.45))
             .position;
     std::string obstacle;
     if (std::optional<Eigen::Matrix2Xd> solved = as_asked_for(job, X, report, obstacle, progress.part(0.45, 0.6)))

@@ -8,6 +8,13 @@
 
 namespace spia {
 
+/// How the hardening curves go on.
+enum class Curve {
+    given, ///< continued from FlattenOptions::curve on
+    continued ///< each grade's from its own uniform strain on, so that the sheet never softens: its energy is convex enough to
+              ///< find the minimum from far away
+};
+
 /// What every stage of one solution needs.
 struct Job {
     const TriMesh& part;
@@ -19,25 +26,27 @@ struct Job {
     Cholesky& cholesky;
     bool anchored =
         false; ///< the start has the held vertices of `external` at their places: from the energy stage on they stay
+
+    /// The one that the equations are to be solved with. Under forces a sheet that softens has solutions in which strain gathers
+    /// in a few rows of elements, and which one is found depends on the mesh and on the way there.
+    Curve wanted() const { return external.any() ? Curve::continued : Curve::given; }
 };
 
-/// The sheet of a job with another continuation of its hardening curve.
-Sheet sheet_with(const Job& job, const StressCurve::Options& curve);
+/// @param growth share of the rate at which the curves go on: below 1 they are gentler
+Sheet sheet_with(const Job& job, Curve curve, double growth = 1);
 
-/// The curve continued from the uniform strain on, so that the sheet never softens: its energy is convex enough to find the
-/// minimum from far away.
-StressCurve::Options hardening_on(const FlattenOptions& options);
+/// The strain from which on the base sheet's curve is continued.
+double trusted_strain(const Job& job, Curve curve);
 
-/// @param obstacle why the law as given had no solution
+/// The sheet with the curves that the solution was found with.
+Sheet solved_sheet(const Job& job, const SolveReport& report);
+
+/// @param obstacle why the law as given was not kept
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
                                int vertices);
 
-/// Whether two blanks differ by a hundredth of their size at most. The curve as given lets the sheet soften: far from the blank of
-/// the continued one its equations may have another solution, in which strain gathers in a few rows of elements.
-bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b);
-
 /// From a flip-free start X to the blank, with all forces of the tools at once: energy, then equilibrium; each way tried where
-/// the one before did not get there.
+/// the one before did not get there. SolvedSystem::strict stands for the equations with Job::wanted().
 Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress);
 
 } // namespace spia

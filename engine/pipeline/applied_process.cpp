@@ -29,14 +29,16 @@ double length(const std::vector<Eigen::Vector3d>& line)
     return sum;
 }
 
-std::vector<AppliedPiece> applied(const std::vector<TailoredPiece>& pieces, const Eigen::Matrix3Xd& area_vector)
+std::vector<AppliedPiece> applied(const std::vector<TailoredPiece>& pieces, double edge_restraint,
+                                  const Eigen::Matrix3Xd& area_vector)
 {
     std::vector<int> piece_of(size_t(area_vector.cols()), -1);
     std::vector<AppliedPiece> result;
     for (const TailoredPiece& piece : pieces) {
         for (const int f : piece.faces)
             piece_of[size_t(f)] = int(result.size());
-        result.push_back({piece.name, piece.material.name, piece.thickness, 0, 0});
+        result.push_back({piece.name, piece.material.name, piece.thickness, 0, 0,
+                          edge_restraint * lock_force(piece.material, piece.thickness)});
     }
     for (size_t f = 0; f < piece_of.size(); ++f)
         if (piece_of[f] >= 0) {
@@ -62,7 +64,7 @@ AppliedProcess applied_process(const Session& session)
     out.lock_force_N_mm = lock_force(options.material, options.thickness);
     for (const Pilot& pilot : process.pilots)
         out.pilots.push_back({pilot.name, int(pilot.line.size())});
-    out.tailored = applied(process.tailored, area_vector);
+    out.tailored = applied(process.tailored, process.edge_restraint, area_vector);
     out.rolling = process.rolling;
     return out;
 }
@@ -81,13 +83,15 @@ std::vector<std::string> in_words(const AppliedProcess& process)
         lines.push_back(fmt::format("edge restraint {:.4g} % of the lock force of {:.4g} N/mm: {:.4g} N/mm",
                                     100 * process.edge_restraint, process.lock_force_N_mm,
                                     process.edge_restraint * process.lock_force_N_mm) +
-                        (process.tailored.empty() ? "" : " on the base sheet, on pieces by their own lock force"));
+                        (process.tailored.empty() ? "" : " on the base sheet"));
     for (const AppliedPilot& each : process.pilots)
         lines.push_back(fmt::format("pilot {}: {}", each.name,
                                     each.places == 1 ? "1 place" : fmt::format("{} places", each.places)));
     for (const AppliedPiece& each : process.tailored)
-        lines.push_back(fmt::format("tailored piece {}: {}, {:.4g} mm, {} faces, {:.6g} mm2", each.name, each.material,
-                                    each.thickness_mm, each.faces, each.area_mm2));
+        lines.push_back(
+            fmt::format("tailored piece {}: {}, {:.4g} mm, {} faces, {:.6g} mm2", each.name, each.material,
+                        each.thickness_mm, each.faces, each.area_mm2) +
+            (each.edge_force_N_mm > 0 ? fmt::format(", edge held by {:.4g} N/mm", each.edge_force_N_mm) : ""));
     if (process.rolling)
         lines.push_back(fmt::format("rolled along {:.4g}, {:.4g}, {:.4g}", (*process.rolling)[0], (*process.rolling)[1],
                                     (*process.rolling)[2]));

@@ -31,9 +31,10 @@ struct AppliedPilot {
 
 struct AppliedPiece {
     std::string name, material;
-    double thickness_mm; ///< flat
-    int faces;           ///< of its own: those that no later piece covers
-    double area_mm2;     ///< of these, on the part
+    double thickness_mm;    ///< flat
+    int faces;              ///< of its own: those that no later piece covers
+    double area_mm2;        ///< of these, on the part
+    double edge_force_N_mm; ///< by which its edge is held: the same share of its own lock force
 };
 
 /// What the tools did to a solved part, in figures.

@@ -263,7 +263,8 @@ Json process_json(const Session& session)
                             {"material", each.material},
                             {"thickness_mm", each.thickness_mm},
                             {"faces", each.faces},
-                            {"area_mm2", each.area_mm2}});
+                            {"area_mm2", each.area_mm2},
+                            {"edge_force_N_mm", each.edge_force_N_mm}});
     Json edge, rolling;
     if (process.edge_restraint > 0)
         edge = {{"share", process.edge_restraint},
@@ -271,8 +272,13 @@ Json process_json(const Session& session)
                 {"force_N_mm", process.edge_restraint * process.lock_force_N_mm}};
     if (const auto& r = process.rolling)
         rolling = {(*r)[0], (*r)[1], (*r)[2]};
-    return {{"contact", contact}, {"drawbeads", beads},   {"edge_restraint", edge},
-            {"pilots", pilots},   {"tailored", tailored}, {"rolling", rolling}};
+    return {{"acting_share", session.blank->report.process_share},
+            {"contact", contact},
+            {"drawbeads", beads},
+            {"edge_restraint", edge},
+            {"pilots", pilots},
+            {"tailored", tailored},
+            {"rolling", rolling}};
 }
 
 Json grid_json(const Session& session)
@@ -345,9 +351,11 @@ std::vector<std::string> shortcomings(const Session& session)
             list.push_back(flat.report.reason);
         if (flat.necking_triangles > 0)
             list.push_back(
-                fmt::format("{} triangles are strained beyond {:.2f}: extrapolated, the sheet would neck or tear "
-                            "there",
-                            flat.necking_triangles, flat.report.trusted_strain));
+                fmt::format("{} triangles are strained beyond {:.2f}", flat.necking_triangles,
+                            flat.report.trusted_strain) +
+                (flat.report.trusted_strain < session.options.flatten.curve.trusted_strain
+                     ? ", the uniform strain: the hardening curve is extrapolated there, and in tension the sheet necks"
+                     : ": extrapolated, the sheet would neck or tear there"));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
         if (const auto& crossing = flat.overlap.crossings; !crossing.empty()) {
@@ -422,6 +430,17 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
     json["seconds"]["total"] = total;
     json["peak_memory_mb"] = peak_memory_mb();
     return json.dump(2) + "\n";
+}
+
+std::vector<std::string> reading_notes(const PartFile& part)
+{
+    std::vector<std::string> lines;
+    for (const std::string& note : part.notes)
+        lines.push_back("note: " + note);
+    for (const Finding& finding : part.doctor.findings)
+        lines.push_back(fmt::format("{}: {}{}{}", finding.severity == Severity::repaired ? "repaired" : "note",
+                                    finding.text, finding.advice.empty() ? "" : "; ", finding.advice));
+    return lines;
 }
 
 std::string doctor_json(const std::filesystem::path& file, const PartFile& part)

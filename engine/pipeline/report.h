@@ -23,6 +23,9 @@ struct Failure {
 std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds,
                         const std::optional<Failure>& failure = {});
 
+/// What was noted and done when the part was read, a line each: "note: cut open along ...".
+std::vector<std::string> reading_notes(const PartFile& part);
+
 /// What the mesh doctor says of a part as JSON.
 std::string doctor_json(const std::filesystem::path& file, const PartFile& part);
 

@@ -160,9 +160,7 @@ Attempt drawn_to_places(const Job& job, Eigen::Matrix2Xd X, const Progress& prog
     constexpr double little = 0.5;   // strain that the last move may add
     constexpr double softest = 1e-3; // of Young's modulus times thickness
     constexpr int rounds = 8, steps = 20;
-    StressCurve::Options gentle = hardening_on(job.options);
-    gentle.continuation_rate *= 0.25;
-    const Sheet sheet = sheet_with(job, gentle);
+    const Sheet sheet = sheet_with(job, Curve::continued, 0.25);
     EnergyOptions energy;
     energy.most_steps = steps;
     energy.decrement = 1e-2;

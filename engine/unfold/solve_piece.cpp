@@ -138,9 +138,7 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
     constexpr int most_rounds = 30;
     constexpr double still = 1e-8; // of the piece
     const double size = (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).norm();
-    StressCurve::Options curve = job.options.curve;
-    curve.trusted_strain = report.trusted_strain;
-    const Sheet sheet = sheet_with(job, curve);
+    const Sheet sheet = solved_sheet(job, report);
     double way = 0;
     for (int round = 0; round < most_rounds && report.converged; ++round) {
         const Progress mine = progress.part(double(round) / most_rounds, double(round + 1) / most_rounds);
@@ -212,9 +210,7 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     if (smooth)
         X = in_rounds(job, measure, std::move(X), result.report, progress.part(0.6, 1));
 
-    StressCurve::Options curve = options.curve;
-    curve.trusted_strain = result.report.trusted_strain;
-    result.face = face_fields(piece.mesh, element, {X}, sheet_with(job, curve));
+    result.face = face_fields(piece.mesh, element, {X}, solved_sheet(job, result.report));
     X.colwise() += middle;
     if (const int f = first_flipped(piece, X); f >= 0)
         throw SolveError(

@@ -132,8 +132,9 @@ TEST(ComparisonReport, HasARowPerMethodAndNullForInfinity)
     const std::string text = comparison_table(rows, TableStyle::text);
     EXPECT_NE(text.find("\nSLIM"), std::string::npos);
 
-    const auto json = nlohmann::json::parse(comparison_json("part.obj", bumpy_disk(), rows));
+    const auto json = nlohmann::json::parse(comparison_json("part.obj", bumpy_disk(), rows, {"cut"}));
     EXPECT_EQ(json["schema"], "spia.compare/1");
+    EXPECT_EQ(json["part"]["notes"], nlohmann::json({"cut"}));
     ASSERT_EQ(json["methods"].size(), 3u);
     EXPECT_EQ(json["methods"][0]["method"], "slim");
     EXPECT_EQ(json["methods"][0]["symmetric_dirichlet"], 4.25);

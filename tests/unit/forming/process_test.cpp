@@ -228,7 +228,11 @@ TEST(Process, WhatIsWrongIsNamed)
     wall.position.row(0) *= 1e-16;
     ProcessConditions on_wall;
     on_wall.contact = {{"rim", {4}, {}, 5.0, 0.1, 2}};
-    EXPECT_NE(refusal(on_wall, wall).find("not seen along the stamping direction"), std::string::npos);
+    EXPECT_NE(refusal(on_wall, wall).find("a force cannot press there"), std::string::npos);
+    wall.position.row(0) = 0.08 * wall.position.row(2); // within five degrees
+    EXPECT_NE(refusal(on_wall, wall).find("with 8 % of its area"), std::string::npos) << refusal(on_wall, wall);
+    wall.position.row(0) = 0.12 * wall.position.row(2);
+    EXPECT_EQ(refusal(on_wall, wall), "");
     EXPECT_NE(contact({"rim", {4}, -1.0, {}, 0.1, 2}).find("must be positive"), std::string::npos);
     EXPECT_NE(contact({"rim", {4}, 1.0, {}, -0.1, 2}).find("friction -0.1"), std::string::npos);
     ProcessConditions process;

@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <chrono>
 #include <gtest/gtest.h>
+#include <string>
 #include <thread>
 
 #include "app/viewer/model/viewer_model.h"
@@ -26,6 +28,12 @@ struct ModelFixture : testing::Test {
         model.apply(OpenPart{assets / "parts" / part, ""});
         wait();
         ASSERT_NE(document.session.part, nullptr);
+    }
+    bool says(Severity severity, const std::string& text) const
+    {
+        return std::any_of(state.messages.begin(), state.messages.end(), [&](const Message& m) {
+            return m.severity == severity && m.text.find(text) != std::string::npos;
+        });
     }
 };
 

@@ -1,10 +1,7 @@
 #include "app/viewer/model/viewer_model.h"
 
-#include <chrono>
-#include <fmt/core.h>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <thread>
 
 #include "app/viewer/model/names.h"
 #include "app/viewer/views/views.h"
@@ -12,18 +9,8 @@
 #include "tests/unit/viewer/model_fixture.h"
 
 namespace spia::viewer {
-namespace {
 
-struct ViewerModelTest : ModelFixture {
-    bool says(Severity severity, const std::string& text) const
-    {
-        return std::any_of(state.messages.begin(), state.messages.end(), [&](const Message& m) {
-            return m.severity == severity && m.text.find(text) != std::string::npos;
-        });
-    }
-};
-
-} // namespace
+using ViewerModelTest = ModelFixture;
 
 TEST_F(ViewerModelTest, RunsTheChainInTheBackgroundAndShowsTheBlankWhileItConverges)
 {
@@ -177,48 +164,6 @@ TEST_F(ViewerModelTest, UndoBringsBackEveryKindOfChangeByItsName)
     EXPECT_EQ(document.probes.size(), 1u);
 }
 
-TEST_F(ViewerModelTest, ACornerDroppedOnAnotherEndsTheCoarseGrid)
-{
-    open();
-    model.apply(RunTo{Stage::fit});
-    wait();
-    const int cells = document.session.grid->result.planar.columns;
-    const auto corner = document.session.grid->boundary.corner;
-    model.apply(SetCorner{0, document.session.grid->boundary.side[0][3], true});
-    wait();
-    model.apply(SetCorner{0, corner[1], false}); // where corner 2 is
-    wait();
-    EXPECT_NEAR(document.session.grid->result.planar.columns, cells, 4);
-    EXPECT_FALSE(first_stale(document));
-}
-
-TEST_F(ViewerModelTest, PicksStayOnTheirFacesHoweverReadingThePartAgainEnds)
-{
-    open();
-    const Eigen::Vector3d there =
-        document.session.part->mesh.position.col(document.session.part->mesh.triangle(0, 100));
-    const auto still_there = [&] {
-        const TriMesh& mesh = document.session.part->mesh;
-        return document.selected.size() == 1 &&
-               mesh.position.col(mesh.triangle(0, document.selected[0])).isApprox(there, 1e-9);
-    };
-    model.apply(SelectFaces{{100}, PickMode::replace});
-    model.apply(MakeRegion{"clamp", RegionKind::binder});
-    model.apply(SetReading{true, true});
-    EXPECT_EQ(document.regions.size(), 1u); // so a project that is saved now has it
-    model.apply(SelectFaces{{100, 200}, PickMode::replace});
-    model.apply(CancelJob{});
-    wait();
-    EXPECT_EQ(document.regions.size(), 1u);
-    model.apply(RunTo{Stage::solve}); // reads it after all
-    wait();
-    EXPECT_EQ(document.regions.size(), 1u);
-    ASSERT_NE(document.session.blank, nullptr);
-    while (!still_there() && !state.history.undo_name().empty())
-        model.apply(Undo{});
-    EXPECT_TRUE(still_there());
-}
-
 TEST_F(ViewerModelTest, UndoWithNothingToUndoLeavesTheWorkSaved)
 {
     open();
@@ -259,82 +204,6 @@ TEST_F(ViewerModelTest, AFirstBlankIsFramedFromItsFirstShapeOn)
     EXPECT_TRUE(seen);
 }
 
-TEST_F(ViewerModelTest, ACornerInsideTheBlankIsRefusedAndNotWanted)
-{
-    open();
-    model.apply(RunTo{Stage::fit});
-    wait();
-    const auto wanted = document.session.options.corners;
-    const std::vector<int>& outline = model.pickers().outline(document.session);
-    int inside = 0;
-    while (std::find(outline.begin(), outline.end(), inside) != outline.end())
-        ++inside;
-    model.apply(SetCorner{0, inside, false});
-    EXPECT_TRUE(says(Severity::error, "not on the outer outline"));
-    EXPECT_EQ(document.session.options.corners, wanted);
-    EXPECT_FALSE(model.busy());
-}
-
-TEST_F(ViewerModelTest, ADraggedCornerCountsAsOneChangeAndEndsWithAFullGrid)
-{
-    open();
-    model.apply(RunTo{Stage::fit});
-    wait();
-    const auto before = document.session.grid->boundary.corner;
-    const int columns = document.session.grid->result.planar.columns;
-    const auto& side = document.session.grid->boundary.side[0];
-    for (size_t k = 1; k < 6; ++k)
-        model.apply(SetCorner{0, side[k], true});
-    wait();
-    EXPECT_EQ(document.session.grid->boundary.corner[0], side[5]);
-    EXPECT_LT(document.session.grid->result.planar.columns, columns / 2); // coarse while dragging
-    model.apply(SetCorner{0, side[6], false});
-    wait();
-    EXPECT_EQ(document.session.grid->boundary.corner[0], side[6]);
-    EXPECT_NEAR(document.session.grid->result.planar.columns, columns,
-                4); // square cells between sides of another length
-    EXPECT_NE(document.session.surface, nullptr);
-    EXPECT_FALSE(first_stale(document));
-    EXPECT_EQ(state.history.undo_name(), "Move corner 1");
-    model.apply(Undo{});
-    EXPECT_EQ(document.session.grid->boundary.corner, before);
-}
-
-TEST_F(ViewerModelTest, WhileACornerIsDraggedTheQuadsFollowAndTheLastSurfaceStaysAndIsCalledOld)
-{
-    open();
-    model.apply(RunTo{Stage::fit});
-    wait();
-    const auto lifted = document.session.lifted;
-    const auto surface = document.session.surface;
-    EXPECT_FALSE(is_old(state, View::quads) || is_old(state, View::surface));
-    const std::vector<int> side = document.session.grid->boundary.side[0];
-    for (const size_t k : {2, 4}) { // two coarse grids, one after the other
-        model.apply(SetCorner{0, side[k], true});
-        wait();
-        ASSERT_NE(document.session.lifted, nullptr);
-        EXPECT_EQ(quads_shown(state).lifted, document.session.lifted);
-        EXPECT_NE(document.session.lifted, lifted);
-        EXPECT_EQ(document.session.grid->boundary.corner[0], side[k]);
-        EXPECT_EQ(surface_shown(state).surface, surface);
-        EXPECT_TRUE(is_old(state, View::surface));
-        SceneCache cache;
-        EXPECT_TRUE(scene(View::quads, state, cache).empty.empty());
-        EXPECT_TRUE(scene(View::surface, state, cache).empty.empty());
-    }
-    model.apply(SetCorner{0, side[5], false});
-    wait();
-    EXPECT_NE(quads_shown(state).lifted, lifted);
-    EXPECT_EQ(quads_shown(state).lifted, document.session.lifted);
-    EXPECT_EQ(state.before.surface, nullptr) << "memory for nothing";
-    EXPECT_FALSE(is_old(state, View::quads) || is_old(state, View::surface));
-    model.apply(SetCorner{0, side[2], true});
-    wait();
-    open("square-cup.obj");
-    EXPECT_EQ(quads_shown(state).lifted, nullptr) << "of another part";
-    EXPECT_EQ(surface_shown(state).surface, nullptr) << "of another part";
-}
-
 TEST_F(ViewerModelTest, AViewThatShowsAllOfThePartStillDoesSoInAnotherSize)
 {
     open();
@@ -359,123 +228,6 @@ TEST_F(ViewerModelTest, AViewThatShowsAllOfThePartStillDoesSoInAnotherSize)
     const Camera before = moved;
     model.resized(View::part, {800, 600});
     EXPECT_EQ(state.view.camera[size_t(View::part)], before) << "what the user has turned to stays";
-}
-
-TEST_F(ViewerModelTest, EveryPickingToolTakesFacesAndSaysNothing)
-{
-    open();
-    model.resized(View::part, {800, 600});
-    model.apply(LookFrom{View::part, StandardView::top});
-    model.apply(FitView{});
-    const glm::dvec2 size(800, 600), middle(400, 300);
-    model.apply(PickAt{View::part, middle, size, PickMode::replace, {}, false});
-    EXPECT_EQ(document.selected.size(), 1u);
-    model.apply(GrowSelection{});
-    const size_t ring = document.selected.size();
-    EXPECT_GT(ring, 6u);
-    model.apply(ShrinkSelection{});
-    EXPECT_EQ(document.selected.size(), 1u);
-    model.apply(PickAt{View::part, middle, size, PickMode::replace, 5., false});
-    EXPECT_GT(document.selected.size(), ring);
-    model.apply(PickAt{View::part, middle, size, PickMode::replace, {}, true});
-    EXPECT_GT(document.selected.size(), ring);
-    model.apply(PickArea{View::part, {{0, 0}, {800, 0}, {800, 600}, {0, 600}}, size, PickMode::replace, true});
-    EXPECT_EQ(int(document.selected.size()), document.session.part->mesh.triangles());
-    model.apply(PickArea{View::part, {{0, 0}, {400, 0}, {400, 600}, {0, 600}}, size, PickMode::remove, true});
-    EXPECT_NEAR(double(document.selected.size()), document.session.part->mesh.triangles() / 2.,
-                document.session.part->mesh.triangles() * 0.1);
-    model.apply(PickBrush{View::part, middle, 30, size, PickMode::add, false});
-    model.apply(PickAt{View::part, {1, 1}, size, PickMode::replace, {}, false}); // nothing there
-    EXPECT_TRUE(document.selected.empty());
-    EXPECT_TRUE(state.messages.empty());
-}
-
-TEST_F(ViewerModelTest, VerticesArePickedInEveryViewAndUndoneByName)
-{
-    open();
-    model.apply(RunTo{Stage::fit});
-    wait();
-    const glm::dvec2 size(800, 600);
-    const Eigen::Matrix3Xd& on_part = document.session.part->mesh.position;
-    const int top = document.session.grid->boundary.corner[2];
-    for (const View view : all_views) {
-        const Eigen::Matrix2Xd& flat = document.session.blank->blank.position;
-        const Eigen::Vector3d at =
-            view == View::blank ? Eigen::Vector3d(flat(0, top), flat(1, top), 0) : Eigen::Vector3d(on_part.col(top));
-        const glm::dvec2 pixel(pixel_of(state.view.camera[size_t(view)], at, size));
-        for (const bool boundary : {false, true}) {
-            model.apply(ClearSelection{});
-            model.apply(PickVertex{view, pixel, size, PickMode::replace, boundary, 3});
-            EXPECT_EQ(document.vertices, std::vector<int>{top});
-            EXPECT_EQ(state.history.undo_name(), boundary ? "Pick boundary vertex" : "Pick vertex");
-        }
-        ViewSettings settings = state.view;
-        settings.tool = Tool::vertex;
-        model.apply(SetViewSettings{settings});
-        model.hover(view, pixel, size);
-        EXPECT_EQ(state.hovered_vertex, top);
-        settings.tool = Tool::pick;
-        model.apply(SetViewSettings{settings});
-        model.hover(view, pixel, size);
-        EXPECT_FALSE(state.hovered_vertex);
-    }
-    model.apply(SelectVertices{{3, 1}, PickMode::add});
-    model.apply(SelectVertices{{top}, PickMode::remove});
-    EXPECT_EQ(document.vertices, (std::vector<int>{1, 3}));
-    model.apply(Undo{});
-    model.apply(Undo{});
-    EXPECT_EQ(document.vertices, std::vector<int>{top});
-    model.apply(PickVertex{View::part, {1, 1}, size, PickMode::add, false, 2}); // nothing there
-    EXPECT_EQ(document.vertices, std::vector<int>{top});
-    const auto selected = document.selected;
-    model.apply(FlyToVertex{top});
-    const glm::dvec2 middle(pixel_of(state.view.camera[0], on_part.col(top), size));
-    EXPECT_NEAR(glm::length(middle - size / 2.), 0, 1e-6);
-    EXPECT_EQ(document.selected, selected);
-    EXPECT_TRUE(std::none_of(state.messages.begin(), state.messages.end(),
-                             [](const Message& m) { return m.severity == Severity::error; }));
-    model.apply(SelectVertices{{1, int(on_part.cols())}});
-    EXPECT_TRUE(says(Severity::error, fmt::format("no vertex {}", on_part.cols())));
-    EXPECT_EQ(document.vertices, std::vector<int>{top});
-}
-
-TEST_F(ViewerModelTest, FourVerticesOfTheOutlineBecomeTheCornersInTheirOrder)
-{
-    open();
-    model.apply(RunTo{Stage::fit});
-    wait();
-    const auto& sides = document.session.grid->boundary.side;
-    const Eigen::Matrix2Xd plane = document.session.blank->blank.position;
-    std::vector<int> chosen;
-    for (const auto& side : sides)
-        chosen.push_back(side[side.size() / 3]);
-    model.apply(SelectVertices{{chosen[0], chosen[1], chosen[2]}});
-    model.apply(UseVerticesAsCorners{});
-    EXPECT_TRUE(says(Severity::error, "3 vertices are picked"));
-    EXPECT_FALSE(document.session.options.corners);
-
-    model.apply(SelectVertices{{chosen[2], chosen[0], chosen[3], chosen[1]}});
-    model.apply(UseVerticesAsCorners{});
-    EXPECT_EQ(state.history.undo_name(), "Use vertices as corners");
-    wait();
-    // The same row of corners, from the lowest to the left on.
-    const auto height = [&](int v) { return plane.col(v).sum(); };
-    std::rotate(chosen.begin(),
-                std::min_element(chosen.begin(), chosen.end(), [&](int a, int b) { return height(a) < height(b); }),
-                chosen.end());
-    const auto& corner = document.session.grid->boundary.corner;
-    EXPECT_EQ(std::vector<int>(corner.begin(), corner.end()), chosen);
-    EXPECT_FALSE(first_stale(document));
-
-    int inside = 0;
-    while (std::abs(plane.col(inside).norm()) > 0.5 * plane.col(chosen[0]).norm())
-        ++inside;
-    const auto before = document.session.options.corners;
-    model.apply(SelectVertices{{chosen[0], chosen[1], chosen[2], inside}});
-    model.apply(UseVerticesAsCorners{});
-    EXPECT_TRUE(says(Severity::error, fmt::format("Vertex {} is not on the outer outline",
-                                                  document.session.part->source_vertex[size_t(inside)])));
-    EXPECT_EQ(document.session.options.corners, before);
 }
 
 TEST_F(ViewerModelTest, WhatGoesWrongIsSaidAndChangesNothing)
@@ -548,23 +300,6 @@ TEST_F(ViewerModelTest, ExportsInTheBackground)
     EXPECT_TRUE(says(Severity::done, "dome.iges"));
 }
 
-TEST_F(ViewerModelTest, TakingBackAPickMadeDuringARunKeepsTheResult)
-{
-    open("square-cup.obj");
-    model.apply(RunTo{Stage::fit});
-    model.apply(SelectFaces{{1, 2, 3}});
-    wait();
-    ASSERT_NE(document.session.surface, nullptr);
-    const auto blank = document.session.blank;
-    model.apply(Undo{});
-    EXPECT_TRUE(document.selected.empty());
-    EXPECT_EQ(document.session.blank, blank);
-    model.apply(Undo{}); // the run itself
-    EXPECT_EQ(document.session.blank, nullptr);
-    model.apply(Redo{});
-    EXPECT_EQ(document.session.blank, blank);
-}
-
 TEST_F(ViewerModelTest, AFileThatIsNotThereDoesNotDisturbARun)
 {
     open("square-cup.obj");
@@ -599,30 +334,6 @@ TEST_F(ViewerModelTest, TheUnitCanBeChangedAndTakenBack)
     model.apply(Undo{});
     model.apply(Undo{});
     EXPECT_NEAR(size(), mm, 1e-9);
-}
-
-TEST_F(ViewerModelTest, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
-{
-    open();
-    model.apply(LookFrom{View::part, StandardView::top});
-    model.apply(FitView{});
-    const glm::dvec2 size(800, 600);
-    model.apply(DrawSection{View::part, {100, 300}, {700, 300}, size});
-    ASSERT_TRUE(document.section);
-    EXPECT_NEAR(document.section->from[1], document.section->to[1], 1e-9);
-    EXPECT_GT((document.section->to - document.section->from).norm(), 100);
-    model.apply(DrawSection{View::part, {1, 1}, {2, 2}, size}); // beside the part
-    EXPECT_TRUE(says(Severity::error, "over the sheet"));
-    model.apply(DrawSection{View::blank, {1, 1}, {2, 2}, size});
-    EXPECT_TRUE(says(Severity::error, "Unfold the part first"));
-    model.apply(SelectFaces{{4, 5}});
-    model.apply(FlyTo{9});
-    EXPECT_EQ(document.selected, (std::vector<int>{9}));
-    model.apply(Undo{});
-    EXPECT_EQ(document.selected, (std::vector<int>{4, 5}));
-    model.apply(Undo{});
-    model.apply(Undo{});
-    EXPECT_FALSE(document.section);
 }
 
 TEST_F(ViewerModelTest, EndsAtOnceWhileAJobRuns)
