@@ -62,6 +62,7 @@ struct UnfoldArguments {
     std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
     double thickness = 1;
     int root = 0; ///< of --auto: the region that stays, from 1; 0: the largest flat one
+    bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
 };
 

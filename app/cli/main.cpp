@@ -243,6 +243,8 @@ int main(int count, char** values)
     unfold_command->add_option("--seam", unfolding.seam, "where a closed part is cut open, as for `spia run`")
         ->type_name("auto|none|FILE")
         ->capture_default_str();
+    unfold_command->add_flag("--polish", unfolding.polish,
+                             "also solve the whole part at once, from the blank of the steps, and compare both blanks");
     unfold_command->add_flag("--strict", unfolding.strict, "exit 1 if the result is poorer or a script did not fit");
     unfold_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
         ->type_name("N")

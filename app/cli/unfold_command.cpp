@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <numbers>
+#include <optional>
 
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
@@ -14,6 +15,7 @@
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
 #include "engine/unfold/map_lines.h"
+#include "engine/unfold/polish.h"
 
 namespace spia::cli {
 namespace {
@@ -64,11 +66,51 @@ void print_states(const UnfoldRun& run)
                    state.name, state.plain, state.face.strain_equivalent.maxCoeff(),
                    100 * state.face.thinning.minCoeff(), 100 * state.face.thinning.maxCoeff(),
                    state.converged ? "" : ", NOT converged");
+        if (state.overlap.places > 0)
+            fmt::print("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n",
+                       state.overlap.places, state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
     }
     if (!run.blank)
         return;
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     fmt::print("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
+}
+
+void print_blank(const char* what, const BlankFigures& blank)
+{
+    fmt::print(
+        "  {:<9} equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %, distortion {:.3g} angular, {:.3g} area{}\n",
+        what, blank.strain, 100 * blank.least_thinning, 100 * blank.most_thinning, blank.distortion.angular_rms,
+        blank.distortion.area_rms, blank.converged ? "" : ", NOT converged");
+}
+
+void print_polish(const PolishedBlank& polished)
+{
+    fmt::print("polish    outlines up to {:.4g} mm apart, {:.4g} mm in the mean; {}\n", polished.outline_distance_mm,
+               polished.outline_distance_mean_mm, polished.whole.report.reason);
+    print_blank("steps", polished.steps);
+    print_blank("whole", polished.polished);
+    for (const std::string& text : polished.worse)
+        fmt::print("  the blank of the whole is worse: {}\n", text);
+}
+
+/// Both blanks are wanted: where the whole cannot be solved that of the steps stays.
+std::optional<PolishedBlank> polished_blank(const PartFile& part, const UnfoldRun& run, const FlattenOptions& options,
+                                            std::vector<std::string>& findings)
+{
+    if (!run.blank || run.flipped > 0) {
+        findings.emplace_back("the blank of the steps cannot be polished: there is none without a flip");
+        return std::nullopt;
+    }
+    JobDisplay display{"polish"};
+    try {
+        PolishedBlank polished = polish(part.mesh, run, options, display.progress());
+        display.done(polished.whole.report.seconds);
+        return polished;
+    } catch (const SolveError& error) {
+        findings.push_back(fmt::format("the blank of the steps could not be polished: {}", error.what()));
+        return std::nullopt;
+    }
 }
 
 std::string stem_of(const UnfoldArguments& arguments)
@@ -77,11 +119,13 @@ std::string stem_of(const UnfoldArguments& arguments)
 }
 
 std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
-                                               const BendMap& map, const UnfoldScript& steps, const UnfoldRun& run)
+                                               const BendMap& map, const UnfoldScript& steps, const UnfoldRun& run,
+                                               const PolishedBlank* polished)
 {
     if (arguments.folder.empty())
         return {};
-    auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run, arguments.formats);
+    auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
+                                 polished ? &polished->whole : nullptr, arguments.formats);
     if (arguments.automatic) {
         files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
         write_atomically(files.back(), unfold_script_json(map, steps));
@@ -125,6 +169,8 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, const std::vector<st
     for (const UnfoldState& state : run.states)
         if (!state.converged)
             poorer.push_back(fmt::format("step \"{}\" did not converge: {}", state.name, state.reason));
+    if (!run.states.empty() && run.states.back().overlap.places > 0)
+        poorer.push_back(fmt::format("the blank lies on itself at {} places", run.states.back().overlap.places));
     if (run.flipped > 0)
         poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
     if (!run.blank && run.failure.empty())
@@ -169,12 +215,19 @@ int unfold(const UnfoldArguments& arguments)
     const auto clock = std::chrono::steady_clock::now();
     const UnfoldRun run = run_unfolding(part.mesh, steps, options, display.progress());
     display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
-    auto files = write_files(arguments, part, map, steps, run);
+    std::optional<PolishedBlank> polished;
+    if (arguments.polish)
+        polished = polished_blank(part, run, options, findings);
+    const PolishedBlank* both = polished ? &*polished : nullptr;
+    auto files = write_files(arguments, part, map, steps, run, both);
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
     if (!arguments.json.empty())
-        write_atomically(arguments.json, unfold_report_json(arguments.part, part, map, steps, run, findings, files));
+        write_atomically(arguments.json,
+                         unfold_report_json(arguments.part, part, map, steps, run, findings, files, both));
     print_states(run);
+    if (polished)
+        print_polish(*polished);
     for (const auto& file : files)
         fmt::print("wrote     {}\n", file.string());
     const auto poorer = shortcomings(run, findings);

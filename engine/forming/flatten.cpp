@@ -7,11 +7,13 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/forming/flatten_from.h"
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/rigid_steps.h"
 #include "engine/forming/sheet_fields.h"
 #include "engine/mesh/cut.h"
+#include "engine/mesh/orient2d.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -33,6 +35,21 @@ void require_valid(const TriMesh& part, const FlattenOptions& options)
     if (type.genus > 0)
         throw InputError(fmt::format("the part has {} (genus {}); cut it open",
                                      type.genus == 1 ? "a handle" : "handles", type.genus));
+}
+
+void require_start(const TriMesh& part, const Eigen::Matrix2Xd& start)
+{
+    if (start.cols() != part.vertices() || !start.allFinite())
+        throw InputError(
+            fmt::format("the start has {} places, the part {} vertices; it must have a finite place for each",
+                        start.cols(), part.vertices()));
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto t = part.triangle.col(f);
+        if (orient2d(start.col(t[0]), start.col(t[1]), start.col(t[2])) <= 0)
+            throw InputError(fmt::format("face {} is flipped in the start; give one without flips", f));
+    }
+    if (!one_to_one_around_vertices(part, start))
+        throw InputError("the faces around a vertex of the start go around it more than once; give another start");
 }
 
 StampingDirection stamping(const TriMesh& part, const FlattenOptions& options)
@@ -71,29 +88,30 @@ double volume_error(const TriMesh& part, const FlattenResult& result, const Shee
     return largest;
 }
 
-} // namespace
-
-std::string_view name(SolvedSystem system)
+/// The first guess, as rigid as possible.
+Eigen::Matrix2Xd first_guess(const TriMesh& part, const std::vector<Element>& element, BlockMatrix& matrix,
+                             Cholesky& cholesky, const Progress& progress, FlattenResult& result)
 {
-    switch (system) {
-    case SolvedSystem::strict: return "strict";
-    case SolvedSystem::continued: return "continued";
-    case SolvedSystem::relaxed: return "relaxed";
-    case SolvedSystem::energy: return "energy";
-    }
-    return "";
+    InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky, progress.part(0.03, 0.1));
+    result.report.start = guess.method;
+    progress.checkpoint(0.08, "first guess: as rigid as possible");
+    return more_rigid(part, RigidSteps(part, element, matrix, cholesky), std::move(guess.position));
 }
 
-FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, const Progress& progress)
+/// @param start none: a first guess of its own
+FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* start, const FlattenOptions& options,
+                           const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
     require_valid(original, options);
+    if (start)
+        require_start(original, *start);
     // Far from the origin (a part in car coordinates) the digits of a blank would not do for equilibrium to 1e-9.
     TriMesh part = original;
     const Eigen::Vector3d centre = (part.position.rowwise().minCoeff() + part.position.rowwise().maxCoeff()) / 2;
     part.position.colwise() -= centre;
     const std::vector<Element> element = elements(part);
-    FlattenResult result;
+    FlattenResult result{};
     result.stamping = stamping(part, options);
     const Eigen::Matrix<double, 3, 2> plane = blank_plane(result.stamping.direction);
 
@@ -103,13 +121,11 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(part.triangle, part.vertices());
     Cholesky cholesky(matrix);
-    InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky, progress.part(0.03, 0.1));
-    result.report.start = guess.method;
-    progress.checkpoint(0.08, "first guess: as rigid as possible");
-    guess.position = more_rigid(part, RigidSteps(part, element, matrix, cholesky), std::move(guess.position));
+    const Eigen::Matrix2Xd X = start ? Eigen::Matrix2Xd(start->colwise() - start->rowwise().mean())
+                                     : first_guess(part, element, matrix, cholesky, progress, result);
 
     const Job job{part, element, options, external, plane, matrix, cholesky};
-    result.blank.position = solve(job, guess.position, result.report, progress.part(0.1, 1));
+    result.blank.position = solve(job, X, result.report, progress.part(0.1, 1));
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place_under_part(part, element, plane, result.blank.position);
 
@@ -130,6 +146,30 @@ FlattenResult flatten(const TriMesh& original, const FlattenOptions& options, co
     result.overlap = overlap(part, result.blank.position);
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;
+}
+
+} // namespace
+
+std::string_view name(SolvedSystem system)
+{
+    switch (system) {
+    case SolvedSystem::strict: return "strict";
+    case SolvedSystem::continued: return "continued";
+    case SolvedSystem::relaxed: return "relaxed";
+    case SolvedSystem::energy: return "energy";
+    }
+    return "";
+}
+
+FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
+{
+    return flatten_part(part, nullptr, options, progress);
+}
+
+FlattenResult flatten_from(const TriMesh& part, const Eigen::Matrix2Xd& start, const FlattenOptions& options,
+                           const Progress& progress)
+{
+    return flatten_part(part, &start, options, progress);
 }
 
 } // namespace spia

@@ -5,6 +5,7 @@
 
 #include "engine/exchange/read_part.h"
 #include "engine/unfold/bends.h"
+#include "engine/unfold/polish.h"
 #include "engine/unfold/unfold_script.h"
 
 namespace spia {
@@ -27,10 +28,12 @@ ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile&
 std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps);
 
 /// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
-/// @param files written, in order
+/// @param files    written, in order
+/// @param polished null: not asked for, or there was none
 std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
                                const UnfoldScript& steps, const UnfoldRun& run,
                                const std::vector<std::string>& findings,
-                               const std::vector<std::filesystem::path>& files);
+                               const std::vector<std::filesystem::path>& files,
+                               const PolishedBlank* polished = nullptr);
 
 } // namespace spia

@@ -40,7 +40,8 @@ std::vector<SheetLine> blank_lines(const TriMesh& part, const BendMap& map, cons
 
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
-                                                   const UnfoldRun& run, const std::vector<std::string>& formats)
+                                                   const UnfoldRun& run, const FlattenResult* polished,
+                                                   const std::vector<std::string>& formats)
 {
     std::filesystem::create_directories(folder);
     std::vector<std::filesystem::path> files;
@@ -71,6 +72,15 @@ std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& 
                   bend_lines(part.mesh, map, run.blank->position));
     }
     add(write_line_files(folder, name + "-blank", blank_lines(part.mesh, map, *run.blank), without(formats, "dxf")));
+    if (polished && wanted("dxf")) {
+        files.push_back(folder / (name + "-polished.dxf"));
+        write_dxf(files.back(), blank_outline(part.mesh, polished->blank), LengthUnit::mm,
+                  bend_lines(part.mesh, map, polished->blank.position));
+    }
+    if (polished && wanted("vtu")) {
+        files.push_back(folder / (name + "-polished.vtu"));
+        write_vtu(files.back(), part.mesh, polished->blank, polished->face, polished->node);
+    }
     return files;
 }
 

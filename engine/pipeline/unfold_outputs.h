@@ -16,11 +16,12 @@ const std::vector<std::string>& unfold_formats();
 /// Writes what a run gave into a folder, which is made if need be. Of each step its state (NAME-stepN.vtu) and, if it laid
 /// faces on others, their developed edge as trim lines on the target (NAME-stepN-trim.dxf, .iges, .step); of the blank its
 /// outline and bend lines (NAME-blank.dxf, .iges, .step).
+/// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null
 /// @param formats some of unfold_formats()
 /// @returns the files, in the order written
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
-                                                   const UnfoldRun& run,
+                                                   const UnfoldRun& run, const FlattenResult* polished = nullptr,
                                                    const std::vector<std::string>& formats = unfold_formats());
 
 /// Outline ("outline"), holes ("hole 1" ...) and bend lines of a blank, in the plane z = 0.

@@ -123,13 +123,40 @@ Json state_json(const UnfoldState& state)
                  {"thinning_max", state.face.thinning.maxCoeff()},
                  {"thinning_min", state.face.thinning.minCoeff()},
                  {"necking_triangles", state.necking},
+                 {"overlap", {{"places", state.overlap.places}}},
                  {"seconds", state.seconds}};
+    if (state.overlap.places > 0)
+        json["overlap"]["first_mm"] = xyz(state.overlap.first);
     if (state.on) {
         json["target"] = face_json(state.on->face);
         json["distance_to_held_mm"] = state.on->distance_mm;
         json["angle_to_fixed_deg"] = state.on->angle * degrees;
     }
     return json;
+}
+
+Json blank_json(const BlankFigures& blank)
+{
+    return {{"converged", blank.converged},
+            {"equivalent_strain_max", blank.strain},
+            {"thinning_min", blank.least_thinning},
+            {"thinning_max", blank.most_thinning},
+            {"flipped_triangles", blank.flipped},
+            {"overlaps", blank.overlaps},
+            {"angular_rms", blank.distortion.angular_rms},
+            {"area_rms", blank.distortion.area_rms}};
+}
+
+Json polish_json(const PolishedBlank& polished)
+{
+    return {{"steps", blank_json(polished.steps)},
+            {"whole", blank_json(polished.polished)},
+            {"system", name(polished.whole.report.system)},
+            {"reason", polished.whole.report.reason},
+            {"seconds", polished.whole.report.seconds},
+            {"outline_distance_mm", polished.outline_distance_mm},
+            {"outline_distance_mean_mm", polished.outline_distance_mean_mm},
+            {"worse", polished.worse}};
 }
 
 } // namespace
@@ -147,7 +174,7 @@ std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps)
 std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
                                const UnfoldScript& steps, const UnfoldRun& run,
                                const std::vector<std::string>& findings,
-                               const std::vector<std::filesystem::path>& files)
+                               const std::vector<std::filesystem::path>& files, const PolishedBlank* polished)
 {
     Json states = Json::array(), names = Json::array();
     for (const UnfoldState& state : run.states)
@@ -172,6 +199,7 @@ std::string unfold_report_json(const std::filesystem::path& input, const PartFil
         json["blank"] = {{"size_mm", {size[0], size[1]}}, {"flipped_triangles", run.flipped}};
     } else
         json["blank"] = nullptr;
+    json["polish"] = polished ? polish_json(*polished) : Json(nullptr);
     json["files"] = names;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

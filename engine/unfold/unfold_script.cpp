@@ -107,7 +107,7 @@ PlaneFace mean_plane(const TriMesh& now)
 
 void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
 {
-    constexpr double beside = 1e-3; // of the part
+    constexpr double beside = 1e-3, own_plane = 1e-9; // of the part
     const TriMesh now{state.position, part.triangle};
     std::vector<std::array<int, 2>> edges;
     const std::vector<EdgeUse> uses = edge_uses(part.triangle);
@@ -131,6 +131,21 @@ void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
     for (int v = 0; v < now.vertices(); ++v)
         state.position.col(v) = placed(BinderFace(plane), places.col(v));
     state.plain = name(face);
+    state.overlap = landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part));
+}
+
+/// How far beside the target what lies on it is: as far as what carries it, and no less than rounding.
+double carried_within(const Eigen::Matrix3Xd& position, const TriMesh& part, const PlannedStep& step,
+                      const UnfoldStepResult& result)
+{
+    constexpr double rounding = 1e-9; // of the part
+    double within = std::max(rounding * bounding_diagonal(part), result.binder.distance_mm);
+    for (const int f : carrying_faces(step))
+        for (const int v : part.triangle.col(f)) {
+            const Eigen::Vector3d x = position.col(v);
+            within = std::max(within, (x - placed(result.binder.face, developed(result.binder.face, x))).norm());
+        }
+    return (1 + rounding) * within;
 }
 
 void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& options, const Progress& progress,
@@ -155,6 +170,8 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
         if (!piece.report.converged && state.reason.empty())
             state.reason = fmt::format("the piece around face {}: {}", piece.faces[0], piece.report.reason);
     state.necking = result.necking_triangles;
+    state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
+                                   carried_within(state.position, part, step, result));
 }
 
 /// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
@@ -264,7 +281,7 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         const PlannedStep& step = script[k];
         const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
         own.checkpoint(0, step.name);
-        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, 0};
+        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, 0};
         try {
             if (step.kind == UnfoldKind::unroll)
                 unroll(part, step, next);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/unfold/landed_overlap.h"
 #include "engine/unfold/sequence.h"
 #include "engine/unfold/unfold_step.h"
 
@@ -22,6 +23,7 @@ struct UnfoldState {
     bool converged = true;       ///< else the best shape found
     std::string reason;          ///< why not
     int necking = 0;             ///< faces beyond the trusted strain
+    LandedOverlap overlap;       ///< of all that lies on the target after the step; of an unroll, in the plane
     double seconds = 0;
 };
 

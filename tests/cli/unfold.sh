@@ -36,6 +36,10 @@ expect_exit 2 "$spia" unfold "$part" --auto --to-part "$out/slot.json"
 grep -q '"flipped_triangles": 0' "$out/auto.json" || fail "the report has no blank"
 expect_exit 0 "$spia" unfold "$part" --script "$out/auto/lipped-channel-script.json" --out "$out/again" --threads 1 --strict
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "the script gives other bits"
+expect_exit 0 "$spia" unfold "$part" --auto --polish --out "$out/polished" --json "$out/polished.json" --strict
+for file in blank.dxf polished.dxf polished.vtu; do [ -s "$out/polished/lipped-channel-$file" ] || fail "no $file"; done
+grep -q "outline_distance_mm" "$out/polished.json" || fail "the two blanks are not compared"
+grep -q "outlines up to" "$out.log" || fail "the summary does not compare the blanks"
 expect_exit 2 "$spia" unfold "$part" --script "$out/renamed.json.not-there"
 expect_exit 2 "$spia" unfold "$part"
 expect_exit 2 "$spia" unfold "$part" --root 99 --auto

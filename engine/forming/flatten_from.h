@@ -1,0 +1,14 @@
+#pragma once
+#include "engine/forming/flatten.h"
+
+namespace spia {
+
+/// Likewise, from a flat place of every vertex in place of the first guess: where flatten() finds no start, or ends in another
+/// of several solutions.
+/// @param start  2 by #V, mm, wherever it lies in the plane: without a flipped triangle, faces wound once around each vertex
+/// @returns as flatten(); `report.start` means nothing
+/// @throws InputError also if the start is no such place: names the first offending face
+FlattenResult flatten_from(const TriMesh& part, const Eigen::Matrix2Xd& start, const FlattenOptions& options,
+                           const Progress& progress = {});
+
+} // namespace spia
