@@ -56,6 +56,8 @@ int compare(const CompareArguments& arguments);
 
 struct UnfoldArguments {
     std::filesystem::path part, script, folder, json;
+    std::filesystem::path to_part, to_blank; ///< files of lines to carry over
+    std::vector<std::string> formats;
     bool automatic = false;
     std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
     double thickness = 1;

@@ -10,6 +10,7 @@
 #include "engine/compare/compare.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/unfold_outputs.h"
 
 namespace {
 
@@ -209,8 +210,23 @@ int main(int count, char** values)
         ->check(CLI::Range(1, 1000000))
         ->excludes(by_script);
     unfold_command
-        ->add_option("--out", unfolding.folder, "folder for the states, the outline of the blank and the script")
+        ->add_option("--out", unfolding.folder,
+                     "folder for the states, trim lines, the blank with its bend lines and the script")
         ->type_name("DIR");
+    unfolding.formats = unfold_formats();
+    unfold_command->add_option("--formats", unfolding.formats, "of the files: VTU for states, the others for lines")
+        ->delimiter(',')
+        ->check(CLI::IsMember(unfold_formats()))
+        ->type_name("LIST")
+        ->capture_default_str();
+    unfold_command
+        ->add_option("--to-part", unfolding.to_part,
+                     "lines drawn on the blank (DXF or JSON, mm): written as they lie on the part")
+        ->type_name("FILE");
+    unfold_command
+        ->add_option("--to-blank", unfolding.to_blank,
+                     "lines that lie on the part (DXF or JSON, mm): written as they lie on the blank")
+        ->type_name("FILE");
     unfold_command->add_option("--name", unfolding.name, "of the files, without ending (default: the part's)");
     unfold_command->add_option("--json", unfolding.json, "write the figures of the run")->type_name("FILE");
     unfold_command->add_option("--material", unfolding.material, "a grade of `spia materials`, or a material file")

@@ -8,15 +8,14 @@
 #include "app/cli/terminal.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
-#include "engine/exchange/blank_outline.h"
 #include "engine/exchange/read_part.h"
-#include "engine/exchange/write_dxf.h"
-#include "engine/exchange/write_vtu.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/line_file.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
+#include "engine/pipeline/unfold_outputs.h"
+#include "engine/unfold/map_lines.h"
 #include "engine/unfold/polish.h"
-#include "engine/unfold/sheet_lines.h"
 
 namespace spia::cli {
 namespace {
@@ -114,41 +113,54 @@ std::optional<PolishedBlank> polished_blank(const PartFile& part, const UnfoldRu
     }
 }
 
+std::string stem_of(const UnfoldArguments& arguments)
+{
+    return arguments.name.empty() ? arguments.part.stem().string() : arguments.name;
+}
+
 std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
                                                const BendMap& map, const UnfoldScript& steps, const UnfoldRun& run,
                                                const PolishedBlank* polished)
 {
     if (arguments.folder.empty())
         return {};
-    std::filesystem::create_directories(arguments.folder);
-    const std::string stem = arguments.name.empty() ? arguments.part.stem().string() : arguments.name;
-    const auto file = [&](const std::string& rest) { return arguments.folder / (stem + rest); };
-    std::vector<std::filesystem::path> files;
-    for (size_t k = 0; k < run.states.size(); ++k) {
-        const UnfoldState& state = run.states[k];
-        const std::pair<std::string, const Eigen::VectorXi*> numbers[] = {{"step", &state.step},
-                                                                          {"region", &map.label}};
-        files.push_back(file(fmt::format("-step{}.vtu", k + 1)));
-        write_state_vtu(files.back(), part.mesh, state.position, state.face, numbers);
-    }
-    if (run.blank) {
-        files.push_back(file("-blank.dxf"));
-        write_dxf(files.back(), blank_outline(part.mesh, *run.blank), LengthUnit::mm,
-                  bend_lines(part.mesh, map, run.blank->position));
-    }
-    if (polished) {
-        const FlattenResult& whole = polished->whole;
-        files.push_back(file("-polished.dxf"));
-        write_dxf(files.back(), blank_outline(part.mesh, whole.blank), LengthUnit::mm,
-                  bend_lines(part.mesh, map, whole.blank.position));
-        files.push_back(file("-polished.vtu"));
-        write_vtu(files.back(), part.mesh, whole.blank, whole.face, whole.node);
-    }
+    auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
+                                 polished ? &polished->whole : nullptr, arguments.formats);
     if (arguments.automatic) {
-        files.push_back(file("-script.json"));
+        files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
         write_atomically(files.back(), unfold_script_json(map, steps));
     }
     return files;
+}
+
+/// What is drawn on the blank or on the part, carried over to the other one.
+void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
+                 std::vector<std::filesystem::path>& files, std::vector<std::string>& findings)
+{
+    for (const bool up : {true, false}) {
+        const std::filesystem::path& file = up ? arguments.to_part : arguments.to_blank;
+        if (file.empty())
+            continue;
+        if (!run.blank)
+            throw SolveError(fmt::format("{}: cannot be carried over, for there is no blank", file.string()));
+        const DxfLines drawn = read_line_file(file);
+        for (const std::string& kind : drawn.left_out)
+            findings.push_back(fmt::format("{}: not read: {}", file.string(), kind));
+        const Eigen::Matrix2Xd& flat = run.blank->position;
+        const MappedLines mapped = up ? to_part(part.mesh, flat, drawn.lines) : to_blank(part.mesh, flat, drawn.lines);
+        for (const std::string& line : mapped.left_out)
+            findings.push_back(fmt::format("{}: {}", file.string(), line));
+        fmt::print("lines     {} of {} of {} carried to the {}\n", mapped.lines.size(), drawn.lines.size(),
+                   file.string(), up ? "part" : "blank");
+        if (mapped.lines.empty())
+            continue;
+        const std::string name =
+            fmt::format("{}-{}-on-{}", stem_of(arguments), file.stem().string(), up ? "part" : "blank");
+        std::vector<std::string> formats = arguments.formats;
+        formats.push_back("json");
+        for (const auto& written : write_line_files(arguments.folder, name, mapped.lines, formats))
+            files.push_back(written);
+    }
 }
 
 std::vector<std::string> shortcomings(const UnfoldRun& run, const std::vector<std::string>& findings)
@@ -172,6 +184,11 @@ int unfold(const UnfoldArguments& arguments)
 {
     if (arguments.automatic == !arguments.script.empty())
         throw InputError("give either --script FILE or --auto");
+    if (arguments.folder.empty() && !(arguments.to_part.empty() && arguments.to_blank.empty()))
+        throw InputError("lines that are carried over need a place: give --out DIR");
+    for (const auto& file : {arguments.to_part, arguments.to_blank})
+        if (!file.empty())
+            read_line_file(file); // before the work
     if (!arguments.json.empty())
         require_writable(arguments.json);
     const FlattenOptions options = flatten_options(arguments);
@@ -202,7 +219,9 @@ int unfold(const UnfoldArguments& arguments)
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
-    const auto files = write_files(arguments, part, map, steps, run, both);
+    auto files = write_files(arguments, part, map, steps, run, both);
+    if (run.failure.empty())
+        carry_lines(arguments, part, run, files, findings);
     if (!arguments.json.empty())
         write_atomically(arguments.json,
                          unfold_report_json(arguments.part, part, map, steps, run, findings, files, both));

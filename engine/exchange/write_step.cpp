@@ -1,61 +1,28 @@
 #include "engine/exchange/write_step.h"
 
-#include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRep_Builder.hxx>
-#include <Interface_HArray1OfHAsciiString.hxx>
-#include <Interface_Static.hxx>
-#include <STEPControl_Writer.hxx>
-#include <StepBasic_Product.hxx>
-#include <StepData_Protocol.hxx>
-#include <StepData_StepModel.hxx>
-#include <StepData_StepWriter.hxx>
 #include <StepShape_AdvancedFace.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shell.hxx>
-#include <XSControl_WorkSession.hxx>
 #include <fmt/core.h>
-#include <sstream>
 
 #include "engine/core/error.h"
-#include "engine/exchange/occt_session.h"
+#include "engine/exchange/occt_step.h"
 #include "engine/exchange/occt_surface.h"
-#include "engine/exchange/provenance.h"
 
 namespace spia {
 namespace {
-
-constexpr double resolution = 1e-6; // mm; the file's uncertainty, and how close borders of one patch must be to be one
-
-Handle(TCollection_HAsciiString) text(const std::string& value) { return new TCollection_HAsciiString(value.c_str()); }
-
-Handle(Interface_HArray1OfHAsciiString) one_text(const std::string& value)
-{
-    return new Interface_HArray1OfHAsciiString(1, 1, text(value));
-}
-
-/// OpenCASCADE's name of the unit.
-const char* occt_name(LengthUnit unit)
-{
-    switch (unit) {
-    case LengthUnit::mm: return "MM";
-    case LengthUnit::cm: return "CM";
-    case LengthUnit::m: return "M";
-    case LengthUnit::inch: return "INCH";
-    }
-    return "MM";
-}
 
 TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces)
 {
     TopoDS_Shell shell;
     BRep_Builder builder;
     builder.MakeShell(shell);
-    BRepBuilderAPI_Sewing sewing(resolution);
+    BRepBuilderAPI_Sewing sewing(step_resolution);
     for (size_t i = 0; i < surfaces.size(); ++i) {
-        BRepBuilderAPI_MakeFace face(to_occt(surfaces[i]), resolution);
+        BRepBuilderAPI_MakeFace face(to_occt(surfaces[i]), step_resolution);
         if (!face.IsDone())
             throw ExchangeError(
                 fmt::format("OpenCASCADE makes no face of surface {}; check it for collapsed borders", i));
@@ -68,93 +35,17 @@ TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces)
     return sewing.SewedShape();
 }
 
-void fill_header(const Handle(StepData_StepModel) & model, const std::string& file_name, const std::string& part_name)
+/// What is as small as the resolution is left out without a word.
+void require_faces(const StepData_StepModel& model, size_t wanted)
 {
-    APIHeaderSection_MakeHeader header(model);
-    header.SetName(text(file_name));
-    header.SetTimeStamp(text(time_stamp("%Y-%m-%dT%H:%M:%SZ")));
-    header.SetAuthor(one_text(program_name()));
-    header.SetOrganization(one_text(""));
-    header.SetOriginatingSystem(text(program_name()));
-    header.SetPreprocessorVersion(text(program_name()));
-    header.SetAuthorisation(text(""));
-    header.SetDescription(one_text(part_name));
-
-    // OpenCASCADE appends the number of products made so far in this process.
-    for (int i = 1; i <= model->NbEntities(); ++i)
-        if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i)); !product.IsNull()) {
-            product->SetId(text(part_name));
-            product->SetName(text(part_name));
-            product->SetDescription(text(""));
-        }
-}
-
-/// Length of the UTF-8 character that starts with this byte, 0 if none can.
-int utf8_length(unsigned char lead)
-{
-    return lead < 0x80 ? 1 : lead >> 5 == 0x6 ? 2 : lead >> 4 == 0xe ? 3 : lead >> 3 == 0x1e ? 4 : 0;
-}
-
-/// Names beyond ASCII as ISO 10303-21 wants them, e.g. \X2\00FC\X0\ for a u umlaut; OpenCASCADE passes UTF-8
-/// through.
-std::string with_encoded_names(const std::string& utf8)
-{
-    std::string result;
-    result.reserve(utf8.size());
-    for (size_t at = 0; at < utf8.size();) {
-        const int length = utf8_length(static_cast<unsigned char>(utf8[at]));
-        if (length == 1) {
-            result += utf8[at++];
-            continue;
-        }
-        unsigned code = length ? static_cast<unsigned char>(utf8[at]) & (0x7fu >> length) : 0;
-        int used = 1;
-        for (; used < length && at + size_t(used) < utf8.size() && (utf8[at + size_t(used)] & 0xc0) == 0x80; ++used)
-            code = code << 6 | (static_cast<unsigned char>(utf8[at + size_t(used)]) & 0x3fu);
-        if (length == 0 || used < length)
-            result += '?';
-        else
-            result += code > 0xffff ? fmt::format("\\X4\\{:08X}\\X0\\", code) : fmt::format("\\X2\\{:04X}\\X0\\", code);
-        at += size_t(used);
-    }
-    return result;
-}
-
-std::string step_text(std::span<const NurbsSurface> surfaces, const std::string& file_name,
-                      const std::string& part_name, LengthUnit unit)
-{
-    const OcctSession session;
-    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-    Interface_Static::SetCVal("write.step.unit", occt_name(unit));
-    Interface_Static::SetCVal("write.step.schema", "AP242DIS");
-    Interface_Static::SetCVal("write.step.product.name", part_name.c_str());
-    Interface_Static::SetIVal("write.step.assembly", 0);
-    Interface_Static::SetIVal("write.surfacecurve.mode",
-                              0); // curves in parameter space would only repeat the borders
-    Interface_Static::SetIVal("write.precision.mode", 0);
-    Interface_Static::SetRVal("write.precision.val", resolution);
-
-    STEPControl_Writer translator; // reads the settings, so it comes after them
-    if (translator.Transfer(open_shell(surfaces), STEPControl_ShellBasedSurfaceModel) != IFSelect_RetDone)
-        throw ExchangeError("OpenCASCADE could not translate the surface to STEP");
-    const Handle(StepData_StepModel) model = translator.Model();
-    fill_header(model, file_name, part_name);
-    int faces = 0; // what is as small as the resolution is left out without a word
-    for (int i = 1; i <= model->NbEntities(); ++i)
-        faces += model->Value(i)->IsKind(STANDARD_TYPE(StepShape_AdvancedFace));
-    if (faces != int(surfaces.size()))
+    size_t faces = 0;
+    for (int i = 1; i <= model.NbEntities(); ++i)
+        faces += model.Value(i)->IsKind(STANDARD_TYPE(StepShape_AdvancedFace));
+    if (faces != wanted)
         throw ExchangeError(
             fmt::format("OpenCASCADE put {} of {} surfaces into the STEP file; they may be smaller than its "
                         "resolution of {} mm: check the length unit of the part (--unit)",
-                        faces, surfaces.size(), resolution));
-
-    StepData_StepWriter writer(model);
-    writer.FloatWriter().SetFormat("%.16E", true); // the default has 12 digits
-    writer.SendModel(Handle(StepData_Protocol)::DownCast(translator.WS()->Protocol()));
-    std::ostringstream stream;
-    if (!writer.Print(stream))
-        throw ExchangeError("OpenCASCADE could not make STEP text of the surface");
-    return with_encoded_names(std::move(stream).str());
+                        faces, wanted, step_resolution));
 }
 
 } // namespace
@@ -162,7 +53,11 @@ std::string step_text(std::span<const NurbsSurface> surfaces, const std::string&
 void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name,
                 LengthUnit unit)
 {
-    write_cad_file(path, surfaces, [&] { return step_text(surfaces, path.filename().string(), part_name, unit); });
+    write_cad_file(path, surfaces, [&] {
+        return step_text([&] { return open_shell(surfaces); }, STEPControl_ShellBasedSurfaceModel,
+                         [&](const StepData_StepModel& model) { require_faces(model, surfaces.size()); },
+                         path.filename().string(), part_name, unit);
+    });
 }
 
 } // namespace spia

@@ -3,15 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/core.h>
 #include <limits>
 #include <map>
 
 #include "engine/core/error.h"
-#include "engine/mesh/closest_point.h"
 #include "engine/mesh/edge_uses.h"
-#include "engine/mesh/locate.h"
 
 namespace spia {
 namespace {
@@ -54,9 +51,15 @@ std::vector<std::vector<int>> chained(const std::vector<Segment>& segments)
     return lines;
 }
 
+/// What lies at one place but for rounding is one point: lines that run through a vertex cross several edges there.
 SheetLine line_of(std::string name, std::vector<int> points, const Eigen::Matrix3Xd& position)
 {
-    const bool closed = points.size() > 2 && points.front() == points.back();
+    constexpr double same = 1e-9; // of the line
+    const Eigen::Matrix3Xd all = position(Eigen::all, points);
+    const double close = same * (all.rowwise().maxCoeff() - all.rowwise().minCoeff()).norm();
+    const auto one = [&](int a, int b) { return (position.col(a) - position.col(b)).norm() <= close; };
+    points.erase(std::unique(points.begin(), points.end(), one), points.end());
+    const bool closed = points.size() > 2 && one(points.front(), points.back());
     if (closed)
         points.pop_back();
     return {std::move(name), position(Eigen::all, points), closed};
@@ -106,30 +109,9 @@ std::vector<SheetLine> half_way(const std::string& name, const TriMesh& part, co
         position.col(Eigen::Index(p)) = points[p];
     std::vector<SheetLine> lines;
     for (const auto& chain : chained(pieces))
-        lines.push_back(line_of(name, chain, position));
+        if (SheetLine line = line_of(name, chain, position); line.point.cols() > 1) // else it touches a vertex only
+            lines.push_back(std::move(line));
     return lines;
-}
-
-Eigen::Matrix3Xd columns(const std::vector<Eigen::Vector3d>& points)
-{
-    Eigen::Matrix3Xd result(3, Eigen::Index(points.size()));
-    for (size_t k = 0; k < points.size(); ++k)
-        result.col(Eigen::Index(k)) = points[k];
-    return result;
-}
-
-void require_flat(const TriMesh& part, const Eigen::Matrix2Xd& flat)
-{
-    if (flat.cols() != part.position.cols() || !flat.allFinite())
-        throw InputError(fmt::format("the blank has {} places, the part {} vertices; unfold this part first",
-                                     flat.cols(), part.vertices()));
-}
-
-Eigen::Index segments_of(const SheetLine& line)
-{
-    if (line.point.cols() < 2 || !line.point.allFinite())
-        throw InputError(fmt::format("the line \"{}\" needs two finite points or more", line.name));
-    return line.point.cols() - (line.closed ? 0 : 1);
 }
 
 } // namespace
@@ -140,6 +122,13 @@ double length(const SheetLine& line)
     for (Eigen::Index k = 0; k < line.point.cols() - (line.closed ? 0 : 1); ++k)
         sum += (line.point.col((k + 1) % line.point.cols()) - line.point.col(k)).norm();
     return sum;
+}
+
+void require_flat(const TriMesh& part, const Eigen::Matrix2Xd& flat)
+{
+    if (flat.cols() != part.position.cols() || !flat.allFinite())
+        throw InputError(fmt::format("the blank has {} places, the part {} vertices; unfold this part first",
+                                     flat.cols(), part.vertices()));
 }
 
 std::vector<SheetLine> trim_lines(const TriMesh& part, const Eigen::Matrix3Xd& state, const FaceSet& freed)
@@ -209,72 +198,6 @@ std::vector<SheetLine> bend_lines(const TriMesh& part, const BendMap& map, const
         add(fmt::format("{}, {}", map.name(label), map.name(bend.b)), to);
     }
     return lines;
-}
-
-SheetLine to_part(const TriMesh& part, const Eigen::Matrix2Xd& flat, const SheetLine& line)
-{
-    require_flat(part, flat);
-    const PlanarLocator locator(flat, part.triangle);
-    const auto lifted = [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
-        const MeshPoint place = locator.nearest(p);
-        if (place.distance > 10 * locator.tolerance())
-            throw InputError(fmt::format("the line \"{}\" leaves the blank at {:.6g}, {:.6g}, {:.3g} mm beside it",
-                                         line.name, p[0], p[1], place.distance));
-        return part.position(Eigen::all, part.triangle.col(place.face)) * place.barycentric;
-    };
-    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
-    std::vector<Eigen::Vector3d> points;
-    const Eigen::Index segments = segments_of(line);
-    for (Eigen::Index k = 0; k < segments; ++k) {
-        const Eigen::Vector2d p = line.point.col(k).head<2>(),
-                              d = line.point.col((k + 1) % line.point.cols()).head<2>() - p;
-        std::vector<double> at = {0};
-        for_each_edge(uses, [&](size_t begin, size_t) {
-            const Eigen::Vector2d a = flat.col(uses[begin].low), e = flat.col(uses[begin].high) - a;
-            const double turn = d.x() * e.y() - d.y() * e.x();
-            if (turn == 0)
-                return;
-            const double t = ((a - p).x() * e.y() - (a - p).y() * e.x()) / turn,
-                         s = ((a - p).x() * d.y() - (a - p).y() * d.x()) / turn;
-            if (t > 0 && t < 1 && s >= 0 && s <= 1)
-                at.push_back(t);
-        });
-        std::sort(at.begin(), at.end());
-        at.erase(std::unique(at.begin(), at.end(), [](double x, double y) { return y - x < 1e-9; }), at.end());
-        for (const double t : at)
-            points.push_back(lifted(p + t * d));
-    }
-    if (!line.closed)
-        points.push_back(lifted(line.point.col(line.point.cols() - 1).head<2>()));
-    return {line.name, columns(points), line.closed};
-}
-
-SheetLine to_blank(const TriMesh& part, const Eigen::Matrix2Xd& flat, const SheetLine& line)
-{
-    constexpr double reach = 0.005; // of the diagonal
-    require_flat(part, flat);
-    const ClosestPointSearch search(part);
-    const double within = reach * bounding_diagonal(part),
-                 spacing = std::sqrt(area(part) / part.triangles()); // about half an edge
-    const auto laid = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-        const ClosestPoint place = search.nearest(p);
-        if (place.distance > within)
-            throw InputError(fmt::format("the line \"{}\" is {:.3g} mm beside the part at {:.6g}, {:.6g}, {:.6g}",
-                                         line.name, place.distance, p[0], p[1], p[2]));
-        const Eigen::Vector2d q = flat(Eigen::all, part.triangle.col(place.face)) * place.barycentric;
-        return {q[0], q[1], 0};
-    };
-    std::vector<Eigen::Vector3d> points;
-    const Eigen::Index segments = segments_of(line);
-    for (Eigen::Index k = 0; k < segments; ++k) {
-        const Eigen::Vector3d a = line.point.col(k), b = line.point.col((k + 1) % line.point.cols());
-        const int pieces = std::max(1, int(std::ceil((b - a).norm() / spacing)));
-        for (int i = 0; i < pieces; ++i)
-            points.push_back(laid(a + (b - a) * i / pieces));
-    }
-    if (!line.closed)
-        points.push_back(laid(line.point.col(line.point.cols() - 1)));
-    return {line.name, columns(points), line.closed};
 }
 
 } // namespace spia

@@ -16,6 +16,9 @@ struct SheetLine {
 
 double length(const SheetLine& line); ///< mm
 
+/// @throws InputError unless there is a finite place of the blank for each vertex of the part
+void require_flat(const TriMesh& part, const Eigen::Matrix2Xd& flat);
+
 /// Where faces end at the part's own edge, in a state of it: after a step of the freed faces the developed edge of the flange, a
 /// trim line on the binder face. In the order of their smallest vertices.
 /// @param state 3 by #V, mm
@@ -25,14 +28,5 @@ std::vector<SheetLine> trim_lines(const TriMesh& part, const Eigen::Matrix3Xd& s
 /// middle between them ("bend 1"); of a sharp one the edge itself. A hole or a corner may part a line into several.
 /// @param map of the part; @param flat 2 by #V, mm: the blank
 std::vector<SheetLine> bend_lines(const TriMesh& part, const BendMap& map, const Eigen::Matrix2Xd& flat);
-
-/// A line that is drawn on the blank, on the part; it gains a point wherever it crosses an edge of the mesh.
-/// @param line points with x and y in the blank; z has no meaning
-/// @throws InputError if it leaves the blank, naming the point
-SheetLine to_part(const TriMesh& part, const Eigen::Matrix2Xd& flat, const SheetLine& line);
-
-/// A line that lies on the part, on the blank. Between its points it follows the part where that is nearest.
-/// @throws InputError if it is farther from the part than half a percent of its diagonal, naming the point
-SheetLine to_blank(const TriMesh& part, const Eigen::Matrix2Xd& flat, const SheetLine& line);
 
 } // namespace spia

@@ -16,6 +16,23 @@ for step in 1 2 3 4 5; do [ -s "$out/auto/lipped-channel-step$step.vtu" ] || fai
 [ ! -e "$out/auto/lipped-channel-step6.vtu" ] || fail "a sixth step"
 grep -q LWPOLYLINE "$out/auto/lipped-channel-blank.dxf" || fail "no outline"
 [ "$(grep -c '^BENDS' "$out/auto/lipped-channel-blank.dxf")" = 19 ] || fail "not three lines for each of six bends, and their layer"
+for file in step1-trim step3-trim blank; do
+    for ending in dxf iges step; do [ -s "$out/auto/lipped-channel-$file.$ending" ] || fail "no $file.$ending"; done
+done
+echo '{"lines": [{"name": "slot", "closed": true, "points": [[-60, -60], [50, -60], [50, 20], [-60, 20]]}, {"name": "off", "points": [[0, 0], [-900, 3]]}]}' > "$out/slot.json"
+expect_exit 1 "$spia" unfold "$part" --auto --out "$out/lines" --formats dxf --to-part "$out/slot.json" --strict
+grep -q '"off" leaves the blank at -900, 3' "$out.log" || fail "what leaves the blank is not named"
+[ ! -e "$out/lines/lipped-channel-step1.vtu" ] || fail "a format that was not asked for"
+expect_exit 0 "$spia" unfold "$part" --auto --out "$out/lines" --to-blank "$out/lines/lipped-channel-slot-on-part.dxf" --strict
+python3 - "$out/lines/lipped-channel-lipped-channel-slot-on-part-on-blank.json" <<'END' || fail "the slot does not come back"
+import json, sys
+line, = json.load(open(sys.argv[1]))["lines"]
+at = line["points"]
+assert line["closed"] and line["name"] == "slot"
+assert all(min(abs(x + 60), abs(x - 50), abs(y + 60), abs(y - 20)) < 1e-9 for x, y, z in at)
+assert abs(sum(((a[0] - b[0])**2 + (a[1] - b[1])**2)**.5 for a, b in zip(at, at[1:] + at[:1])) - 380) < 1e-9
+END
+expect_exit 2 "$spia" unfold "$part" --auto --to-part "$out/slot.json"
 grep -q '"flipped_triangles": 0' "$out/auto.json" || fail "the report has no blank"
 expect_exit 0 "$spia" unfold "$part" --script "$out/auto/lipped-channel-script.json" --out "$out/again" --threads 1 --strict
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "the script gives other bits"

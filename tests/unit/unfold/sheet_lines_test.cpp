@@ -1,4 +1,5 @@
-#include "engine/unfold/sheet_lines.h"
+#include "engine/mesh/closest_point.h"
+#include "engine/unfold/map_lines.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "tests/support/bent_parts.h"
+#include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -43,6 +45,8 @@ TEST(SheetLines, ABendHasItsBordersAndTheLineBetweenThem)
         EXPECT_NEAR(length(each), 120, 1e-6) << each.name;
         for (const auto& p : each.point.colwise())
             EXPECT_NEAR(p[0], x, 1e-6) << each.name;
+        for (Eigen::Index k = 1; k < each.point.cols(); ++k)
+            EXPECT_GT((each.point.col(k) - each.point.col(k - 1)).norm(), 1e-3) << each.name << ": no place twice";
     };
     EXPECT_EQ(lines[0].name, "bend 1");
     expect_at(lines[0], 40 + arc / 2);
@@ -134,6 +138,65 @@ TEST(SheetLines, WhatLeavesTheSheetIsRefusedAndNamed)
               }).find("two finite points"),
               std::string::npos);
     EXPECT_THROW(to_part(part.mesh, Eigen::Matrix2Xd::Zero(2, 3), line({{10, 20, 0}, {10, 30, 0}})), InputError);
+}
+
+TEST(SheetLines, ARoundTripOverAStretchedBlankComesBackToTheDrawnLine)
+{
+    // A dome is not developable: lengths change, places must not. The map is any that is one to one.
+    const TriMesh part = shapes::dome({.triangles = 2000}).mesh;
+    Eigen::Matrix2Xd flat = part.position.topRows<2>();
+    for (auto p : flat.colwise())
+        p *= 1 + 0.1 * p.squaredNorm() / 1e4;
+    const double r = flat.colwise().norm().maxCoeff();
+    SheetLine drawn{"ring", Eigen::Matrix3Xd::Zero(3, 60), true};
+    for (int k = 0; k < 60; ++k)
+        drawn.point.col(k) << 0.5 * r * std::cos(2 * pi * k / 60) + 0.1 * r, 0.4 * r * std::sin(2 * pi * k / 60), 0;
+    const SheetLine on_part = to_part(part, flat, drawn), back = to_blank(part, flat, on_part);
+    EXPECT_GT(on_part.point.cols(), drawn.point.cols());
+    double off = 0;
+    for (const auto& p : back.point.colwise()) {
+        double nearest = 1e9;
+        for (int k = 0; k < 60; ++k) {
+            const Eigen::Vector3d a = drawn.point.col(k), d = drawn.point.col((k + 1) % 60) - a;
+            nearest = std::min(nearest, (a + std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) * d - p).norm());
+        }
+        off = std::max(off, nearest);
+    }
+    EXPECT_LT(off, 1e-9);
+    EXPECT_NEAR(length(back), length(drawn), 1e-9 * length(drawn));
+    const SheetLine again = to_part(part, flat, back);
+    EXPECT_NEAR(length(again), length(on_part), 1e-9 * length(on_part));
+    const ClosestPointSearch search(part);
+    for (Eigen::Index k = 0; k < on_part.point.cols(); ++k) { // also between its points
+        const Eigen::Vector3d middle = (on_part.point.col(k) + on_part.point.col((k + 1) % on_part.point.cols())) / 2;
+        EXPECT_LT(search.nearest(middle).distance, 1e-9);
+    }
+}
+
+TEST(SheetLines, OfManyLinesOnlyThoseThatLeaveTheSheetAreLeftOut)
+{
+    const shapes::DevelopablePart part = angle_part();
+    std::vector<SheetLine> lines = {line({{10, 20, 0}, {20, 90, 0}}), line({{10, 20, 0}, {10, 130, 0}}),
+                                    line({{30, 20, 0}, {60, 20, 0}})};
+    lines[1].name = "too long";
+    const MappedLines up = to_part(part.mesh, part.flat, lines);
+    ASSERT_EQ(up.lines.size(), 2u);
+    ASSERT_EQ(up.left_out.size(), 1u);
+    EXPECT_NE(up.left_out[0].find("\"too long\" leaves the blank at 10, 130"), std::string::npos) << up.left_out[0];
+    const MappedLines down = to_blank(part.mesh, part.flat, up.lines);
+    EXPECT_EQ(down.lines.size(), 2u);
+    EXPECT_THROW(to_blank(part.mesh, Eigen::Matrix2Xd::Zero(2, 3), up.lines), InputError);
+}
+
+TEST(SheetLines, ALineThatJumpsFromOneFlangeToAnotherIsLeftOut)
+{
+    // A hem of two layers 0.1 mm apart: a line from one to the other is near the part everywhere, but no line on the blank.
+    const shapes::DevelopablePart hem =
+        shapes::extruded(Profile({0, 0}, 0).straight(40).bend(0.05, pi).straight(30), 60, 3000);
+    const Eigen::Vector3d below(20, 20, 0), above(20, 30, 0.1);
+    const MappedLines mapped = to_blank(hem.mesh, hem.flat, std::vector<SheetLine>{line({below, above})});
+    ASSERT_EQ(mapped.left_out.size(), 1u);
+    EXPECT_NE(mapped.left_out[0].find("jumps"), std::string::npos) << mapped.left_out[0];
 }
 
 } // namespace spia

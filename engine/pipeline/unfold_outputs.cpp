@@ -1,0 +1,87 @@
+#include "engine/pipeline/unfold_outputs.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/exchange/blank_outline.h"
+#include "engine/exchange/write_dxf.h"
+#include "engine/exchange/write_vtu.h"
+#include "engine/pipeline/line_file.h"
+
+namespace spia {
+namespace {
+
+std::vector<std::string> without(std::vector<std::string> formats, const std::string& one)
+{
+    std::erase(formats, one);
+    return formats;
+}
+
+} // namespace
+
+const std::vector<std::string>& unfold_formats()
+{
+    static const std::vector<std::string> formats = {"vtu", "dxf", "iges", "step"};
+    return formats;
+}
+
+std::vector<SheetLine> blank_lines(const TriMesh& part, const BendMap& map, const Blank& blank)
+{
+    std::vector<SheetLine> lines;
+    for (const OutlineLoop& loop : blank_outline(part, blank)) {
+        Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, loop.cols());
+        points.topRows<2>() = loop;
+        lines.push_back({lines.empty() ? "outline" : fmt::format("hole {}", lines.size()), points, true});
+    }
+    for (SheetLine& bend : bend_lines(part, map, blank.position))
+        lines.push_back(std::move(bend));
+    return lines;
+}
+
+std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
+                                                   const PartFile& part, const BendMap& map, const UnfoldScript& steps,
+                                                   const UnfoldRun& run, const FlattenResult* polished,
+                                                   const std::vector<std::string>& formats)
+{
+    std::filesystem::create_directories(folder);
+    std::vector<std::filesystem::path> files;
+    const auto wanted = [&](const char* format) {
+        return std::find(formats.begin(), formats.end(), format) != formats.end();
+    };
+    const auto add = [&](const std::vector<std::filesystem::path>& more) {
+        files.insert(files.end(), more.begin(), more.end());
+    };
+    for (size_t k = 0; k < run.states.size(); ++k) {
+        const UnfoldState& state = run.states[k];
+        const std::string stem = fmt::format("{}-step{}", name, k + 1);
+        if (wanted("vtu")) {
+            const std::pair<std::string, const Eigen::VectorXi*> numbers[] = {{"step", &state.step},
+                                                                              {"region", &map.label}};
+            files.push_back(folder / (stem + ".vtu"));
+            write_state_vtu(files.back(), part.mesh, state.position, state.face, numbers);
+        }
+        if (steps[k].kind == UnfoldKind::lay)
+            if (const auto trim = trim_lines(part.mesh, state.position, steps[k].pick.freed); !trim.empty())
+                add(write_line_files(folder, stem + "-trim", trim, formats));
+    }
+    if (!run.blank)
+        return files;
+    if (wanted("dxf")) {
+        files.push_back(folder / (name + "-blank.dxf"));
+        write_dxf(files.back(), blank_outline(part.mesh, *run.blank), LengthUnit::mm,
+                  bend_lines(part.mesh, map, run.blank->position));
+    }
+    add(write_line_files(folder, name + "-blank", blank_lines(part.mesh, map, *run.blank), without(formats, "dxf")));
+    if (polished && wanted("dxf")) {
+        files.push_back(folder / (name + "-polished.dxf"));
+        write_dxf(files.back(), blank_outline(part.mesh, polished->blank), LengthUnit::mm,
+                  bend_lines(part.mesh, map, polished->blank.position));
+    }
+    if (polished && wanted("vtu")) {
+        files.push_back(folder / (name + "-polished.vtu"));
+        write_vtu(files.back(), part.mesh, polished->blank, polished->face, polished->node);
+    }
+    return files;
+}
+
+} // namespace spia

@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/exchange/read_part.h"
+#include "engine/unfold/bends.h"
+#include "engine/unfold/sheet_lines.h"
+#include "engine/unfold/unfold_script.h"
+
+namespace spia {
+
+/// Endings by the names the command line uses.
+const std::vector<std::string>& unfold_formats();
+
+/// Writes what a run gave into a folder, which is made if need be. Of each step its state (NAME-stepN.vtu) and, if it laid
+/// faces on others, their developed edge as trim lines on the target (NAME-stepN-trim.dxf, .iges, .step); of the blank its
+/// outline and bend lines (NAME-blank.dxf, .iges, .step).
+/// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null
+/// @param formats some of unfold_formats()
+/// @returns the files, in the order written
+std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
+                                                   const PartFile& part, const BendMap& map, const UnfoldScript& steps,
+                                                   const UnfoldRun& run, const FlattenResult* polished = nullptr,
+                                                   const std::vector<std::string>& formats = unfold_formats());
+
+/// Outline ("outline"), holes ("hole 1" ...) and bend lines of a blank, in the plane z = 0.
+std::vector<SheetLine> blank_lines(const TriMesh& part, const BendMap& map, const Blank& blank);
+
+} // namespace spia
