@@ -13,7 +13,11 @@ Eigen::Matrix3Xd places_in_space(const ViewerState& state, const PartFile& part)
         return place;
     for (size_t k = 0; k < steps_done(state.document); ++k) {
         const Eigen::Matrix3Xd& after = state.document.unfolding->run.states[k].position;
-        const Eigen::AlignedBox3d box(after.rowwise().minCoeff(), after.rowwise().maxCoeff());
+        constexpr double wider = 0.11; // either way: faces in space reach beyond what lies on them
+        Eigen::AlignedBox3d box(after.rowwise().minCoeff(), after.rowwise().maxCoeff());
+        const Eigen::Vector3d size = box.sizes();
+        box.extend(box.min() - wider * size);
+        box.extend(box.max() + wider * size);
         place.conservativeResize(3, place.cols() + 8);
         for (int c = 0; c < 8; ++c)
             place.col(place.cols() - 8 + c) = box.corner(Eigen::AlignedBox3d::CornerType(c));
@@ -97,9 +101,11 @@ Margins ViewFitter::margins(const ViewerState& state, View view) const
     const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
                           : view == View::quads                             ? 92  // its title is long
                                                                             : 72;
+    const bool stepwise = view == View::part && (step_shown(state) || step_position(state) > 0);
     const bool coloured = view == View::quads     ? state.view.quad_quality
                           : view == View::surface ? state.view.surface_deviation
-                                                  : document.display.field != Field::none;
+                          : stepwise ? state.view.field_on_steps && available_in_steps(document.display.field)
+                                     : document.display.field != Field::none;
     return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};
 }
 

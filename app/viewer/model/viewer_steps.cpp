@@ -74,8 +74,12 @@ void ViewerModel::take_steps_result()
         document.steps = std::move(*outcome.proposed);
         document.bends = outcome.bends;
         show_step(0, 0);
-        for (const std::string& note : outcome.notes)
-            say(Severity::hint, sentence(note));
+        constexpr size_t most_notes = 2;
+        for (size_t k = 0; k < std::min(most_notes, outcome.notes.size()); ++k)
+            say(Severity::hint, sentence(outcome.notes[k]));
+        if (outcome.notes.size() > most_notes)
+            say(Severity::hint, fmt::format("Likewise {} elsewhere.",
+                                            counted(outcome.notes.size() - most_notes, "place")));
         say(Severity::done,
             fmt::format("The part has {} and {}; proposed {}.", counted(outcome.bends->map.regions.size(), "region"),
                         counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));
@@ -88,7 +92,10 @@ void ViewerModel::take_steps_result()
         } else {
             change("Run the steps");
             document.unfolding = run;
-            if (const size_t done = steps_done(document); done > 0)
+            const size_t done = steps_done(document);
+            if (!run->run.failure.empty()) // the one to be changed
+                show_step(int(std::min(done, document.steps.size() - 1)), double(done));
+            else if (done > 0)
                 show_step(int(done) - 1, double(done));
         }
     }

@@ -103,6 +103,13 @@ ImVec4 status_colour(const Palette& p, StepStatus status)
                                                                           : p.muted;
 }
 
+/// With a sign, but for what is nothing when rounded.
+std::string percent(double share)
+{
+    const double tenths = std::round(1000 * share) / 10;
+    return tenths == 0 ? "0" : fmt::format("{:+.1f}", tenths);
+}
+
 /// The figures of a step, or why there are none, in one line below its name.
 void figures_line(Frame& frame, size_t number, StepStatus status)
 {
@@ -112,13 +119,15 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
     if (status == StepStatus::done || status == StepStatus::poor) {
         const StepFigures& figures = document.unfolding->figure[number];
         const UnfoldState& after = document.unfolding->run.states[number];
-        muted(frame, fmt::format("{}, thinning {:+.1f} to {:+.1f} %, strain {:.3f}", after.plain,
-                                 100 * figures.thinning[0], 100 * figures.thinning[1], figures.strain_equivalent));
-        tooltip("What it was laid on. Thinning per face and the greatest equivalent strain of the faces it moves.");
+        const std::string text =
+            fmt::format("{}, strain to {:.3f}\nthinning {} to {} %", after.plain, figures.strain_equivalent,
+                        percent(figures.thinning[0]), percent(figures.thinning[1]));
+        muted(frame, text);
+        tooltip("What it was laid on; equivalent strain and thinning per face of the faces that it moves.");
         if (status == StepStatus::poor)
             coloured(p.warning, "Not converged: " + after.reason);
     } else if (status == StepStatus::failed)
-        coloured(p.error, as_sentence(document.unfolding->run.failure));
+        coloured(p.error, as_sentence(in_viewer_words(document.unfolding->run.failure)));
     else
         coloured(status_colour(p, status), status_words(status));
     ImGui::PopFont();

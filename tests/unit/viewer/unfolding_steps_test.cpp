@@ -217,7 +217,9 @@ TEST_F(UnfoldingSteps, AStepWithoutAResultSaysSoAndKeepsTheStatesBeforeIt)
     EXPECT_THAT(last(Severity::error), HasSubstr(fmt::format("Step 2 \"{}\" has no result", document.steps[1]->name)));
     EXPECT_THAT(last(Severity::error), HasSubstr("7 mm beside the target"));
     EXPECT_THAT(last(Severity::error), HasSubstr("The states up to step 1 are kept"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("take away its offset")) << "what can be done here";
     EXPECT_EQ(step_position(state), 1);
+    EXPECT_EQ(state.view.step, 1) << "to be changed";
     change.offset_mm = 0;
     model.apply(change);
     EXPECT_EQ(status()[1], missing);
