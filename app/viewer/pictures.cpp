@@ -136,7 +136,7 @@ Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerStat
     ui.scale = scale;
     ui.fonts = gui.fonts();
     ActionQueue nobody;
-    Frame frame{model, state, nobody, ui, cache, {}};
+    Frame frame{model, state, nobody, ui, cache, {}, {}};
     gui.frame([&] {
         ImDrawList* const draw = ImGui::GetBackgroundDrawList();
         const ImVec2 size{float(width), float(height)};
@@ -169,6 +169,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.sample = false;
     aside.show_export = aside.show_picture = aside.show_report = aside.show_material = aside.show_shortcuts = false;
     std::array<Renderer::Image, 4> images;
+    std::vector<Renderer::Image> steps;
     ActionQueue nobody;
     Look look;
     look.dark = model.state().view.dark;
@@ -179,6 +180,12 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
                     const Camera& camera = model.state().view.camera[size_t(view)];
                     return reinterpret_cast<ImTextureID>(
                         uintptr_t(renderer.draw(images[size_t(view)], shown, camera, w, h, look)));
+                },
+                [&](const StepPicture& small, size_t step, int w, int h) {
+                    while (steps.size() <= step)
+                        steps.emplace_back();
+                    return reinterpret_cast<ImTextureID>(
+                        uintptr_t(renderer.draw(steps[step], small.scene, small.camera, w, h, look)));
                 }};
     constexpr int frames_to_settle = 3; // until windows that fit their content have their size
     for (int k = 0; k < frames_to_settle; ++k)

@@ -211,6 +211,10 @@ private:
                       return reinterpret_cast<ImTextureID>(
                           uintptr_t(images_.draw(size_t(view), ui_.busy == view, shown,
                                                  model_.state().view.camera[size_t(view)], w, h, look())));
+                  },
+                  [&](const StepPicture& picture, size_t step, int w, int h) {
+                      return reinterpret_cast<ImTextureID>(
+                          uintptr_t(images_.draw_small(step, picture.scene, picture.camera, w, h, look())));
                   }};
         ui_.keys = std::exchange(ui_.keys_later, {});
         for (const KeyPress& press : std::exchange(GlWindow::keys(), {}))

@@ -90,6 +90,12 @@ TEST_F(Scripts, MendAPartOfTwoPieces)
     run("faults.json");
 }
 
+TEST_F(Scripts, UnfoldStepByStep)
+{
+    run("unfolding.json");
+    EXPECT_EQ(png_size(folder / "unfolding.png"), std::pair(600, 400));
+}
+
 TEST_F(Scripts, CancelALongSolveAndKeepWhatWasThere)
 {
     shapes::write_mesh(folder / "large.obj", shapes::sample("fender").make(60000));

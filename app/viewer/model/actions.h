@@ -75,6 +75,42 @@ struct SetLimits {
     LimitsChoice limits;
 };
 
+// --- unfolding step by step
+/// "propose_steps": replaces the list; keep: a face whose region stays where it is, not given: the largest flat region. In the
+/// background.
+struct ProposeSteps {
+    std::optional<int> keep = {};
+};
+struct RunSteps {}; ///< "run_steps": those that are missing or out of date, in the background
+/// "add_step": lays the faces of a region (freed; not given: the selected faces) on the face that those of another one (fixed) lie
+/// on; everything else stays. name may be empty
+struct AddStep {
+    int fixed = 0;
+    std::optional<int> freed = {};
+    std::string name = {};
+};
+/// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0: automatic), tolerance (null: that
+/// of the solver)
+struct ChangeStep {
+    int step = 0;
+    std::string name = {};
+    double offset_mm = 0;
+    double within_mm = 0;
+    std::optional<double> tolerance = {};
+};
+struct RemoveStep {
+    int step = 0;
+}; ///< "remove_step"
+struct MoveStep {
+    int step = 0, to = 0;
+}; ///< "move_step": to another place in the list
+/// "show_step": step (from 0), whose faces are marked; position of the slider, 0: the part, k: after step k. Where only one is
+/// given the other follows; where neither is, the part is shown.
+struct ShowStep {
+    std::optional<int> step = {};
+    std::optional<double> position = {};
+};
+
 // --- picking
 enum class PickMode { replace, add, remove };
 struct SelectFaces {
@@ -243,7 +279,8 @@ struct Quit {};            ///< "quit"
 
 using Action =
     std::variant<OpenPart, SetUnit, SetReading, SetSeam, RunTo, CancelJob, SetMaterial, FitMaterial, SetThickness,
-                 SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits, SelectFaces, PickAt,
+                 SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits, ProposeSteps, RunSteps,
+                 AddStep, ChangeStep, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt,
                  PickArea, PickBrush, SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection,
                  InvertSelection, ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet,
                  AddLine, ChangeLine, RemoveLine, PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe,

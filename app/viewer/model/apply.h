@@ -49,6 +49,18 @@ struct ViewerModel::Apply {
     void operator()(const SetEnds& action);
     void operator()(const SetLimits& action);
 
+    // --- unfolding step by step
+    void require_idle() const;
+    size_t step(int number) const;
+    void change_steps(std::string name, StepList steps, bool merge = false);
+    void operator()(const ProposeSteps& action);
+    void operator()(const RunSteps&);
+    void operator()(const AddStep& action);
+    void operator()(const ChangeStep& action);
+    void operator()(const RemoveStep& action);
+    void operator()(const MoveStep& action);
+    void operator()(const ShowStep& action);
+
     // --- picking
     void select(std::vector<int> faces, PickMode mode, const char* name);
     void operator()(const SelectFaces& action) { select(action.faces, action.mode, "Select faces"); }

@@ -13,6 +13,13 @@ void ViewerModel::Apply::begin_with(Document fresh)
         model.chain_job_->cancel();
         model.ending_.push_back(std::move(model.chain_job_));
     }
+    if (model.steps_job_) {
+        model.steps_job_->cancel();
+        model.ending_steps_.push_back(std::move(model.steps_job_));
+    }
+    model.steps_next_ = model.keep_step_ = false;
+    state.view.unfolded = 0;
+    state.view.step.reset();
     model.next_.reset();
     model.unsaved_before_.reset();
     model.project_.reset();
@@ -115,6 +122,8 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         message.dismissed |= message.severity != Severity::error;
     if (model.export_job_)
         throw InputError("Wait for the export to end.");
+    if (model.steps_job_)
+        throw InputError("Wait for the steps to end, or cancel them.");
     if (model.chain_job_) { // the newest wish counts
         model.next_ = std::max(model.next_.value_or(action.stage), action.stage);
         return;
@@ -129,6 +138,9 @@ void ViewerModel::Apply::operator()(const RunTo& action)
 void ViewerModel::Apply::operator()(const CancelJob&)
 {
     model.next_.reset();
+    model.steps_next_ = false;
+    if (model.steps_job_)
+        model.steps_job_->cancel();
     if (model.chain_job_)
         model.chain_job_->cancel();
     if (model.export_job_)

@@ -9,7 +9,7 @@ namespace spia::viewer {
 
 void ViewerModel::Apply::go(void (History::*way)(Document&))
 {
-    if (model.chain_job_)
+    if (model.chain_job_ || model.steps_job_)
         throw InputError("Cancel the running job first; then undo.");
     if (way == &History::undo ? state.history.undo_name().empty() : state.history.redo_name().empty())
         return;
@@ -43,7 +43,7 @@ void ViewerModel::Apply::operator()(const SaveProject& action)
 
 void ViewerModel::Apply::operator()(const ExportFiles& action)
 {
-    if (model.chain_job_ || model.export_job_)
+    if (model.busy())
         throw InputError("Wait for the running job to end, then export.");
     if (!session.blank)
         throw InputError("There is nothing to export yet: run the chain first.");

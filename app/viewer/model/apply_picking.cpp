@@ -20,6 +20,10 @@ void ViewerModel::Apply::select(std::vector<int> faces, PickMode mode, const cha
 
 const RayPicker& ViewerModel::Apply::picker(View view)
 {
+    model.pickers_.follow_steps(state);
+    if (view == View::part && model.pickers_.on_the_way())
+        throw InputError("The part is on the way from one step to the next; move the slider of the steps to a whole "
+                         "step to pick on it.");
     if (const RayPicker* found = model.pickers_.picker(session, view))
         return *found;
     throw InputError(view == View::blank ? "Unfold the part first." : "Open a part first.");
@@ -175,6 +179,8 @@ void ViewerModel::Apply::operator()(const ClearProbes&)
 
 void ViewerModel::Apply::operator()(const DrawSection& action)
 {
+    if (action.view == View::part && step_position(state) > 0)
+        throw InputError("A section cuts the part as it is formed; move the slider of the steps back to the part.");
     const RayPicker& on = picker(action.view);
     const Camera& from = camera(action.view);
     const Ray a = ray_through(from, on.box(), action.from, action.size),

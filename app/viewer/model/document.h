@@ -9,6 +9,7 @@
 #include "app/viewer/model/limits_choice.h"
 #include "app/viewer/model/process_choice.h"
 #include "app/viewer/model/scene.h"
+#include "app/viewer/model/unfolding_steps.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::viewer {
@@ -71,6 +72,9 @@ struct Document {
     std::vector<Probe> probes;
     std::optional<SectionLine> section;
     LimitsChoice limits;
+    StepList steps;                            ///< of unfolding step by step
+    std::shared_ptr<const PartBends> bends;    ///< found for the last proposal; null: none yet
+    std::shared_ptr<const StepsRun> unfolding; ///< the last run of steps, see steps_done(); null: none yet
     FieldDisplay display;
 };
 

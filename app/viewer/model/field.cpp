@@ -219,4 +219,18 @@ Eigen::VectorXd values(const Session& session, Field field, bool per_face)
     return of_sheet(per_face ? session.blank->face : session.blank->node, field);
 }
 
+bool available_in_steps(Field field)
+{
+    return (field >= Field::thickness && field <= Field::stress_equivalent) || field == Field::necking;
+}
+
+Eigen::VectorXd values(const TriMesh& part, const SheetFields& of_face, Field field, bool per_face)
+{
+    if (!available_in_steps(field))
+        throw InputError(fmt::format("the steps have no field \"{}\"; choose a strain, a stress or the thickness",
+                                     info(field).name));
+    const Eigen::VectorXd values = of_sheet(of_face, field);
+    return per_face ? values : vertex_mean(part, values);
+}
+
 } // namespace spia::viewer

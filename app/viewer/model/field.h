@@ -60,4 +60,9 @@ bool of_skins(Field field);
 /// @throws InputError if it is not available
 Eigen::VectorXd values(const Session& session, Field field, bool per_face);
 
+/// Whether a state of unfolding step by step has the field.
+bool available_in_steps(Field field);
+/// Likewise of such a state. @throws InputError if it does not have the field
+Eigen::VectorXd values(const TriMesh& part, const SheetFields& of_face, Field field, bool per_face);
+
 } // namespace spia::viewer

@@ -167,7 +167,10 @@ inline constexpr auto members_of<ViewSettings> =
                member("control_net", &ViewSettings::control_net),
                member("part_under_quads", &ViewSettings::part_under_quads),
                member("surface_deviation", &ViewSettings::surface_deviation),
-               member("quad_quality", &ViewSettings::quad_quality)};
+               member("quad_quality", &ViewSettings::quad_quality),
+               member("unfolded", &ViewSettings::unfolded, Between{0, 1e6}),
+               member("step", &ViewSettings::step, any_index),
+               member("field_on_steps", &ViewSettings::field_on_steps)};
 
 /// Takes over what `wanted` has otherwise than `seen`: two changes of different members made at the same time, each from
 /// what was seen then, both count.

@@ -24,6 +24,10 @@ template <>
 inline constexpr std::array names_of<LineKind>{Names<LineKind>{LineKind::drawbead, "drawbead"},
                                                Names<LineKind>{LineKind::pilot, "pilot"}};
 template <>
+inline constexpr std::array names_of<UnfoldKind>{Names<UnfoldKind>{UnfoldKind::lay, "lay"},
+                                                 Names<UnfoldKind>{UnfoldKind::unroll, "unroll"},
+                                                 Names<UnfoldKind>{UnfoldKind::flatten, "flatten"}};
+template <>
 inline constexpr std::array names_of<View>{Names<View>{View::part, "part"}, Names<View>{View::blank, "blank"},
                                            Names<View>{View::quads, "quads"}, Names<View>{View::surface, "surface"}};
 template <>

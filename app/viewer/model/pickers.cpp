@@ -40,11 +40,36 @@ void Pickers::follow(const Session& session)
     }
 }
 
+void Pickers::follow_steps(const ViewerState& state)
+{
+    const double position = step_position(state);
+    const auto steps = size_t(position);
+    on_the_way_ = position != double(steps);
+    if (steps == 0 || on_the_way_) {
+        unfolded_.reset();
+        run_.reset();
+        on_unfolded_ = {};
+        return;
+    }
+    if (run_ == state.document.unfolding && steps_ == steps)
+        return;
+    run_ = state.document.unfolding;
+    steps_ = steps;
+    unfolded_ = std::make_shared<TriMesh>(
+        TriMesh{run_->run.states[steps - 1].position, state.document.session.part->mesh.triangle});
+    on_unfolded_.boundary = worker_.later([mesh = unfolded_] { return boundary_vertices(*mesh); });
+    on_unfolded_.picker = worker_.later([mesh = unfolded_] { return RayPicker(*mesh); });
+}
+
 const TriMesh* Pickers::mesh(const Session& session, View view)
 {
     follow(session);
     if (view == View::blank)
         return flat_.get();
+    if (view == View::part && on_the_way_)
+        return nullptr;
+    if (view == View::part && unfolded_)
+        return unfolded_.get();
     return part_ ? &part_->mesh : nullptr;
 }
 

@@ -20,6 +20,10 @@ public:
 
     /// Begins to make those of this session.
     void follow(const Session& session);
+    /// The view of the part shows it as unfolded by its steps: what is picked there is that.
+    void follow_steps(const ViewerState& state);
+    /// Whether the view of the part shows it on the way from one state to the next: nothing can be picked there.
+    bool on_the_way() const { return on_the_way_; }
 
     /// That of a view: the blank's, or the part's for the others. Null if there is nothing to pick yet.
     const RayPicker* picker(const Session& session, View view);
@@ -45,12 +49,19 @@ private:
         Eventually<RayPicker> picker;
         Eventually<BoundaryVertices> boundary;
     };
-    Search& search(View view) { return view == View::blank ? on_blank_ : on_part_; }
+    Search& search(View view)
+    {
+        return view == View::blank ? on_blank_ : view == View::part && unfolded_ ? on_unfolded_ : on_part_;
+    }
 
     std::shared_ptr<const PartFile> part_;
     std::shared_ptr<const FlattenResult> blank_;
     std::shared_ptr<const TriMesh> flat_; ///< the blank as a mesh in space
-    Search on_part_, on_blank_;
+    Search on_part_, on_blank_, on_unfolded_;
+    std::shared_ptr<const StepsRun> run_;
+    size_t steps_ = 0;                        ///< of the run, after which the part is shown
+    std::shared_ptr<const TriMesh> unfolded_; ///< the part then; null: it is shown as it is
+    bool on_the_way_ = false;
     Eventually<RegionSearch> regions_;
     Eventually<std::vector<int>> longest_;
     Eventually<CornerTrack> track_;

@@ -43,6 +43,7 @@ struct StoredProject {
     bool natural_ends = false;
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
     std::optional<Stage> ran;
+    bool steps_ran = false;
     double edge_restraint = 0;
     std::optional<Eigen::Vector3d> rolling;
     LimitsChoice limits;
@@ -83,11 +84,26 @@ inline constexpr auto members_of<StoredVertex> =
     std::tuple{required("vertex", &StoredVertex::vertex, any_index), member("boundary", &StoredVertex::boundary),
                required("at", &StoredVertex::at, anywhere_in_space), required("normal", &StoredVertex::normal)};
 template <>
+inline constexpr auto members_of<StoredStep> =
+    std::tuple{member("kind", &StoredStep::kind),
+               required("name", &StoredStep::name),
+               member("fixed", &StoredStep::fixed, any_index),
+               required("freed", &StoredStep::freed, any_index),
+               member("carrying", &StoredStep::carrying, any_index),
+               member("within_mm", &StoredStep::within_mm, Between{0, most_mm}),
+               member("offset_mm", &StoredStep::offset_mm, Between{-most_mm, most_mm}),
+               member("tolerance", &StoredStep::tolerance, Between{1e-15, 1}),
+               member("most_energy_steps", &StoredStep::most_energy_steps, Between{0, 1e6}),
+               member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6})};
+template <>
+inline constexpr auto members_of<StoredSteps> =
+    std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step)};
+template <>
 inline constexpr auto members_of<StoredPicks> =
     std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),
                member("vertices", &StoredPicks::vertices),       member("regions", &StoredPicks::regions),
                member("probes", &StoredPicks::probes),           member("lines", &StoredPicks::lines),
-               member("corners", &StoredPicks::corners)};
+               member("corners", &StoredPicks::corners),         member("steps", &StoredPicks::steps)};
 template <>
 inline constexpr auto members_of<SectionLine> =
     std::tuple{required("from", &SectionLine::from, anywhere_in_space),
@@ -115,6 +131,7 @@ inline constexpr auto members_of<StoredProject> =
                member("natural_ends", &StoredProject::natural_ends),
                member("parameters", &StoredProject::parameters),
                member("ran", &StoredProject::ran),
+               member("steps_ran", &StoredProject::steps_ran),
                member("edge_restraint", &StoredProject::edge_restraint, Between{0, 1}),
                member("rolling", &StoredProject::rolling),
                member("limits", &StoredProject::limits),
@@ -253,6 +270,7 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.natural_ends = session.options.interpolate.ends == InterpolateOptions::Ends::natural;
     stored.parameters = session.options.interpolate.parameters;
     stored.ran = last_stage(session);
+    stored.steps_ran = steps_done(document) > 0;
     stored.edge_restraint = document.edge_restraint;
     stored.rolling = document.rolling;
     stored.limits = document.limits;
@@ -278,7 +296,11 @@ Project open_project(const fs::path& file, const fs::path& materials)
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
     const fs::path folder = (error ? file : whole).parent_path();
-    return {document_of(stored, file, folder, materials), stored.view, std::move(stored.picks), stored.ran,
+    return {document_of(stored, file, folder, materials),
+            stored.view,
+            std::move(stored.picks),
+            stored.ran,
+            stored.steps_ran,
             stored.recovers};
 }
 

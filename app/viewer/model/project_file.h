@@ -18,6 +18,7 @@
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
 /// | `ran` | the last stage that had been run, or null |
+/// | `steps_ran` | whether steps of unfolding had been run |
 /// | `edge_restraint`, `rolling` | as in the script action set_process |
 /// | `limits`, `limits_table` | as in the script action set_limits; the table given like the file of the part |
 /// | `display`, `view` | as in the script actions set_display and set_view |
@@ -38,6 +39,7 @@ struct Project {
     ViewSettings view;
     StoredPicks picks;
     std::optional<Stage> ran;
+    bool steps_ran = false;
     std::filesystem::path recovers;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <set>
+#include <utility>
 
 #include "app/viewer/model/changed_part.h"
 #include "app/viewer/model/file_numbers.h"
@@ -122,6 +123,48 @@ public:
         return result;
     }
 
+    StepList steps(const StoredSteps& stored)
+    {
+        std::vector<std::vector<int>> patch;
+        std::vector<char> taken(size_t(part_.mesh.triangles()), 0); // a face of a changed part may lie over two patches
+        for (const StoredPatch& each : stored.patch) {
+            patch.emplace_back();
+            for (const int f : faces(each, "the steps of unfolding"))
+                if (!std::exchange(taken[size_t(f)], 1))
+                    patch.back().push_back(f);
+        }
+        const auto all_of = [&](const std::vector<int>& patches, const std::string& name) {
+            std::vector<int> result;
+            for (const int k : patches) {
+                if (k < 0 || size_t(k) >= patch.size())
+                    throw InputError(fmt::format("the step \"{}\" names patch {}, which is not there", name, k));
+                result.insert(result.end(), patch[size_t(k)].begin(), patch[size_t(k)].end());
+            }
+            std::sort(result.begin(), result.end());
+            return result;
+        };
+        StepList result;
+        for (const StoredStep& each : stored.step) {
+            PlannedStep step;
+            step.kind = each.kind;
+            step.name = each.name;
+            step.pick.fixed = all_of(each.fixed, each.name);
+            step.pick.freed = all_of(each.freed, each.name);
+            step.pick.carrying = all_of(each.carrying, each.name);
+            step.within_mm = each.within_mm;
+            step.offset_mm = each.offset_mm;
+            step.tolerance = each.tolerance;
+            step.most_energy_steps = each.most_energy_steps;
+            step.most_newton_steps = each.most_newton_steps;
+            if (step.pick.freed.empty())
+                missing.push_back(fmt::format(
+                    "the step \"{}\" has nothing to move on the changed part any more; it was removed", each.name));
+            else
+                result.push_back(std::make_shared<PlannedStep>(std::move(step)));
+        }
+        return result;
+    }
+
     std::optional<std::array<int, 4>> corners(const std::array<StoredCorner, 4>& stored)
     {
         std::array<int, 4> result;
@@ -192,6 +235,7 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
                                     restorer.faces(region.patch, fmt::format("the region \"{}\"", region.name)),
                                     region.contact, region.sheet});
     restored.lines = restorer.lines(picks.lines);
+    restored.steps = restorer.steps(picks.steps);
     restored.probes.clear();
     for (size_t i = 0; i < picks.probes.size(); ++i)
         if (const auto probe = restorer.probe(picks.probes[i], i))

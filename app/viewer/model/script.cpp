@@ -81,6 +81,18 @@ constexpr std::tuple forms{
     form_of_inner("set_grid", &SetGrid::grid),
     form<SetEnds>("set_ends", required("natural", &SetEnds::natural)),
     form_of_inner("set_limits", &SetLimits::limits),
+    form<ProposeSteps>("propose_steps", member("keep", &ProposeSteps::keep, any_index)),
+    form<RunSteps>("run_steps"),
+    form<AddStep>("add_step", required("fixed", &AddStep::fixed, any_index),
+                  member("freed", &AddStep::freed, any_index), member("name", &AddStep::name)),
+    form<ChangeStep>("change_step", required("step", &ChangeStep::step, any_index), member("name", &ChangeStep::name),
+                     member("offset_mm", &ChangeStep::offset_mm, Between{-most_mm, most_mm}),
+                     member("within_mm", &ChangeStep::within_mm, Between{0, most_mm}),
+                     member("tolerance", &ChangeStep::tolerance, Between{1e-15, 1})),
+    form<RemoveStep>("remove_step", required("step", &RemoveStep::step, any_index)),
+    form<MoveStep>("move_step", required("step", &MoveStep::step, any_index), required("to", &MoveStep::to, any_index)),
+    form<ShowStep>("show_step", member("step", &ShowStep::step, any_index),
+                   member("position", &ShowStep::position, Between{0, 1e6})),
     form<SelectFaces>("select_faces", required("faces", &SelectFaces::faces, any_index),
                       member("mode", &SelectFaces::mode)),
     form<PickAt>("pick_at", member("view", &PickAt::view), required("pixel", &PickAt::pixel),
@@ -190,6 +202,16 @@ template <> ChangeRegion before(const Json& json, const ViewerState& state)
         return {}; // reading complains, or carrying it out
     const FaceRegion& region = regions[number->get<size_t>()];
     return {number->get<int>(), region.name, region.kind, region.colour};
+}
+
+template <> ChangeStep before(const Json& json, const ViewerState& state)
+{
+    const StepList& steps = state.document.steps;
+    const auto number = json.find("step");
+    if (number == json.end() || !number->is_number_unsigned() || number->get<size_t>() >= steps.size())
+        return {}; // reading complains, or carrying it out
+    const PlannedStep& step = *steps[number->get<size_t>()];
+    return {number->get<int>(), step.name, step.offset_mm, step.within_mm, step.tolerance};
 }
 
 template <class T> T read_action(const Json& json, const ViewerState& base, const Place& place)

@@ -21,7 +21,8 @@
 ///     ]}
 ///
 /// An action has the members of its struct in actions.h; set_grid, set_display, set_view and add_probe those of the struct
-/// in it. What is not given keeps its default; in set_grid, set_display, set_view and change_region its present value.
+/// in it. What is not given keeps its default; in set_grid, set_display, set_view, change_region and change_step
+/// its present value.
 /// Vectors are lists of numbers, turns w, x, y, z; enumerations have the names of names.h. Comments are allowed. Paths
 /// count from the folder in which the program was started.
 namespace spia::viewer {

@@ -1,5 +1,7 @@
 #include "app/viewer/model/state.h"
 
+#include <algorithm>
+
 #include "app/viewer/model/chain.h"
 #include "app/viewer/model/names.h"
 
@@ -46,11 +48,26 @@ bool is_old(const ViewerState& state, View view)
         return false;
     switch (view) {
     case View::part:
+        if (step_shown(state) || step_position(state) > 0) // which has an age of its own
+            return false;
+        [[fallthrough]];
     case View::blank: return state.document.session.blank && *stale <= Stage::solve;
     case View::quads: return quads_shown(state).lifted && *stale <= Stage::lift;
     case View::surface: return surface_shown(state).surface != nullptr;
     }
     return false;
+}
+
+double step_position(const ViewerState& state)
+{
+    return std::clamp(state.view.unfolded, 0., double(steps_done(state.document)));
+}
+
+const PlannedStep* step_shown(const ViewerState& state)
+{
+    const StepList& steps = state.document.steps;
+    const auto chosen = state.view.step;
+    return chosen && *chosen >= 0 && size_t(*chosen) < steps.size() ? steps[size_t(*chosen)].get() : nullptr;
 }
 
 std::string window_title(const ViewerState& state)

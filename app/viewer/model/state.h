@@ -37,6 +37,9 @@ struct ViewSettings {
     bool part_under_quads = true;
     bool surface_deviation = true;
     bool quad_quality = true;
+    double unfolded = 0;           ///< 0: the part; k: after step k; between: on the way. See step_position()
+    std::optional<int> step;       ///< the chosen one, from 0: its faces are marked
+    bool field_on_steps = false;   ///< the field of the states instead of the marks
 };
 
 enum class Severity { hint, done, warning, error };
@@ -93,6 +96,11 @@ struct ViewerState {
     std::optional<ShownFault> fault;         ///< the one that is looked at
     std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
 };
+
+/// How far the view of the part is unfolded: as chosen, as far as there are states that hold.
+double step_position(const ViewerState& state);
+/// The step that is looked at, if there is one.
+const PlannedStep* step_shown(const ViewerState& state);
 
 /// What the views of quads and surface show: the results of the session, and while newer ones of the same blank are being made,
 /// those before. Null where there is nothing to show.

@@ -155,6 +155,41 @@ Json corners_json(const Session& session)
     return list;
 }
 
+Json unfolding_json(const ViewerState& state)
+{
+    const Document& document = state.document;
+    const size_t done = steps_done(document);
+    Json list = Json::array();
+    for (size_t k = 0; k < document.steps.size(); ++k) {
+        const PlannedStep& step = *document.steps[k];
+        Json json = {{"name", step.name},
+                     {"kind", name(step.kind)},
+                     {"carrying", carrying_faces(step).size()},
+                     {"freed", step.pick.freed.size()},
+                     {"offset_mm", step.offset_mm},
+                     {"within_mm", step.within_mm},
+                     {"tolerance", written(step.tolerance)},
+                     {"status", name(step_status(document, k))}};
+        if (k < done) {
+            const UnfoldState& after = document.unfolding->run.states[k];
+            const StepFigures& figure = document.unfolding->figure[k];
+            json["on"] = after.plain;
+            json["thinning"] = figure.thinning;
+            json["strain_equivalent"] = figure.strain_equivalent;
+            json["reason"] = after.reason;
+        }
+        list.push_back(std::move(json));
+    }
+    Json json = {{"steps", list}, {"done", done}, {"position", step_position(state)}, {"blank", nullptr}};
+    json["failure"] = document.unfolding ? document.unfolding->run.failure : "";
+    if (all_steps_done(document) && document.unfolding->run.blank) {
+        const Eigen::Matrix2Xd& flat = document.unfolding->run.blank->position;
+        json["blank"] = {{"size", vector_json(flat.rowwise().maxCoeff() - flat.rowwise().minCoeff())},
+                         {"flipped", document.unfolding->run.flipped}};
+    }
+    return json;
+}
+
 Json messages_json(const std::vector<Message>& messages)
 {
     Json list = Json::array();
@@ -196,6 +231,7 @@ Json state_report(const ViewerState& state)
             {"lines", written(document.lines)},
             {"process", {{"edge_restraint", document.edge_restraint}, {"rolling", written(document.rolling)}}},
             {"limits", written(document.limits)},
+            {"unfolding", unfolding_json(state)},
             {"probes", probes_json(document, field)},
             {"display", written(document.display)},
             {"field", field_json(document, field)},

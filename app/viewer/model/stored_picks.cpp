@@ -21,6 +21,69 @@ void require_triangle(const TriMesh& mesh, int triangle)
                                      mesh.triangles() - 1));
 }
 
+std::vector<StoredVertex> store_vertices(const PartFile& part, const std::vector<int>& vertices)
+{
+    if (vertices.empty())
+        return {};
+    const TriMesh& mesh = part.mesh;
+    const std::vector<int> boundary = boundary_vertices(mesh).vertex;
+    const Eigen::Matrix3Xd normal = vertex_normals(mesh);
+    std::vector<StoredVertex> stored;
+    for (const int v : vertices) {
+        if (v < 0 || v >= mesh.vertices())
+            throw InputError(fmt::format("vertex {} was picked, but the part has vertices 0 to {}; pick again", v,
+                                         mesh.vertices() - 1));
+        stored.push_back({part.source_vertex[size_t(v)], std::binary_search(boundary.begin(), boundary.end(), v),
+                          mesh.position.col(v), normal.col(v)});
+    }
+    return stored;
+}
+
+/// Faces that all steps treat alike become one patch.
+StoredSteps store_steps(const PartFile& part, const StepList& steps)
+{
+    constexpr char is_fixed = 1, is_freed = 2, is_carrying = 4;
+    std::vector<std::string> treated(size_t(part.mesh.triangles()), std::string(steps.size(), '\0')); // by step
+    for (size_t k = 0; k < steps.size(); ++k)
+        for (const auto& [faces, role] : {std::pair(&steps[k]->pick.fixed, is_fixed),
+                                          std::pair(&steps[k]->pick.freed, is_freed),
+                                          std::pair(&steps[k]->pick.carrying, is_carrying)})
+            for (const int f : *faces) {
+                require_triangle(part.mesh, f);
+                treated[size_t(f)][k] = char(treated[size_t(f)][k] | role);
+            }
+    std::map<std::string, std::vector<int>> alike;
+    const std::string nothing(steps.size(), '\0');
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        if (treated[size_t(f)] != nothing)
+            alike[treated[size_t(f)]].push_back(f);
+    StoredSteps stored;
+    for (const auto& step : steps)
+        stored.step.push_back({step->kind,
+                               step->name,
+                               {},
+                               {},
+                               {},
+                               step->within_mm,
+                               step->offset_mm,
+                               step->tolerance,
+                               step->most_energy_steps,
+                               step->most_newton_steps});
+    for (const auto& [roles, faces] : alike) {
+        const int patch = int(stored.patch.size());
+        stored.patch.push_back(store_patch(part, faces));
+        for (size_t k = 0; k < steps.size(); ++k)
+            for (const auto& [list, role] :
+                 {std::pair(&stored.step[k].fixed, is_fixed), std::pair(&stored.step[k].freed, is_freed),
+                  std::pair(&stored.step[k].carrying, is_carrying)})
+                if (roles[k] & role)
+                    list->push_back(patch);
+    }
+    return stored;
+}
+
+} // namespace
+
 StoredPatch store_patch(const PartFile& part, const std::vector<int>& triangles)
 {
     const FaceNumbers numbers(part);
@@ -42,26 +105,6 @@ StoredPatch store_patch(const PartFile& part, const std::vector<int>& triangles)
         patch.point.col(i) = part.mesh.position.col(vertex);
     return patch;
 }
-
-std::vector<StoredVertex> store_vertices(const PartFile& part, const std::vector<int>& vertices)
-{
-    if (vertices.empty())
-        return {};
-    const TriMesh& mesh = part.mesh;
-    const std::vector<int> boundary = boundary_vertices(mesh).vertex;
-    const Eigen::Matrix3Xd normal = vertex_normals(mesh);
-    std::vector<StoredVertex> stored;
-    for (const int v : vertices) {
-        if (v < 0 || v >= mesh.vertices())
-            throw InputError(fmt::format("vertex {} was picked, but the part has vertices 0 to {}; pick again", v,
-                                         mesh.vertices() - 1));
-        stored.push_back({part.source_vertex[size_t(v)], std::binary_search(boundary.begin(), boundary.end(), v),
-                          mesh.position.col(v), normal.col(v)});
-    }
-    return stored;
-}
-
-} // namespace
 
 const PartFile& picked_part(const Document& document)
 {
@@ -96,6 +139,7 @@ StoredPicks store_picks(const Document& document)
         picks.regions.push_back(
             {region.name, region.kind, region.colour, store_patch(part, region.faces), region.contact, region.sheet});
     picks.lines = document.lines;
+    picks.steps = store_steps(part, document.steps);
     for (const Probe& probe : document.probes) {
         require_triangle(part.mesh, probe.face);
         const Eigen::Matrix3d corners = corners_of(part.mesh, probe.face);

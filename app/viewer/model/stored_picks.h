@@ -48,6 +48,22 @@ struct StoredVertex {
     Eigen::Vector3d normal{0, 0, 1}; ///< unit, the mean of its faces'; 0 where they cancel
 };
 
+/// One step of unfolding: its faces are those of some patches.
+struct StoredStep {
+    UnfoldKind kind = UnfoldKind::lay;
+    std::string name;
+    std::vector<int> fixed, freed, carrying; ///< into StoredSteps::patch
+    double within_mm = 0, offset_mm = 0;
+    std::optional<double> tolerance;
+    std::optional<int> most_energy_steps, most_newton_steps;
+};
+
+/// The steps of unfolding. Faces that all steps treat alike are stored once.
+struct StoredSteps {
+    std::vector<StoredPatch> patch;
+    std::vector<StoredStep> step;
+};
+
 struct StoredPicks {
     std::string fingerprint; ///< of the part they were made on, see fingerprint()
     StoredPatch selected;
@@ -56,6 +72,7 @@ struct StoredPicks {
     std::vector<StoredProbe> probes;
     std::vector<ProcessLine> lines;                     ///< by their places
     std::optional<std::array<StoredCorner, 4>> corners; ///< of the grid, where the user chose them
+    StoredSteps steps;
 };
 
 /// The part that picks belong to. @throws InputError if none is open
@@ -64,13 +81,16 @@ const PartFile& picked_part(const Document& document);
 /// The same for two meshes with the same coordinates, triangles and numbers in the file, and practically only for these.
 std::string fingerprint(const PartFile& part);
 
+/// @throws InputError if a face is none of the part
+StoredPatch store_patch(const PartFile& part, const std::vector<int>& triangles);
+
 /// @throws InputError if the document has no part, or a pick names a face, vertex or corner that the part does not have
 StoredPicks store_picks(const Document& document);
 
 /// Puts the picks into a document whose part has been read: selection, vertices, regions, probes, and the corners of the
 /// session's options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
 /// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
-/// the outer boundary. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
+/// the outer boundary. A step of unfolding that has no faces to move any more is left out. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
 /// to its place. A line of the process moves to the nearest places of the part, if all are within those 1 %.
 /// @param search  of that part's mesh; null: made if need be
 /// @returns in words what was not found (again); empty if the part is the same, or all was found

@@ -1,6 +1,31 @@
 #include "app/viewer/model/view_fitter.h"
 
+#include <Eigen/Geometry>
+
 namespace spia::viewer {
+namespace {
+
+/// What the views in space have to show: the part and, where it is shown unfolded, the boxes around all of its states.
+Eigen::Matrix3Xd places_in_space(const ViewerState& state, const PartFile& part)
+{
+    Eigen::Matrix3Xd place = part.mesh.position;
+    if (step_position(state) == 0)
+        return place;
+    for (size_t k = 0; k < steps_done(state.document); ++k) {
+        const Eigen::Matrix3Xd& after = state.document.unfolding->run.states[k].position;
+        constexpr double wider = 0.11; // either way: faces in space reach beyond what lies on them
+        Eigen::AlignedBox3d box(after.rowwise().minCoeff(), after.rowwise().maxCoeff());
+        const Eigen::Vector3d size = box.sizes();
+        box.extend(box.min() - wider * size);
+        box.extend(box.max() + wider * size);
+        place.conservativeResize(3, place.cols() + 8);
+        for (int c = 0; c < 8; ++c)
+            place.col(place.cols() - 8 + c) = box.corner(Eigen::AlignedBox3d::CornerType(c));
+    }
+    return place;
+}
+
+} // namespace
 
 void ViewFitter::fit(ViewerState& state, std::optional<View> only)
 {
@@ -29,8 +54,9 @@ void ViewFitter::fit_blank(ViewerState& state)
 
 void ViewFitter::fit_space(ViewerState& state, const PartFile& part, std::optional<View> only)
 {
+    const Eigen::Matrix3Xd places = places_in_space(state, part);
     const auto fitted = [&](View view, const Camera& camera) {
-        return viewer::fit(camera, part.mesh.position, size_[size_t(view)], margins(state, view));
+        return viewer::fit(camera, places, size_[size_t(view)], margins(state, view));
     };
     const auto set = [&](View view, const Camera& camera) {
         fitted_[size_t(view)] = state.view.camera[size_t(view)] = camera;
@@ -75,9 +101,11 @@ Margins ViewFitter::margins(const ViewerState& state, View view) const
     const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
                           : view == View::quads                             ? 92  // its title is long
                                                                             : 72;
+    const bool stepwise = view == View::part && (step_shown(state) || step_position(state) > 0);
     const bool coloured = view == View::quads     ? state.view.quad_quality
                           : view == View::surface ? state.view.surface_deviation
-                                                  : document.display.field != Field::none;
+                          : stepwise ? state.view.field_on_steps && available_in_steps(document.display.field)
+                                     : document.display.field != Field::none;
     return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};
 }
 

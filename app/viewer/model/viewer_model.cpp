@@ -90,6 +90,10 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         say(Severity::hint, "Wait for the export to end.");
         return;
     }
+    if (steps_job_) {
+        say(Severity::hint, "Wait for the steps to end, or cancel them.");
+        return;
+    }
     if (chain_job_) { // the newest wish counts, from what is there then
         next_ = std::max(next_.value_or(to), to);
         return;
@@ -104,7 +108,9 @@ bool ViewerModel::poll()
     bool news = false;
     JobView& view = state_.job;
     std::erase_if(ending_, [](const auto& job) { return job->finished(); });
+    std::erase_if(ending_steps_, [](const auto& job) { return job->finished(); });
     pickers_.follow(state_.document.session);
+    pickers_.follow_steps(state_);
     if (chain_job_) {
         view.fraction = chain_job_->fraction();
         view.step = chain_job_->step();
@@ -123,6 +129,15 @@ bool ViewerModel::poll()
         }
         if (chain_job_->finished()) {
             take_chain_result();
+            news = true;
+        }
+    }
+    if (steps_job_) {
+        view.fraction = steps_job_->fraction();
+        view.step = steps_job_->step();
+        view.cancelling = steps_job_->cancelling();
+        if (steps_job_->finished()) {
+            take_steps_result();
             news = true;
         }
     }
@@ -182,6 +197,8 @@ void ViewerModel::take_chain_result()
             say(Severity::warning, as_sentence(text));
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
+    if (!chain_job_ && std::exchange(steps_next_, false) && !result.cancelled)
+        run_missing_steps();
 }
 
 /// A run that was cancelled or failed before it had anything new is no change: nothing to take back or to save.
@@ -237,6 +254,7 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     document.probes.clear();
     document.regions.clear();
     document.lines.clear();
+    document.steps.clear();
     return restore(document, *picks, result.search);
 }
 
@@ -320,6 +338,7 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
     for (const std::string& lost : restore(document, project.picks, search)) // the rest of the project is sound
         say(Severity::warning, lost);
     state_.view = project.view;
+    steps_next_ = keep_step_ = project.steps_ran && !document.steps.empty();
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
     if (keep_cameras_)
         next_ = std::max(next_.value_or(*project.ran), *project.ran);
@@ -328,6 +347,7 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
 void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach)
 {
     hover_nothing();
+    pickers_.follow_steps(state_);
     const RayPicker* picker = pickers_.ready_picker(state_.document.session, view);
     if (!picker)
         return;

@@ -49,7 +49,7 @@ public:
     const std::optional<Probe>& under_mouse() const { return under_mouse_; }
     Pickers& pickers() { return pickers_; }
     /// Whether a job is running; closing the window then cancels it.
-    bool busy() const { return chain_job_ || export_job_; }
+    bool busy() const { return chain_job_ || export_job_ || steps_job_; }
     /// How many times a part or project was begun to be opened: an action for that either counts here or leaves all as it was.
     int openings() const { return openings_; }
     /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
@@ -71,6 +71,11 @@ private:
     void forget_run_without_result(const ChainResult& result, const Session& before);
     void say_failed(const ChainResult& result);
     void take_export_result();
+    void start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work);
+    void run_missing_steps(); ///< there must be some
+    void take_steps_result();
+    void show_step(std::optional<int> step, double position);
+    void say_steps_run(const StepsOutcome& outcome);
     void part_opened();
     void project_opened(const std::shared_ptr<const ClosestPointSearch>& search);
 
@@ -83,6 +88,10 @@ private:
     std::vector<std::unique_ptr<Job<ChainResult>>>
         ending_; ///< cancelled, nobody waits for them; they end by themselves
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
+    std::unique_ptr<Job<StepsOutcome>> steps_job_;
+    std::vector<std::unique_ptr<Job<StepsOutcome>>> ending_steps_; ///< as ending_
+    bool steps_next_ = false;            ///< run them when the running job has ended
+    bool keep_step_ = false;             ///< the one shown is that of a project
     bool keep_cameras_ = false;          ///< those of a project
     size_t depth_at_start_ = 0;          ///< of the history, when the running job began
     bool dragging_ = false;              ///< a corner: the grid is coarse

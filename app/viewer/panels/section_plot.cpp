@@ -6,6 +6,13 @@
 
 namespace spia::viewer {
 
+/// A section cuts the sheet as it is formed or flat, however far its steps have unfolded it.
+static const TriMesh* section_mesh(Frame& frame, bool on_blank)
+{
+    const Session& session = frame.state.document.session;
+    return on_blank ? frame.model.pickers().mesh(session, View::blank) : session.part ? &session.part->mesh : nullptr;
+}
+
 const std::vector<SectionPiece>& section_of(Frame& frame)
 {
     const Document& document = frame.state.document;
@@ -16,7 +23,7 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
         [&]() -> std::vector<SectionPiece> {
             const auto& line = document.section;
             const TriMesh* mesh =
-                line ? frame.model.pickers().mesh(session, line->on_blank ? View::blank : View::part) : nullptr;
+                line ? section_mesh(frame, line->on_blank) : nullptr;
             if (!mesh || field == Field::none || !available(session, field))
                 return {};
             return section(*mesh, values(session, field, false), *line);
@@ -33,9 +40,8 @@ const std::vector<SectionPiece>& section_in(Frame& frame, View view)
     return frame.ui.charts.section_elsewhere.of(
         {session.part, session.blank, session.limits, session.surface, document.display.field, document.section},
         [&]() -> std::vector<SectionPiece> {
-            Pickers& pickers = frame.model.pickers();
-            const TriMesh* from = pickers.mesh(session, document.section->on_blank ? View::blank : View::part);
-            const TriMesh* to = pickers.mesh(session, document.section->on_blank ? View::part : View::blank);
+            const TriMesh* from = section_mesh(frame, document.section->on_blank);
+            const TriMesh* to = section_mesh(frame, !document.section->on_blank);
             return from && to ? carried(drawn, *from, *to) : std::vector<SectionPiece>{};
         });
 }

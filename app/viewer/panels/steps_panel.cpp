@@ -313,6 +313,7 @@ void steps_panel(Frame& frame)
     grid_step(frame);
     surface_step(frame);
     ImGui::Dummy({0, 4 * frame.ui.scale});
+    unfolding_section(frame);
     regions_section(frame);
     process_section(frame);
     ImGui::Dummy({0, 4 * frame.ui.scale});

@@ -21,6 +21,7 @@
 #include "app/viewer/panels/side_panels.h"
 #include "app/viewer/panels/theme.h"
 #include "app/viewer/views/scene_cache.h"
+#include "app/viewer/views/step_scene.h"
 
 namespace spia::viewer {
 
@@ -90,6 +91,10 @@ struct Ui {
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
     std::optional<EditedRegion> edited_region;
+    int step_fixed = 0, step_freed = -1; ///< regions of the step to be added; -1: the selection
+    std::vector<StepPicture> step_pictures;
+    bool steps_listed = false;           ///< in the last frame
+    std::optional<float> playing;        ///< the unfolding, at this position
     std::optional<ImVec2> diagram_from; ///< where a click or drag in the strain diagram began
 
     // what would lose unsaved work: asked about, and the answer "go on" for the next action
@@ -115,6 +120,8 @@ struct Frame {
     SceneCache& cache;
     /// Draws a view of this size (pixels) and gives its texture for ImGui.
     std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
+    /// The same for the small picture of a step; null where it comes a frame later.
+    std::function<ImTextureID(const StepPicture& picture, size_t step, int width, int height)> draw_step;
 };
 
 void menu_bar(Frame& frame);
@@ -124,6 +131,8 @@ void process_section(Frame& frame);
 /// Makes a drawbead, a pilot or a seam of the line that was drawn.
 void end_line(Frame& frame);
 void regions_section(Frame& frame);
+/// Unfolding step by step.
+void unfolding_section(Frame& frame);
 /// What the mesh doctor found, where, and what can be done about it.
 void doctor_panel(Frame& frame);
 /// Residual of the running job over its steps, logarithmic; nothing before there are two.

@@ -31,6 +31,22 @@ bool DrawTurns::any_waits() const
     return false;
 }
 
+unsigned ViewImages::draw_small(size_t number, const Scene& scene, const Camera& camera, int width, int height,
+                                const Look& look)
+{
+    while (small_.size() <= number)
+        small_.emplace_back();
+    Renderer::Image& image = small_[number];
+    if (renderer_.shows(image, scene, camera, width, height, look))
+        return Renderer::texture(image);
+    if (small_drawn_) {
+        small_waits_ = true;
+        return Renderer::texture(image);
+    }
+    small_drawn_ = true;
+    return renderer_.draw(image, scene, camera, width, height, look);
+}
+
 unsigned ViewImages::draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
                           const Look& look)
 {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <chrono>
+#include <vector>
 
 #include "app/viewer/render/renderer.h"
 
@@ -33,18 +34,27 @@ class ViewImages {
 public:
     explicit ViewImages(Renderer& renderer) : renderer_(renderer) {}
 
-    void begin_frame() { turns_.begin_frame(); }
+    void begin_frame()
+    {
+        turns_.begin_frame();
+        small_drawn_ = small_waits_ = false;
+    }
     /// As Renderer::draw(), but the texture may show the view as it was a frame ago; then any_late() is true.
     unsigned draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
                   const Look& look);
+    /// A small picture, by number; one in a frame is drawn. 0: it is not there yet.
+    unsigned draw_small(size_t number, const Scene& scene, const Camera& camera, int width, int height,
+                        const Look& look);
     /// Whether another frame is needed to show what is wanted.
-    bool any_late() const { return turns_.any_waits(); }
+    bool any_late() const { return turns_.any_waits() || small_waits_; }
 
 private:
     static constexpr double budget_ms_ = 40;
     Renderer& renderer_;
     std::array<Renderer::Image, 4> images_;
     DrawTurns turns_{budget_ms_};
+    std::vector<Renderer::Image> small_;
+    bool small_drawn_ = false, small_waits_ = false; ///< in this frame
 };
 
 } // namespace spia::viewer

@@ -1,6 +1,7 @@
 #include "app/viewer/views/fault_scene.h"
 #include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/sheet_shapes.h"
+#include "app/viewer/views/step_scene.h"
 #include "app/viewer/views/views.h"
 
 namespace spia::viewer {
@@ -18,6 +19,8 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
         result.empty = "Drop a part here or open one: STL, OBJ, PLY, OFF, glTF.";
         return result;
     }
+    if (shows_steps(state))
+        return step_scene(state, cache);
     const PartShape& part = part_shape(state, cache);
     result.box = part.box;
     add_sheet(result, state,

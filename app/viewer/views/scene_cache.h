@@ -103,6 +103,32 @@ struct SheetCache {
     Memo<LineList, Mesh, std::optional<int>> hover;
 };
 
+/// The part as its steps have unfolded it.
+struct UnfoldedShape {
+    std::shared_ptr<const SceneMesh> mesh;
+    Eigen::Matrix3Xd position; ///< 3 by #V, mm
+};
+
+/// What is shown of unfolding step by step.
+struct StepsCache {
+    using Mesh = std::shared_ptr<const SceneMesh>;
+    using Run = std::shared_ptr<const StepsRun>;
+    using Step = std::shared_ptr<const PlannedStep>;
+
+    Memo<UnfoldedShape, Mesh, Run, double> shape;
+    Memo<Eigen::AlignedBox3d, Mesh, Run, size_t> box; ///< mm, around all states
+    Memo<std::vector<FaceRegion>, Step> picks;        ///< its fixed and its freed faces
+    Memo<std::shared_ptr<const FaceMarks>, Mesh, Step, std::vector<int>, std::optional<int>> marks;
+    Memo<LineList, Mesh, Step> borders;
+    Memo<std::vector<SceneLabel>, Mesh, Step, bool> labels;
+    Memo<Mesh, Run, size_t> target;
+    Memo<FieldValues, Run, size_t, Field, bool> values;
+    Memo<std::shared_ptr<const SceneField>, Mesh, Run, size_t, Field, bool> field;
+    Memo<LineList, Mesh, std::vector<int>> selection;
+    Memo<LineList, Mesh, std::optional<int>> hover;
+    Memo<VertexShape, Mesh, std::vector<int>> vertices;
+};
+
 /// What the scenes of a window have in common and what they are made of, so that nothing is made again in each frame.
 /// One per window.
 struct SceneCache {
@@ -120,6 +146,7 @@ struct SceneCache {
     Memo<FlatShape, Part, Blank, LiveBlank> flat;
     Memo<FieldValues, Part, Blank, Limits, Surface, Field, bool> values;
     SheetCache on_part, on_blank;
+    StepsCache steps;
     Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>, std::optional<int>> marks;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_elsewhere;

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/viewer/model/apply.h"
+#include "engine/mesh/region.h"
+
+namespace spia::viewer {
+
+void ViewerModel::Apply::require_idle() const
+{
+    part();
+    if (model.busy())
+        throw InputError("Wait for the running job to end, or cancel it.");
+}
+
+size_t ViewerModel::Apply::step(int number) const
+{
+    if (number < 0 || size_t(number) >= document.steps.size())
+        throw InputError(document.steps.empty()
+                             ? "There are no steps yet: propose some, or add one."
+                             : fmt::format("There is no step {}; the list has {}.", number + 1, document.steps.size()));
+    return size_t(number);
+}
+
+void ViewerModel::Apply::change_steps(std::string name, StepList steps, bool merge)
+{
+    change(std::move(name), merge);
+    document.steps = std::move(steps);
+}
+
+void ViewerModel::Apply::operator()(const ProposeSteps& action)
+{
+    require_idle();
+    if (action.keep && (*action.keep < 0 || *action.keep >= part().mesh.triangles()))
+        throw InputError(fmt::format("The part has no face {}.", *action.keep));
+    model.start_steps("Proposing steps",
+                      [part = session.part, bends = document.bends, keep = action.keep](const Progress& progress) {
+                          return propose_steps(part, bends, keep, progress);
+                      });
+}
+
+void ViewerModel::Apply::operator()(const RunSteps&)
+{
+    require_idle();
+    if (document.steps.empty())
+        throw InputError("There are no steps yet: propose some, or add one.");
+    if (all_steps_done(document)) {
+        model.say(Severity::hint, "All steps are up to date.");
+        return;
+    }
+    const ProcessConditions& process = session.options.flatten.process;
+    model.run_missing_steps();
+    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() ||
+        process.edge_restraint > 0)
+        model.say(Severity::hint, "Tools, drawbeads, pilots and the held edge act on the part as a whole; the steps "
+                                  "leave them out.");
+}
+
+void ViewerModel::Apply::operator()(const AddStep& action)
+{
+    part();
+    const FaceRegion& fixed = document.regions[region(action.fixed)];
+    if (!action.freed && document.selected.empty())
+        throw InputError("Select the faces to unfold first, or make a region of them.");
+    if (action.freed == action.fixed)
+        throw InputError(fmt::format("The region \"{}\" cannot both stay and be unfolded; choose another one.", fixed.name));
+    const std::vector<int>& freed =
+        action.freed ? document.regions[region(*action.freed)].faces : document.selected;
+    std::vector<int> both;
+    std::set_intersection(fixed.faces.begin(), fixed.faces.end(), freed.begin(), freed.end(), std::back_inserter(both));
+    if (!both.empty())
+        throw InputError(fmt::format("{} {} to unfold also belong{} to the region \"{}\", which stays; take them out "
+                                     "of one of the two.",
+                                     both.size(), both.size() == 1 ? "face" : "faces", both.size() == 1 ? "s" : "",
+                                     fixed.name));
+    PlannedStep made;
+    made.name = !action.name.empty() ? action.name
+                                     : fmt::format("{} onto {}",
+                                                   action.freed ? document.regions[size_t(*action.freed)].name
+                                                                : fmt::format("{} faces", freed.size()),
+                                                   fixed.name);
+    made.pick.freed = freed;
+    made.pick.fixed = inverted(freed, part().mesh.triangles());
+    made.pick.carrying = fixed.faces;
+    StepList steps = document.steps;
+    steps.push_back(std::make_shared<PlannedStep>(std::move(made)));
+    change_steps("Add step", std::move(steps));
+    model.show_step(int(document.steps.size()) - 1, step_position(state));
+}
+
+void ViewerModel::Apply::operator()(const ChangeStep& action)
+{
+    const size_t number = step(action.step);
+    if (action.name.empty())
+        throw InputError("A step needs a name.");
+    if (!std::isfinite(action.offset_mm) || !(action.within_mm >= 0))
+        throw InputError("The offset of a step is a length, and the distance from its face one from 0 on.");
+    if (action.tolerance && !(*action.tolerance > 0 && *action.tolerance < 1))
+        throw InputError("The tolerance of a step must be above 0 and below 1.");
+    const PlannedStep& before = *document.steps[number];
+    if (before.kind != UnfoldKind::lay && action.offset_mm != before.offset_mm)
+        throw InputError("Only a step that lays faces on a face can have it moved.");
+    auto changed = std::make_shared<PlannedStep>(before);
+    changed->name = action.name;
+    changed->offset_mm = action.offset_mm;
+    changed->within_mm = action.within_mm;
+    changed->tolerance = action.tolerance;
+    StepList steps = document.steps;
+    steps[number] = std::move(changed);
+    change_steps("Change step", std::move(steps), true);
+}
+
+void ViewerModel::Apply::operator()(const RemoveStep& action)
+{
+    const size_t number = step(action.step);
+    StepList steps = document.steps;
+    steps.erase(steps.begin() + long(number));
+    change_steps("Remove step", std::move(steps));
+    if (auto& chosen = state.view.step; chosen && *chosen >= int(number))
+        chosen = document.steps.empty() ? std::nullopt : std::optional(std::max(0, *chosen - 1));
+}
+
+void ViewerModel::Apply::operator()(const MoveStep& action)
+{
+    const size_t from = step(action.step), to = step(action.to);
+    if (from == to)
+        return;
+    StepList steps = document.steps;
+    const auto moved = steps[from];
+    steps.erase(steps.begin() + long(from));
+    steps.insert(steps.begin() + long(to), moved);
+    change_steps("Move step", std::move(steps));
+    if (state.view.step == int(from))
+        state.view.step = int(to);
+}
+
+void ViewerModel::Apply::operator()(const ShowStep& action)
+{
+    part();
+    if (action.step)
+        step(*action.step);
+    const double done = double(steps_done(document));
+    if (action.position && !(*action.position >= 0 && *action.position <= double(document.steps.size())))
+        throw InputError(fmt::format("The slider goes from 0, the part, to {}, after the last step.", document.steps.size()));
+    if (action.position && *action.position > done)
+        model.say(Severity::hint, "The steps up to there have to be run first.");
+    const double position =
+        std::min(done, action.position.value_or(action.step ? double(*action.step + 1) : 0));
+    std::optional<int> shown = action.step;
+    if (!shown && action.position && *action.position > 0)
+        shown = std::max(0, int(std::ceil(position)) - 1);
+    model.show_step(shown, position);
+}
+
+} // namespace spia::viewer

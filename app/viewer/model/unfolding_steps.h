@@ -1,0 +1,81 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/exchange/read_part.h"
+#include "engine/unfold/unfold_script.h"
+
+/// Unfolding step by step: the list that the user edits, and what its last run gave.
+namespace spia::viewer {
+
+struct Document;
+
+/// Steps in order. Each is finished and const, so that copies of a document share them; an edited one is a new one.
+using StepList = std::vector<std::shared_ptr<const PlannedStep>>;
+
+/// A part split at its bends.
+struct PartBends {
+    std::shared_ptr<const PartFile> part;
+    BendMap map;
+};
+
+/// Of the faces that a step moves, after it.
+struct StepFigures {
+    std::array<double, 2> thinning; ///< least and greatest, shares
+    double strain_equivalent;       ///< greatest
+};
+
+/// What a run gave, and what it was made with.
+struct StepsRun {
+    std::shared_ptr<const PartFile> part;
+    StepList steps;
+    FlattenOptions sheet; ///< as sheet_of_steps() gives it
+    UnfoldRun run;
+    std::vector<StepFigures> figure; ///< one per state
+};
+
+/// The sheet of the steps: material, gauge, tailored pieces, rolling direction. Tools act on the part as a whole and are left out.
+FlattenOptions sheet_of_steps(const FlattenOptions& wanted);
+
+/// How many leading steps of the document's list the states of its last run hold for: the next one was edited, is new, had no
+/// result, or its part or sheet is another one now.
+size_t steps_done(const Document& document);
+/// Whether all steps are done and the run went no further, so that its blank is that of the list.
+bool all_steps_done(const Document& document);
+
+enum class StepStatus { missing, done, poor, stale, failed };
+std::string_view name(StepStatus status);
+StepStatus step_status(const Document& document, size_t step);
+
+/// Where the vertices of the part are. @param position 0: on the part; k: after step k; between: on the way, each along an arc
+/// if its sheet turns. No more than there are states that hold.
+Eigen::Matrix3Xd unfolded_places(const Document& document, double position);
+
+/// The faces that carry what a step moves, ascending: of an unroll or a flatten those of its face, if any.
+const std::vector<int>& carrying_faces(const PlannedStep& step);
+
+/// What a job about steps left behind.
+struct StepsOutcome {
+    std::optional<StepList> proposed;
+    std::vector<std::string> notes;         ///< of the proposal
+    std::shared_ptr<const PartBends> bends; ///< null: not asked for
+    std::shared_ptr<const StepsRun> run;    ///< null likewise; of a cancelled one with the steps that had ended
+    bool cancelled = false;
+    std::string failure; ///< why there is nothing at all
+};
+
+/// Proposes the steps of a part; never throws. @param bends  those of this part if they are known, else null
+/// @param keep a face whose region stays where it is; not given: the largest flat one
+StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
+                           std::optional<int> keep, const Progress& progress);
+
+/// Runs the steps after the first `done` ones, whose states are taken from `before`; never throws.
+StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
+                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress);
+
+} // namespace spia::viewer

@@ -1,0 +1,142 @@
+// The jobs of unfolding step by step.
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/viewer_words.h"
+
+namespace spia::viewer {
+namespace {
+
+std::string sentence(std::string text)
+{
+    if (!text.empty() && std::string_view(".!?").find(text.back()) == std::string_view::npos)
+        text += '.';
+    return as_sentence(std::move(text));
+}
+
+std::string counted(size_t count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+
+} // namespace
+
+void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work)
+{
+    for (Message& message : state_.messages) // of the run before
+        message.dismissed |= message.severity != Severity::error;
+    state_.job = JobView{};
+    state_.job.running = true;
+    state_.job.title = std::move(title);
+    steps_job_ = std::make_unique<Job<StepsOutcome>>(std::move(work), wake_);
+}
+
+void ViewerModel::run_missing_steps()
+{
+    const Document& document = state_.document;
+    start_steps("Unfolding step by step",
+                [part = document.session.part, steps = document.steps,
+                 sheet = sheet_of_steps(document.session.options.flatten), before = document.unfolding,
+                 done = steps_done(document)](const Progress& progress) {
+                    return run_steps(part, steps, sheet, before, done, progress);
+                });
+}
+
+void ViewerModel::show_step(std::optional<int> step, double position)
+{
+    const bool fitted = fitter_.is_fitted(state_, View::part);
+    state_.view.step = step;
+    state_.view.unfolded = position;
+    pickers_.follow_steps(state_);
+    if (fitted && state_.document.session.part)
+        fitter_.fit(state_, View::part);
+}
+
+void ViewerModel::take_steps_result()
+{
+    const auto job = std::move(steps_job_);
+    const std::string title = state_.job.title;
+    const bool keep_step = std::exchange(keep_step_, false);
+    state_.job = JobView{};
+    StepsOutcome outcome;
+    try {
+        outcome = job->take();
+    } catch (const std::exception& error) { // no memory
+        say(Severity::error, error.what());
+        return;
+    }
+    Document& document = state_.document;
+    const size_t done_before = steps_done(document);
+    const auto change = [&](const char* name) {
+        state_.history.remember(name, document);
+        state_.unsaved = true;
+    };
+    if (outcome.proposed && !outcome.proposed->empty()) {
+        change("Propose steps");
+        document.steps = std::move(*outcome.proposed);
+        document.bends = outcome.bends;
+        show_step(0, 0);
+        constexpr size_t most_notes = 2;
+        for (size_t k = 0; k < std::min(most_notes, outcome.notes.size()); ++k)
+            say(Severity::hint, sentence(outcome.notes[k]));
+        if (outcome.notes.size() > most_notes)
+            say(Severity::hint, fmt::format("Likewise {} elsewhere.",
+                                            counted(outcome.notes.size() - most_notes, "place")));
+        say(Severity::done,
+            fmt::format("The part has {} and {}; proposed {}.", counted(outcome.bends->map.regions.size(), "region"),
+                        counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));
+    } else if (outcome.proposed)
+        say(Severity::hint, "The part is flat already; there is nothing to unfold.");
+    const auto& run = outcome.run;
+    if (run && (run->run.states.size() > done_before || run->run.blank || !run->run.failure.empty())) {
+        if (keep_step) { // of a project: what it was when that was saved
+            document.unfolding = run;
+        } else {
+            change("Run the steps");
+            document.unfolding = run;
+            const size_t done = steps_done(document);
+            if (!run->run.failure.empty()) // the one to be changed
+                show_step(int(std::min(done, document.steps.size() - 1)), double(done));
+            else if (done > 0)
+                show_step(int(done) - 1, double(done));
+        }
+    }
+    if (outcome.cancelled)
+        say(Severity::hint, run ? fmt::format("{}: cancelled. {} of {} are done.", title, run->run.states.size(),
+                                              counted(run->steps.size(), "step"))
+                                : fmt::format("{}: cancelled.", title));
+    else if (!outcome.failure.empty())
+        say(Severity::error, sentence(outcome.failure));
+    else if (run)
+        say_steps_run(outcome);
+}
+
+void ViewerModel::say_steps_run(const StepsOutcome& outcome)
+{
+    const StepsRun& last = *outcome.run;
+    const UnfoldRun& run = last.run;
+    for (const UnfoldState& state : run.states)
+        if (!state.converged)
+            say(Severity::warning,
+                fmt::format("The step \"{}\" did not converge: {}. Its best shape is kept; a larger tolerance or other "
+                            "faces may help.",
+                            state.name, state.reason));
+    if (!run.failure.empty()) {
+        const size_t failed = run.states.size();
+        say(Severity::error,
+            fmt::format("Step {} \"{}\" has no result: {} {}Change this step or its place in the list, then run again.",
+                        failed + 1, last.steps[failed]->name, sentence(run.failure),
+                        failed > 0 ? fmt::format("The states up to step {} are kept. ", failed) : ""));
+        return;
+    }
+    if (!run.blank) {
+        say(Severity::warning, "After the last step the part does not lie in a plane yet; add a step.");
+        return;
+    }
+    if (run.flipped > 0)
+        say(Severity::warning, fmt::format("{} of the blank are flipped; unfold there in smaller steps.",
+                                           counted(size_t(run.flipped), "triangle")));
+    const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
+    say(Severity::done, fmt::format("Unfolded in {}: a blank of {:.4g} x {:.4g} mm.",
+                                    counted(run.states.size(), "step"), size[0], size[1]));
+}
+
+} // namespace spia::viewer
