@@ -128,21 +128,14 @@ int chosen_root(const TriMesh& part, const BendMap& map, const Carriers& carrier
         return map.regions[size_t(r)].area * std::pow(map.regions[size_t(r)].flatness, 2) *
                (out[size_t(r)] < 0 ? around : 1);
     };
-    int best = 0, best_carrier = -1, best_plane = -1;
-    const auto better = [&](int r, int than) { return than < 0 || score(r) > score(than) * (1 + 1e-9); };
+    int best = 0, best_carrier = -1;
     for (int r = 0; r < int(map.regions.size()); ++r) {
-        if (better(r, best))
+        if (score(r) > score(best) * (1 + 1e-9))
             best = r;
-        const BinderFit* fit = carriers.of(r);
-        if (fit && better(r, best_carrier))
+        if (carriers.of(r) && (best_carrier < 0 || score(r) > score(best_carrier) * (1 + 1e-9)))
             best_carrier = r;
-        if (fit && std::holds_alternative<PlaneFace>(fit->face) && better(r, best_plane))
-            best_plane = r;
     }
-    for (const int r : {best_plane, best_carrier}) // what lies on a plane is not to be unrolled
-        if (r >= 0 && score(r) > comparable * score(best))
-            return r;
-    return best;
+    return best_carrier >= 0 && score(best_carrier) > comparable * score(best) ? best_carrier : best;
 }
 
 /// Regions: by breadth first, bends cost nothing. Bends: as the outer region beside them; a curled rim is one further out.
