@@ -5,7 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
-#include "engine/mesh/topology.h"
+#include "engine/mesh/region.h"
 #include "engine/unfold/carriers.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/fender.h"
@@ -27,11 +27,11 @@ FlattenOptions steel()
 
 TriMesh fender() { return shapes::fender({.triangles = 2500}).mesh; }
 
-/// Gently curved in its middle, not by one radius; flanges on two sides.
-shapes::DevelopablePart crowned_panel()
+/// Gently curved in its middle, not by one radius; flanges on two sides, one of a length.
+shapes::DevelopablePart crowned_panel(double flange = 20)
 {
     return shapes::extruded(Profile({0, 0}, pi / 2)
-                                .straight(20)
+                                .straight(flange)
                                 .bend(4, -pi / 2)
                                 .bend(900, -0.1)
                                 .bend(500, -0.15)
@@ -85,6 +85,23 @@ TEST(UnfoldByItself, FlatteningAfterTheStepsEndsInTheBlankOfFlatteningAtOnce)
     EXPECT_LT(greatest_edge_difference(part, *unfolded.run.blank, at_once.blank), 1e-3);
 }
 
+TEST(UnfoldByItself, FlatteningStartsFromHowStepsHaveLeftThePart)
+{
+    const TriMesh part = fender();
+    const FlattenResult at_once = flatten(part, steel());
+    Eigen::Matrix3Xd state = Eigen::Matrix3Xd::Zero(3, part.vertices()); // nothing is left to do
+    state.topRows<2>() = at_once.blank.position;
+    UnfoldPick pick;
+    pick.freed = inverted({}, part.triangles());
+    pick.target = PlaneFace{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity().leftCols<2>()};
+    const UnfoldStepResult result = unfold_step(part, state, pick, steel());
+    const auto steps = [](const SolveReport& report) { return report.energy.size() + report.newton.size(); };
+    EXPECT_TRUE(result.converged());
+    EXPECT_LT(2 * steps(result.piece[0].report), steps(at_once.report));
+    EXPECT_LT(greatest_edge_difference(part, {result.position.topRows<2>()}, at_once.blank),
+              1e-3); // of 880 mm, solved to 1e-8 of the forces
+}
+
 TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
 {
     const TriMesh part = fender();
@@ -113,8 +130,9 @@ TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
 
 TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
 {
-    // Allowed to be far beside their plane, the flat-ish middle carries the flanges; the step itself refuses that.
-    const TriMesh part = crowned_panel().mesh;
+    // Allowed to be far beside its plane, the flat-ish middle carries the flanges; the step itself refuses that. The long flange
+    // could be the root, too: it must not become it.
+    const TriMesh part = crowned_panel(70).mesh;
     const BendMap map = find_bends(part);
     const SequenceOptions loose{.distance = 0.08};
     const UnfoldSequence first = propose_sequence(part, map, loose);
@@ -136,6 +154,7 @@ TEST(UnfoldByItself, WhatGoesAllAroundAConeIsFlattenedNotUnrolled)
     const TriMesh ring = shapes::axisymmetric(meridian, 3000).mesh;
     const UnfoldedByItself unfolded = unfold_by_itself(ring, find_bends(ring), {}, steel());
     EXPECT_EQ(unfolded.run.failure, "");
+    EXPECT_TRUE(unfolded.sequence.notes.empty()) << "planned so at once: " << unfolded.sequence.notes[0];
     ASSERT_EQ(unfolded.sequence.steps.size(), 1u);
     EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::flatten);
     EXPECT_EQ(unfolded.run.flipped, 0);
