@@ -16,6 +16,7 @@
 #include "engine/pipeline/unfold_outputs.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/polish.h"
+#include "engine/unfold/unfold_by_itself.h"
 
 namespace spia::cli {
 namespace {
@@ -66,6 +67,9 @@ void print_states(const UnfoldRun& run)
                    state.name, state.plain, state.face.strain_equivalent.maxCoeff(),
                    100 * state.face.thinning.minCoeff(), 100 * state.face.thinning.maxCoeff(),
                    state.converged ? "" : ", NOT converged");
+        if (state.on && std::holds_alternative<HeightFace>(state.on->face))
+            fmt::print("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
+                       state.on->distance_mm, state.on->angle * degrees);
         if (state.overlap.places > 0)
             fmt::print("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n",
                        state.overlap.places, state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
@@ -197,23 +201,24 @@ int unfold(const UnfoldArguments& arguments)
     print_map(map);
     UnfoldScript steps;
     std::vector<std::string> findings;
+    UnfoldRun run;
+    JobDisplay display{"unfold"};
+    const auto clock = std::chrono::steady_clock::now();
     if (arguments.automatic) {
-        UnfoldSequence sequence = propose_sequence(part.mesh, map, {.root = arguments.root - 1});
-        for (const std::string& note : sequence.notes)
+        UnfoldedByItself unfolded =
+            unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
+        for (const std::string& note : unfolded.sequence.notes)
             fmt::print("  note: {}\n", note);
-        steps = std::move(sequence.steps);
-        if (steps.empty())
-            throw InputError("the part is flat already; there is nothing to unfold");
+        steps = std::move(unfolded.sequence.steps);
+        run = std::move(unfolded.run);
     } else {
         ReadScript script = read_unfold_script(arguments.script, part, map);
         steps = std::move(script.steps);
         findings = std::move(script.findings);
         if (steps.empty())
             throw InputError(fmt::format("no step of the script makes sense on this part; {}", findings.front()));
+        run = run_unfolding(part.mesh, steps, options, display.progress());
     }
-    JobDisplay display{"unfold"};
-    const auto clock = std::chrono::steady_clock::now();
-    const UnfoldRun run = run_unfolding(part.mesh, steps, options, display.progress());
     display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
     std::optional<PolishedBlank> polished;
     if (arguments.polish)

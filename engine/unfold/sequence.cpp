@@ -1,214 +1,19 @@
 #include "engine/unfold/sequence.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <deque>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/mesh/disjoint_sets.h"
-#include "engine/mesh/edge_uses.h"
-#include "engine/unfold/fit_binder.h"
+#include "engine/unfold/carriers.h"
+#include "engine/unfold/label_graph.h"
 #include "engine/unfold/pick_border.h"
 
 namespace spia {
 namespace {
-
-/// Which labels touch, by edges and by vertices.
-struct LabelGraph {
-    std::vector<std::map<int, double>> edge; ///< per label: its neighbours and the length of the common border, mm
-    std::vector<std::set<int>> vertex;       ///< per label: those with a vertex in common
-};
-
-std::vector<std::vector<int>> labels_of_vertices(const TriMesh& part, const BendMap& map)
-{
-    std::vector<std::vector<int>> labels(size_t(part.vertices()));
-    for (int f = 0; f < part.triangles(); ++f)
-        for (const int v : part.triangle.col(f))
-            labels[size_t(v)].push_back(map.label[f]);
-    for (auto& each : labels) {
-        std::sort(each.begin(), each.end());
-        each.erase(std::unique(each.begin(), each.end()), each.end());
-    }
-    return labels;
-}
-
-LabelGraph label_graph(const TriMesh& part, const BendMap& map, const std::vector<std::vector<int>>& of_vertex)
-{
-    const auto count = size_t(map.label.maxCoeff() + 1);
-    LabelGraph graph{std::vector<std::map<int, double>>(count), std::vector<std::set<int>>(count)};
-    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        const int a = map.label[uses[begin].face], b = map.label[uses[end - 1].face];
-        if (a == b)
-            return;
-        const double length = (part.position.col(uses[begin].low) - part.position.col(uses[begin].high)).norm();
-        graph.edge[size_t(a)][b] += length;
-        graph.edge[size_t(b)][a] += length;
-    });
-    for (const auto& labels : of_vertex)
-        for (const int a : labels)
-            for (const int b : labels)
-                if (a != b)
-                    graph.vertex[size_t(a)].insert(b);
-    return graph;
-}
-
-double diagonal_of(const TriMesh& part, const std::vector<int>& faces)
-{
-    Eigen::AlignedBox3d box;
-    for (const int f : faces)
-        for (const int v : part.triangle.col(f))
-            box.extend(part.position.col(v));
-    return box.diagonal().norm();
-}
-
-/// The faces that regions can carry.
-class Carriers {
-public:
-    Carriers(const TriMesh& part, const BendMap& map, double distance) : fit_(map.regions.size())
-    {
-        for (size_t r = 0; r < map.regions.size(); ++r) {
-            const FaceSet faces = map.faces_of(int(r));
-            const double size = diagonal_of(part, faces);
-            fit_[r] = fit_binder(part, faces, std::max(exact, distance / size));
-            loose_.push_back(fit_[r] && fit_[r]->distance_mm > exact * size);
-        }
-    }
-    const BinderFit* of(int region) const { return fit_[size_t(region)] ? &*fit_[size_t(region)] : nullptr; }
-    /// Found only by allowing more than unfold_step() does for itself: the step has to say so.
-    bool loose(int region) const { return loose_[size_t(region)]; }
-
-private:
-    static constexpr double exact = 1e-4; // of fit_binder()
-    std::vector<std::optional<BinderFit>> fit_;
-    std::vector<char> loose_;
-};
-
-/// Per region from 1, where what it is joined to lies outside of it, to -1, where it lies around that, as the flange around a cup.
-std::vector<double> outwards(const TriMesh& part, const BendMap& map)
-{
-    std::vector<double> out(map.regions.size(), 0), most(map.regions.size(), 0);
-    const std::vector<EdgeUse> uses = edge_uses(part.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end - begin != 2)
-            return;
-        for (const auto& [in, beside] : {std::pair(uses[begin], uses[begin + 1]), {uses[begin + 1], uses[begin]}}) {
-            const int r = map.label[in.face];
-            if (r >= int(map.regions.size()) || map.label[beside.face] == r)
-                continue;
-            const Eigen::Matrix3d x = part.position(Eigen::all, part.triangle.col(in.face));
-            const Eigen::Vector3d a = x.col(in.corner), b = x.col((in.corner + 1) % 3), c = x.col((in.corner + 2) % 3),
-                                  along = (b - a).normalized(), up = c - a,
-                                  away = -(up - along.dot(up) * along).normalized(),
-                                  arm = (a + b) / 2 - map.regions[size_t(r)].place;
-            out[size_t(r)] += (b - a).norm() * away.dot(arm);
-            most[size_t(r)] += (b - a).norm() * arm.norm();
-        }
-    });
-    for (size_t r = 0; r < out.size(); ++r)
-        out[r] = most[r] > 0 ? out[r] / most[r] : 1;
-    return out;
-}
-
-int chosen_root(const TriMesh& part, const BendMap& map, const Carriers& carriers)
-{
-    constexpr double around =
-        0.1; // what the area of a region counts that lies around the others: all would be stretched into it
-    const std::vector<double> out = outwards(part, map);
-    constexpr double comparable = 0.25; // a face to lay on is worth a smaller region, but not a tiny one
-    const auto score = [&](int r) {
-        return map.regions[size_t(r)].area * std::pow(map.regions[size_t(r)].flatness, 2) *
-               (out[size_t(r)] < 0 ? around : 1);
-    };
-    int best = 0, best_carrier = -1;
-    for (int r = 0; r < int(map.regions.size()); ++r) {
-        if (score(r) > score(best) * (1 + 1e-9))
-            best = r;
-        if (carriers.of(r) && (best_carrier < 0 || score(r) > score(best_carrier) * (1 + 1e-9)))
-            best_carrier = r;
-    }
-    return best_carrier >= 0 && score(best_carrier) > comparable * score(best) ? best_carrier : best;
-}
-
-/// Regions: by breadth first, bends cost nothing. Bends: as the outer region beside them; a curled rim is one further out.
-std::vector<int> depths(const BendMap& map, const LabelGraph& graph, int root)
-{
-    constexpr double curl = 0.5;
-    const int none = std::numeric_limits<int>::max(), regions = int(map.regions.size());
-    std::vector<int> way(graph.edge.size(), none);
-    std::deque<int> queue = {root};
-    way[size_t(root)] = 0;
-    while (!queue.empty()) {
-        const int a = queue.front();
-        queue.pop_front();
-        for (const auto& [b, length] : graph.edge[size_t(a)]) {
-            const int cost = way[size_t(a)] + (b < regions ? 1 : 0);
-            if (cost >= way[size_t(b)])
-                continue;
-            way[size_t(b)] = cost;
-            b < regions ? queue.push_back(b) : queue.push_front(b);
-        }
-    }
-    if (std::find(way.begin(), way.end(), none) != way.end())
-        throw InputError("the part is in several pieces; keep one of them");
-    std::vector<int> depth = way;
-    for (int label = regions; label < int(depth.size()); ++label) {
-        const Bend& bend = map.bends[size_t(label - regions)];
-        depth[size_t(label)] = bend.b >= 0 ? std::max(way[size_t(bend.a)], way[size_t(bend.b)])
-                                           : way[size_t(bend.a)] + (std::abs(bend.angle) >= curl ? 1 : 0);
-    }
-    return depth;
-}
-
-/// Labels of at least this depth that touch each other, each group ascending.
-std::vector<std::vector<int>> clusters(const LabelGraph& graph, const std::vector<int>& depth, int least)
-{
-    DisjointSets sets(depth.size());
-    for (size_t a = 0; a < depth.size(); ++a)
-        for (const int b : graph.vertex[a])
-            if (depth[a] >= least && depth[size_t(b)] >= least)
-                sets.join(int(a), b);
-    std::map<int, std::vector<int>> found;
-    for (size_t a = 0; a < depth.size(); ++a)
-        if (depth[a] >= least)
-            found[sets.root(int(a))].push_back(int(a));
-    std::vector<std::vector<int>> result;
-    for (auto& [first, labels] : found)
-        result.push_back(std::move(labels));
-    return result;
-}
-
-/// Whether places go around a cylinder or cone so far that no line is left along which it could be cut.
-bool wraps(const BinderFace& face, const TriMesh& part, const std::set<int>& vertices)
-{
-    constexpr double gap = 0.5; // radians
-    const auto around = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, const Eigen::Vector3d& x) {
-        const Eigen::Vector3d y = axis.cross(x);
-        std::vector<double> angle;
-        for (const int v : vertices) {
-            const Eigen::Vector3d arm = part.position.col(v) - origin;
-            angle.push_back(std::atan2(y.dot(arm), x.dot(arm)));
-        }
-        std::sort(angle.begin(), angle.end());
-        double widest = angle.front() + 2 * std::numbers::pi - angle.back();
-        for (size_t k = 1; k < angle.size(); ++k)
-            widest = std::max(widest, angle[k] - angle[k - 1]);
-        return widest < gap;
-    };
-    if (const auto* c = std::get_if<CylinderFace>(&face))
-        return around(c->origin, c->axis, c->towards);
-    if (const auto* c = std::get_if<ConeFace>(&face))
-        return around(c->apex, c->axis, c->towards);
-    return false;
-}
 
 std::string names(const BendMap& map, const std::vector<int>& labels)
 {
@@ -230,7 +35,7 @@ public:
     Planner(const TriMesh& part, const BendMap& map, const SequenceOptions& options)
         : part_(part), map_(map), distance_(options.distance * diagonal_of(part, all_faces())),
           of_vertex_(labels_of_vertices(part, map)), graph_(label_graph(part, map, of_vertex_)),
-          carriers_(part, map, distance_)
+          carriers_(part, map, distance_, options.carries_nothing)
     {
         result_.root = options.root >= 0 ? options.root : chosen_root(part, map, carriers_);
         result_.depth = depths(map, graph_, result_.root);
@@ -260,6 +65,15 @@ private:
         return faces;
     }
 
+    std::set<int> vertices_of(int region) const
+    {
+        std::set<int> vertices;
+        for (const int f : map_.faces_of(region))
+            for (const int v : part_.triangle.col(f))
+                vertices.insert(v);
+        return vertices;
+    }
+
     /// The region inside of a cluster with the longest border to it, over bends of the cluster or directly.
     int carrier_of(const std::vector<int>& cluster, int depth) const
     {
@@ -286,7 +100,7 @@ private:
             return cannot("it touches its inner neighbours in bends or points only");
         const BinderFit* fit = carriers_.of(carrier);
         if (!fit)
-            return cannot(fmt::format("{} is no plane, cylinder or cone", map_.name(carrier)));
+            return cannot(carriers_.why_not(carrier));
         std::vector<char> freed(graph_.edge.size(), 0);
         for (const int label : cluster)
             freed[size_t(label)] = 1;
@@ -359,8 +173,8 @@ private:
                 for (const int label : step.freed)
                     laid[size_t(label)] = 1;
         const bool together = std::all_of(laid.begin(), laid.end(), [](char l) { return l; });
-        const BinderFit* fit = carriers_.of(result_.root);
-        const bool rolls = together && fit;
+        const BinderFit* fit = carriers_.plain(result_.root);
+        const bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
         if (rolls && std::holds_alternative<PlaneFace>(fit->face) && !carriers_.loose(result_.root))
             return;
         PlannedStep step;

@@ -37,6 +37,7 @@ struct SequenceOptions {
     int root = -1;          ///< the region that stays; -1: the largest flat one
     bool unite = true;      ///< pieces laid on the same region at the same distance from the root make one step
     double distance = 9e-4; ///< of the part's diagonal: how far a carrying face may be from its plane, cylinder or cone
+    std::vector<int> carries_nothing = {}; ///< regions on which nothing shall be laid, ascending
 };
 
 struct UnfoldSequence {
@@ -47,8 +48,9 @@ struct UnfoldSequence {
 };
 
 /// Proposes the order in which a part is unfolded region by region: the outermost regions are laid on the faces of their
-/// neighbours, then these with what lies on them on theirs, until all lies on the face of the root; if that is a cylinder or
-/// cone it is unrolled, and if it is no such face all is flattened at once. Walls that touch (also in a vertex) move together;
+/// neighbours (planes, cylinders, cones, else smooth faces through gently curved ones), then these with what lies on them on theirs,
+/// until all lies on the face of the root; if that is a cylinder or cone it is unrolled, and if it is no such face or goes all
+/// around all is flattened at once. Walls that touch (also in a vertex) move together;
 /// what touches more than the region that carries it moves with the next ring. In every pick a freed face touches only freed and
 /// fixed ones.
 /// @param map of this part

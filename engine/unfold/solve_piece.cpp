@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/forming/equilibrium.h"
+#include "engine/forming/flatten_from.h"
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/sheet_fields.h"
@@ -41,9 +42,21 @@ FlattenOptions options_of(const FreedPiece& piece, FlattenOptions options)
     return options;
 }
 
+/// As steps before have left it, if that is seen whole along the normal: a start that flatten() may not find from the part.
+std::optional<Eigen::Matrix2Xd> seen_start(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
+                                           const Eigen::Vector3d& normal)
+{
+    if (now == piece.mesh.position)
+        return std::nullopt;
+    Eigen::Matrix2Xd seen = blank_plane(normal).transpose() * now;
+    if (flipped_triangles(piece.mesh.triangle, seen) > 0 || !one_to_one_around_vertices(piece.mesh, seen))
+        return std::nullopt;
+    return seen;
+}
+
 /// Joined to nothing it lies anywhere: as flatten() lays it.
-SolvedPiece free_piece(const FreedPiece& piece, const BinderFace& target, const FlattenOptions& options,
-                       const Progress& progress)
+SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
+                       const FlattenOptions& options, const Progress& progress)
 {
     const auto* plane = std::get_if<PlaneFace>(&target);
     if (!plane)
@@ -54,7 +67,15 @@ SolvedPiece free_piece(const FreedPiece& piece, const BinderFace& target, const 
     FlattenOptions seen = options;
     const Eigen::Vector3d normal = plane->axes.col(0).cross(plane->axes.col(1));
     seen.direction = normal;
-    FlattenResult flat = flatten(piece.mesh, seen, progress);
+    const auto solved = [&] {
+        if (const std::optional<Eigen::Matrix2Xd> start = seen_start(piece, now, normal))
+            try {
+                return flatten_from(piece.mesh, *start, seen, progress);
+            } catch (const SolveError&) { // steps may leave a state from which there is no way on
+            }
+        return flatten(piece.mesh, seen, progress);
+    };
+    FlattenResult flat = solved();
     const Eigen::Vector3d height = normal * normal.dot(plane->origin);
     return {(blank_plane(flat.stamping.direction) * flat.blank.position).colwise() + height, std::move(flat.face),
             std::move(flat.report)};
@@ -177,7 +198,7 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     const auto clock = std::chrono::steady_clock::now();
     const FlattenOptions options = options_of(piece, given);
     if (piece.held.empty())
-        return free_piece(piece, given_target, options, progress);
+        return free_piece(piece, state(Eigen::all, piece.vertex), given_target, options, progress);
     if (piece.hinge.empty())
         throw InputError(
             fmt::format("the freed faces around face {} touch the fixed ones in single vertices only; free or "

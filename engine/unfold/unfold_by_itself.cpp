@@ -1,0 +1,71 @@
+#include "engine/unfold/unfold_by_itself.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <optional>
+
+#include "engine/core/error.h"
+
+namespace spia {
+namespace {
+
+bool same(const PlannedStep& a, const PlannedStep& b)
+{
+    return a.kind == b.kind && a.pick.freed == b.pick.freed && a.pick.fixed == b.pick.fixed &&
+           a.pick.carrying == b.pick.carrying && a.within_mm == b.within_mm;
+}
+
+/// How many steps two plans begin with alike.
+size_t alike(const UnfoldScript& a, const UnfoldScript& b)
+{
+    return size_t(std::mismatch(a.begin(), a.end(), b.begin(), b.end(), same).first - a.begin());
+}
+
+/// Why the plan has to change at one of its steps; none: it need not, or cannot.
+struct Fault {
+    size_t step;
+    std::string why;
+};
+
+std::optional<Fault> fault_in(const UnfoldScript& steps, const UnfoldRun& run)
+{
+    for (size_t k = 0; k < run.states.size(); ++k) // what is laid on a smooth face may as well move with its neighbours
+        if (const UnfoldState& state = run.states[k]; !state.converged && state.plain == "smooth")
+            return Fault{k, state.reason};
+    if (run.failure.empty() || steps[run.states.size()].kind == UnfoldKind::flatten)
+        return std::nullopt;
+    return Fault{run.states.size(), run.failure};
+}
+
+} // namespace
+
+UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions options,
+                                  const FlattenOptions& flatten, const Progress& progress)
+{
+    UnfoldedByItself now{propose_sequence(part, map, options), {}};
+    if (now.sequence.steps.empty())
+        throw InputError("the part is flat already; there is nothing to unfold");
+    options.root = now.sequence.root; // stays, whatever carries nothing
+    std::vector<std::string> given_up;
+    size_t keep = 0;
+    for (UnfoldRun before;;) {
+        now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep);
+        const std::optional<Fault> fault = fault_in(now.sequence.steps, now.run);
+        if (!fault)
+            break;
+        const PlannedStep& failed = now.sequence.steps[fault->step];
+        const int carrier = failed.kind == UnfoldKind::lay ? failed.carrier : now.sequence.root;
+        given_up.push_back(fmt::format("\"{}\" had no result ({}); planned anew with nothing on {}", failed.name,
+                                       fault->why, map.name(carrier)));
+        options.carries_nothing.insert(
+            std::upper_bound(options.carries_nothing.begin(), options.carries_nothing.end(), carrier), carrier);
+        UnfoldSequence next = propose_sequence(part, map, options);
+        keep = std::min(alike(now.sequence.steps, next.steps), fault->step);
+        before = std::move(now.run);
+        now.sequence = std::move(next);
+    }
+    now.sequence.notes.insert(now.sequence.notes.end(), given_up.begin(), given_up.end());
+    return now;
+}
+
+} // namespace spia

@@ -1,0 +1,169 @@
+#include "engine/unfold/unfold_by_itself.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "engine/core/error.h"
+#include "engine/forming/material_library.h"
+#include "engine/mesh/region.h"
+#include "engine/unfold/carriers.h"
+#include "tests/support/bent_parts.h"
+#include "tests/support/fender.h"
+#include "tests/support/revolved.h"
+#include "tests/support/shapes.h"
+
+namespace spia {
+namespace {
+
+using shapes::Profile;
+using std::numbers::pi;
+
+FlattenOptions steel()
+{
+    FlattenOptions options;
+    options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    return options;
+}
+
+TriMesh fender() { return shapes::fender({.triangles = 2500}).mesh; }
+
+/// Gently curved in its middle, not by one radius; flanges on two sides, one of a length.
+shapes::DevelopablePart crowned_panel(double flange = 20)
+{
+    return shapes::extruded(Profile({0, 0}, pi / 2)
+                                .straight(flange)
+                                .bend(4, -pi / 2)
+                                .bend(900, -0.1)
+                                .bend(500, -0.15)
+                                .bend(4, -pi / 2)
+                                .straight(20),
+                            120, 3000);
+}
+
+double greatest_edge_difference(const TriMesh& part, const Blank& a, const Blank& b)
+{
+    double most = 0;
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int v = part.triangle(k, f), w = part.triangle((k + 1) % 3, f);
+            most = std::max(most, std::abs((a.position.col(v) - a.position.col(w)).norm() -
+                                           (b.position.col(v) - b.position.col(w)).norm()));
+        }
+    return most;
+}
+
+} // namespace
+
+TEST(UnfoldByItself, FlangesOfACurvedPanelAreLaidOnTheSmoothFaceThroughIt)
+{
+    const shapes::DevelopablePart panel = crowned_panel();
+    const TriMesh& part = panel.mesh;
+    const BendMap map = find_bends(part);
+    const UnfoldedByItself unfolded = unfold_by_itself(part, map, {}, steel());
+    ASSERT_EQ(unfolded.run.failure, "");
+    ASSERT_EQ(unfolded.sequence.steps.size(), 2u);
+    EXPECT_TRUE(unfolded.sequence.notes.empty());
+    EXPECT_EQ(unfolded.run.states[0].plain, "smooth");
+    EXPECT_TRUE(unfolded.run.states[0].converged);
+    EXPECT_LT(unfolded.run.states[0].face.strain_equivalent.maxCoeff(), 2e-3) << "a developable sheet on another one";
+    EXPECT_EQ(unfolded.sequence.steps[1].kind, UnfoldKind::flatten);
+    ASSERT_TRUE(unfolded.run.blank);
+    EXPECT_EQ(unfolded.run.flipped, 0);
+    const Eigen::Vector2d size =
+        unfolded.run.blank->position.rowwise().maxCoeff() - unfolded.run.blank->position.rowwise().minCoeff();
+    EXPECT_NEAR(size[0], panel.flat.row(0).maxCoeff() - panel.flat.row(0).minCoeff(), 1e-3);
+    EXPECT_NEAR(size[1], 120, 1e-3);
+}
+
+TEST(UnfoldByItself, FlatteningAfterTheStepsEndsInTheBlankOfFlatteningAtOnce)
+{
+    const TriMesh part = fender();
+    const UnfoldedByItself unfolded = unfold_by_itself(part, find_bends(part), {}, steel());
+    ASSERT_TRUE(unfolded.run.blank) << unfolded.run.failure;
+    ASSERT_GT(unfolded.run.states.size(), 1u);
+    const FlattenResult at_once = flatten(part, steel());
+    EXPECT_LT(greatest_edge_difference(part, *unfolded.run.blank, at_once.blank), 1e-3);
+}
+
+TEST(UnfoldByItself, FlatteningStartsFromHowStepsHaveLeftThePart)
+{
+    const TriMesh part = fender();
+    const FlattenResult at_once = flatten(part, steel());
+    Eigen::Matrix3Xd state = Eigen::Matrix3Xd::Zero(3, part.vertices()); // nothing is left to do
+    state.topRows<2>() = at_once.blank.position;
+    UnfoldPick pick;
+    pick.freed = inverted({}, part.triangles());
+    pick.target = PlaneFace{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity().leftCols<2>()};
+    const UnfoldStepResult result = unfold_step(part, state, pick, steel());
+    const auto steps = [](const SolveReport& report) { return report.energy.size() + report.newton.size(); };
+    EXPECT_TRUE(result.converged());
+    EXPECT_LT(2 * steps(result.piece[0].report), steps(at_once.report));
+    EXPECT_LT(greatest_edge_difference(part, {result.position.topRows<2>()}, at_once.blank),
+              1e-3); // of 880 mm, solved to 1e-8 of the forces
+}
+
+TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
+{
+    const TriMesh part = fender();
+    const BendMap map = find_bends(part);
+    Carriers near(part, map, 1), far(part, map, 1e-6);
+    const auto carrying = [&](Carriers& carriers) {
+        int count = 0;
+        for (int r = 0; r < int(map.regions.size()); ++r)
+            if (const BinderFit* fit = carriers.of(r); fit && !carriers.plain(r)) {
+                EXPECT_TRUE(std::holds_alternative<HeightFace>(fit->face));
+                EXPECT_LE(fit->distance_mm, 1);
+                EXPECT_LE(fit->angle, 0.2);
+                EXPECT_FALSE(carriers.loose(r));
+                ++count;
+            }
+        return count;
+    };
+    EXPECT_GT(carrying(near), 0);
+    EXPECT_EQ(carrying(far), 0);
+    const UnfoldSequence sequence = propose_sequence(part, map, {.distance = 1e-9});
+    ASSERT_EQ(sequence.steps.size(), 1u);
+    EXPECT_EQ(sequence.steps[0].kind, UnfoldKind::flatten);
+    ASSERT_FALSE(sequence.notes.empty());
+    EXPECT_NE(sequence.notes[0].find("the smooth face through it is"), std::string::npos) << sequence.notes[0];
+}
+
+TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
+{
+    // Allowed to be far beside its plane, the flat-ish middle carries the flanges; the step itself refuses that. The long flange
+    // could be the root, too: it must not become it.
+    const TriMesh part = crowned_panel(70).mesh;
+    const BendMap map = find_bends(part);
+    const SequenceOptions loose{.distance = 0.08};
+    const UnfoldSequence first = propose_sequence(part, map, loose);
+    ASSERT_EQ(first.steps[0].kind, UnfoldKind::lay);
+    ASSERT_NE(run_unfolding(part, first.steps, steel()).failure, "") << "or this test shows nothing";
+    const UnfoldedByItself unfolded = unfold_by_itself(part, map, loose, steel());
+    EXPECT_EQ(unfolded.run.failure, "");
+    ASSERT_TRUE(unfolded.run.blank);
+    EXPECT_EQ(unfolded.run.flipped, 0);
+    EXPECT_EQ(unfolded.sequence.root, first.root);
+    ASSERT_FALSE(unfolded.sequence.notes.empty());
+    EXPECT_NE(unfolded.sequence.notes.back().find("had no result"), std::string::npos);
+    EXPECT_EQ(unfolded.run.states.size(), unfolded.sequence.steps.size());
+}
+
+TEST(UnfoldByItself, WhatGoesAllAroundAConeIsFlattenedNotUnrolled)
+{
+    const Eigen::Matrix2Xd meridian = (Eigen::Matrix2Xd(2, 2) << 30, 60, 80, 0).finished();
+    const TriMesh ring = shapes::axisymmetric(meridian, 3000).mesh;
+    const UnfoldedByItself unfolded = unfold_by_itself(ring, find_bends(ring), {}, steel());
+    EXPECT_EQ(unfolded.run.failure, "");
+    EXPECT_TRUE(unfolded.sequence.notes.empty()) << "planned so at once: " << unfolded.sequence.notes[0];
+    ASSERT_EQ(unfolded.sequence.steps.size(), 1u);
+    EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::flatten);
+    EXPECT_EQ(unfolded.run.flipped, 0);
+}
+
+TEST(UnfoldByItself, AFlatPartIsRefused)
+{
+    const TriMesh plate = shapes::plate();
+    EXPECT_THROW(unfold_by_itself(plate, find_bends(plate), {}, steel()), InputError);
+}
+
+} // namespace spia
