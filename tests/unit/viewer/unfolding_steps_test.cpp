@@ -258,6 +258,43 @@ TEST_F(UnfoldingSteps, AStepOfPickedFacesLaysThemOnTheFaceOfARegion)
               document.session.part->mesh.position(Eigen::all, document.session.part->mesh.triangle.col(leg[0])));
 }
 
+TEST_F(UnfoldingSteps, AllThatIsNotPickedStaysButOnlyTheRegionCarriesTheFace)
+{
+    open_channel();
+    const TriMesh& part = document.session.part->mesh;
+    const double right = part.position.row(0).maxCoeff(), top = part.position.row(2).maxCoeff();
+    FaceSet web, upper;
+    for (int f = 0; f < part.triangles(); ++f) {
+        const Eigen::Matrix3d corner = part.position(Eigen::all, part.triangle.col(f));
+        if (corner.row(0).minCoeff() > right - 1e-4)
+            web.push_back(f);
+        else if (corner.row(2).minCoeff() > top - 5 - 1e-4)
+            upper.push_back(f);
+    }
+    model.apply(SelectFaces{web});
+    model.apply(MakeRegion{"web", RegionKind::fixed});
+    model.apply(SelectFaces{upper});
+    model.apply(MakeRegion{"upper leg", RegionKind::other});
+    model.apply(AddStep{0, 1, ""});
+    EXPECT_EQ(names(), std::vector<std::string>{"upper leg onto web"});
+    run();
+    ASSERT_EQ(status(), std::vector{done}) << last(Severity::error);
+    EXPECT_THAT(last(Severity::warning), HasSubstr("does not lie in a plane yet; add a step"));
+    for (const int f : upper)
+        for (const int v : part.triangle.col(f))
+            EXPECT_NEAR(after(0).position(0, v), right, 1e-4);
+    for (const int f : inverted(upper, part.triangles())) // the lower leg, too
+        EXPECT_EQ(after(0).position(Eigen::all, part.triangle.col(f)), part.position(Eigen::all, part.triangle.col(f)));
+    const auto before = document.steps[0];
+    model.apply(SaveProject{folder / "own.spia"});
+    model.apply(OpenProject{folder / "own.spia"});
+    wait();
+    ASSERT_EQ(document.steps.size(), 1u);
+    EXPECT_EQ(document.steps[0]->pick.carrying, web);
+    EXPECT_EQ(document.steps[0]->pick.fixed, before->pick.fixed);
+    EXPECT_EQ(document.steps[0]->pick.freed, upper);
+}
+
 TEST_F(UnfoldingSteps, WhatCannotBeDoneIsRefusedWithAWayOut)
 {
     model.apply(ProposeSteps{});
@@ -387,7 +424,7 @@ TEST_F(UnfoldingSteps, AProjectKeepsTheListAndRunsItAgain)
         EXPECT_EQ(is.tolerance, was.tolerance);
         EXPECT_EQ(is.within_mm, was.within_mm);
     }
-    EXPECT_EQ(status(), std::vector(5, done));
+    ASSERT_EQ(status(), std::vector(5, done));
     EXPECT_EQ(after(2).position, third);
     EXPECT_EQ(state.view.step, 2);
     EXPECT_EQ(step_position(state), 2.5);
@@ -404,7 +441,7 @@ TEST_F(UnfoldingSteps, OnAPartMeshedAnewTheStepsOfAProjectAreFoundAgainAndUnfold
     wait();
     ASSERT_EQ(document.steps.size(), 5u) << last(Severity::error) << last(Severity::warning);
     run();
-    EXPECT_TRUE(all_steps_done(document)) << last(Severity::error);
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
     EXPECT_TRUE(document.unfolding->run.blank);
     EXPECT_EQ(document.unfolding->run.flipped, 0);
 }
@@ -496,6 +533,19 @@ TEST_F(UnfoldingSteps, ThePartIsShownAsItsStepsHaveUnfoldedIt)
     }
     EXPECT_LT(shown().layers[0].mesh->normal.bottomRows<2>().cwiseAbs().maxCoeff(), 1e-3)
         << "at the end all lies in the upright plane";
+    model.apply(ShowStep{});
+    EXPECT_EQ(shown().layers[0].mesh, layers_of_the_part[0].mesh);
+}
+
+TEST_F(UnfoldingSteps, TheFieldOfTheStateThatIsShownOrComesNextColoursIt)
+{
+    open_box();
+    propose();
+    run();
+    ASSERT_EQ(status(), std::vector(5, done));
+    ASSERT_GT(after(4).face.strain_equivalent.maxCoeff(), after(3).face.strain_equivalent.maxCoeff() + 0.1)
+        << "the last step strains the corners";
+    SceneCache cache;
     ViewSettings settings = state.view;
     settings.field_on_steps = true;
     model.apply(SetViewSettings{settings});
@@ -503,15 +553,20 @@ TEST_F(UnfoldingSteps, ThePartIsShownAsItsStepsHaveUnfoldedIt)
     display.field = Field::strain_equivalent;
     display.per_face = true;
     model.apply(SetDisplay{display});
-    const Scene coloured = shown();
-    ASSERT_TRUE(coloured.layers[0].field);
-    EXPECT_EQ(coloured.legend->title, "Equivalent strain");
-    EXPECT_LT((coloured.layers[0].field->value.cast<double>() - after(document.steps.size() - 1).face.strain_equivalent)
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-6);
-    model.apply(ShowStep{});
-    EXPECT_EQ(shown().layers[0].mesh, layers_of_the_part[0].mesh);
+    for (const auto& [position, number] : {std::pair(5., 4u), {4.3, 4u}, {4., 3u}, {0.5, 0u}}) {
+        model.apply(ShowStep{{}, position});
+        const Scene coloured = part_scene(state, cache);
+        ASSERT_TRUE(coloured.layers[0].field) << position;
+        EXPECT_EQ(coloured.legend->title, "Equivalent strain");
+        EXPECT_LT((coloured.layers[0].field->value.cast<double>() - after(number).face.strain_equivalent)
+                      .cwiseAbs()
+                      .maxCoeff(),
+                  1e-6)
+            << position;
+    }
+    display.field = Field::area_change; // of a blank, not of a state
+    model.apply(SetDisplay{display});
+    EXPECT_EQ(part_scene(state, cache).layers[0].field, nullptr);
 }
 
 TEST_F(UnfoldingSteps, WhatIsPickedIsWhatIsShown)
