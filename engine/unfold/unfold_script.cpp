@@ -10,6 +10,8 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/flips.h"
+#include "engine/forming/process.h"
+#include "engine/forming/sheet_fields.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/turn_binder.h"
@@ -105,7 +107,8 @@ PlaneFace mean_plane(const TriMesh& now)
     return {now.position.rowwise().mean(), axes};
 }
 
-void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
+/// The chords of the mesh are laid out as the arcs over them: what that strains is told by the fields.
+void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& options, UnfoldState& state)
 {
     constexpr double beside = 1e-3, own_plane = 1e-9; // of the part
     const TriMesh now{state.position, part.triangle};
@@ -130,6 +133,10 @@ void unroll(const TriMesh& part, const PlannedStep& step, UnfoldState& state)
     const PlaneFace plane = tangent_plane(face, places);
     for (int v = 0; v < now.vertices(); ++v)
         state.position.col(v) = placed(BinderFace(plane), places.col(v));
+    state.face =
+        face_fields(part, elements(part), {places},
+                    sheet_of(options.material, options.thickness, options.curve, options.process, part, plane.axes));
+    state.necking = state.face.necking.sum();
     state.plain = name(face);
     state.overlap = landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part));
 }
@@ -284,7 +291,7 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, 0};
         try {
             if (step.kind == UnfoldKind::unroll)
-                unroll(part, step, next);
+                unroll(part, step, options, next);
             else
                 lay(part, step, options, own, next);
         } catch (const InputError& error) {
