@@ -33,7 +33,7 @@ std::string names(const BendMap& map, const std::vector<int>& labels)
 class Planner {
 public:
     Planner(const TriMesh& part, const BendMap& map, const SequenceOptions& options)
-        : part_(part), map_(map), distance_(options.distance * diagonal_of(part, all_faces())),
+        : part_(part), map_(map), unroll_(options.unroll), distance_(options.distance * diagonal_of(part, all_faces())),
           of_vertex_(labels_of_vertices(part, map)), graph_(label_graph(part, map, of_vertex_)),
           carriers_(part, map, distance_, options.carries_nothing)
     {
@@ -174,9 +174,10 @@ private:
                     laid[size_t(label)] = 1;
         const bool together = std::all_of(laid.begin(), laid.end(), [](char l) { return l; });
         const BinderFit* fit = carriers_.plain(result_.root);
-        const bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
+        bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
         if (rolls && std::holds_alternative<PlaneFace>(fit->face) && !carriers_.loose(result_.root))
             return;
+        rolls &= unroll_;
         PlannedStep step;
         step.kind = rolls ? UnfoldKind::unroll : UnfoldKind::flatten;
         step.name = rolls ? fmt::format("unroll the {} of {}", name(fit->face), map_.name(result_.root))
@@ -193,6 +194,7 @@ private:
 
     const TriMesh& part_;
     const BendMap& map_;
+    bool unroll_;
     double distance_; ///< mm
     std::vector<std::vector<int>> of_vertex_;
     LabelGraph graph_;

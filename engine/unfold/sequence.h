@@ -37,6 +37,7 @@ struct SequenceOptions {
     int root = -1;          ///< the region that stays; -1: the largest flat one
     bool unite = true;      ///< pieces laid on the same region at the same distance from the root make one step
     double distance = 9e-4; ///< of the part's diagonal: how far a carrying face may be from its plane, cylinder or cone
+    bool unroll = true;     ///< a cylinder or cone at last; else all is flattened
     std::vector<int> carries_nothing = {}; ///< regions on which nothing shall be laid, ascending
 };
 

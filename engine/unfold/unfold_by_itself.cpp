@@ -54,11 +54,16 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
         if (!fault)
             break;
         const PlannedStep& failed = now.sequence.steps[fault->step];
-        const int carrier = failed.kind == UnfoldKind::lay ? failed.carrier : now.sequence.root;
-        given_up.push_back(fmt::format("\"{}\" had no result ({}); planned anew with nothing on {}", failed.name,
-                                       fault->why, map.name(carrier)));
-        options.carries_nothing.insert(
-            std::upper_bound(options.carries_nothing.begin(), options.carries_nothing.end(), carrier), carrier);
+        const std::string what = fmt::format("\"{}\" had no result ({}); planned anew ", failed.name, fault->why);
+        if (failed.kind == UnfoldKind::unroll) {
+            options.unroll = false;
+            given_up.push_back(what + "with all flattened at last");
+        } else {
+            given_up.push_back(what + "with nothing on " + map.name(failed.carrier));
+            options.carries_nothing.insert(
+                std::upper_bound(options.carries_nothing.begin(), options.carries_nothing.end(), failed.carrier),
+                failed.carrier);
+        }
         UnfoldSequence next = propose_sequence(part, map, options);
         keep = std::min(alike(now.sequence.steps, next.steps), fault->step);
         before = std::move(now.run);
