@@ -176,7 +176,12 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     look.content_scale = scale;
     constexpr int64_t many = 1 << 24; // pixels: fine enough without samples, and these need memory
     look.samples = int64_t(width) * height > many ? 1 : look.samples;
-    Frame frame{model, quiet, nobody, aside, cache, [&](const Scene& shown, View view, int w, int h) {
+    Frame frame{model,
+                quiet,
+                nobody,
+                aside,
+                cache,
+                [&](const Scene& shown, View view, int w, int h) {
                     const Camera& camera = model.state().view.camera[size_t(view)];
                     return reinterpret_cast<ImTextureID>(
                         uintptr_t(renderer.draw(images[size_t(view)], shown, camera, w, h, look)));

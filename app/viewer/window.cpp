@@ -207,7 +207,12 @@ private:
             ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
         ImGui::NewFrame();
         images_.begin_frame();
-        Frame now{model_, model_.state(), queue_, ui_, cache_, [&](const Scene& shown, View view, int w, int h) {
+        Frame now{model_,
+                  model_.state(),
+                  queue_,
+                  ui_,
+                  cache_,
+                  [&](const Scene& shown, View view, int w, int h) {
                       return reinterpret_cast<ImTextureID>(
                           uintptr_t(images_.draw(size_t(view), ui_.busy == view, shown,
                                                  model_.state().view.camera[size_t(view)], w, h, look())));

@@ -51,8 +51,7 @@ void ViewerModel::Apply::operator()(const RunSteps&)
     }
     const ProcessConditions& process = session.options.flatten.process;
     model.run_missing_steps();
-    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() ||
-        process.edge_restraint > 0)
+    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() || process.edge_restraint > 0)
         model.say(Severity::hint, "Tools, drawbeads, pilots and the held edge act on the part as a whole; the steps "
                                   "leave them out.");
 }
@@ -64,9 +63,9 @@ void ViewerModel::Apply::operator()(const AddStep& action)
     if (!action.freed && document.selected.empty())
         throw InputError("Select the faces to unfold first, or make a region of them.");
     if (action.freed == action.fixed)
-        throw InputError(fmt::format("The region \"{}\" cannot both stay and be unfolded; choose another one.", fixed.name));
-    const std::vector<int>& freed =
-        action.freed ? document.regions[region(*action.freed)].faces : document.selected;
+        throw InputError(
+            fmt::format("The region \"{}\" cannot both stay and be unfolded; choose another one.", fixed.name));
+    const std::vector<int>& freed = action.freed ? document.regions[region(*action.freed)].faces : document.selected;
     std::vector<int> both;
     std::set_intersection(fixed.faces.begin(), fixed.faces.end(), freed.begin(), freed.end(), std::back_inserter(both));
     if (!both.empty())
@@ -142,11 +141,11 @@ void ViewerModel::Apply::operator()(const ShowStep& action)
         step(*action.step);
     const double done = double(steps_done(document));
     if (action.position && !(*action.position >= 0 && *action.position <= double(document.steps.size())))
-        throw InputError(fmt::format("The slider goes from 0, the part, to {}, after the last step.", document.steps.size()));
+        throw InputError(
+            fmt::format("The slider goes from 0, the part, to {}, after the last step.", document.steps.size()));
     if (action.position && *action.position > done)
         model.say(Severity::hint, "The steps up to there have to be run first.");
-    const double position =
-        std::min(done, action.position.value_or(action.step ? double(*action.step + 1) : 0));
+    const double position = std::min(done, action.position.value_or(action.step ? double(*action.step + 1) : 0));
     std::optional<int> shown = action.step;
     if (!shown && action.position && *action.position > 0)
         shown = std::max(0, int(std::ceil(position)) - 1);

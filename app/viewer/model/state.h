@@ -37,9 +37,9 @@ struct ViewSettings {
     bool part_under_quads = true;
     bool surface_deviation = true;
     bool quad_quality = true;
-    double unfolded = 0;           ///< 0: the part; k: after step k; between: on the way. See step_position()
-    std::optional<int> step;       ///< the chosen one, from 0: its faces are marked
-    bool field_on_steps = false;   ///< the field of the states instead of the marks
+    double unfolded = 0;         ///< 0: the part; k: after step k; between: on the way. See step_position()
+    std::optional<int> step;     ///< the chosen one, from 0: its faces are marked
+    bool field_on_steps = false; ///< the field of the states instead of the marks
 };
 
 enum class Severity { hint, done, warning, error };

@@ -45,9 +45,9 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
     constexpr char is_fixed = 1, is_freed = 2, is_carrying = 4;
     std::vector<std::string> treated(size_t(part.mesh.triangles()), std::string(steps.size(), '\0')); // by step
     for (size_t k = 0; k < steps.size(); ++k)
-        for (const auto& [faces, role] : {std::pair(&steps[k]->pick.fixed, is_fixed),
-                                          std::pair(&steps[k]->pick.freed, is_freed),
-                                          std::pair(&steps[k]->pick.carrying, is_carrying)})
+        for (const auto& [faces, role] :
+             {std::pair(&steps[k]->pick.fixed, is_fixed), std::pair(&steps[k]->pick.freed, is_freed),
+              std::pair(&steps[k]->pick.carrying, is_carrying)})
             for (const int f : *faces) {
                 require_triangle(part.mesh, f);
                 treated[size_t(f)][k] = char(treated[size_t(f)][k] | role);

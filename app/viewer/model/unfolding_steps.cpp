@@ -169,9 +169,9 @@ StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, con
         for (size_t k = done; k < steps.size() || k == done; ++k) {
             if (k < steps.size())
                 script.push_back(*steps[k]);
-            result->run = run_unfolding(
-                part->mesh, script, sheet,
-                progress.part(-double(done) / missing, double(script.size() - done) / missing), &result->run, k);
+            result->run = run_unfolding(part->mesh, script, sheet,
+                                        progress.part(-double(done) / missing, double(script.size() - done) / missing),
+                                        &result->run, k);
             if (!result->run.failure.empty())
                 break;
         }

@@ -15,7 +15,10 @@ std::string sentence(std::string text)
     return as_sentence(std::move(text));
 }
 
-std::string counted(size_t count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+std::string counted(size_t count, const char* what)
+{
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
 
 } // namespace
 
@@ -78,8 +81,8 @@ void ViewerModel::take_steps_result()
         for (size_t k = 0; k < std::min(most_notes, outcome.notes.size()); ++k)
             say(Severity::hint, sentence(outcome.notes[k]));
         if (outcome.notes.size() > most_notes)
-            say(Severity::hint, fmt::format("Likewise {} elsewhere.",
-                                            counted(outcome.notes.size() - most_notes, "place")));
+            say(Severity::hint,
+                fmt::format("Likewise {} elsewhere.", counted(outcome.notes.size() - most_notes, "place")));
         say(Severity::done,
             fmt::format("The part has {} and {}; proposed {}.", counted(outcome.bends->map.regions.size(), "region"),
                         counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));

@@ -7,19 +7,18 @@ namespace spia::viewer {
 
 std::string in_viewer_words(std::string text)
 {
-    constexpr std::string_view words[][2] = {{"--weld", "\"Join them\" in the step Part"},
-                                             {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
-                                             {"--unit", "in the step Part"},
-                                             {"--young", "in the field above"},
-                                             {"--data engineering or --data true", "above"},
-                                             {"--data", "above"},
-                                             {"give a target that goes through their common edge",
-                                              "take away its offset, or choose a region to stay whose face goes "
-                                              "through their common edge"},
-                                             {"pick others, allow more or give a target",
-                                              "pick others, or allow more with \"Within\""},
-                                             {"pick those that carry the target, or give one",
-                                              "choose another region to stay"}};
+    constexpr std::string_view words[][2] = {
+        {"--weld", "\"Join them\" in the step Part"},
+        {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
+        {"--unit", "in the step Part"},
+        {"--young", "in the field above"},
+        {"--data engineering or --data true", "above"},
+        {"--data", "above"},
+        {"give a target that goes through their common edge",
+         "take away its offset, or choose a region to stay whose face goes "
+         "through their common edge"},
+        {"pick others, allow more or give a target", "pick others, or allow more with \"Within\""},
+        {"pick those that carry the target, or give one", "choose another region to stay"}};
     for (const auto& [flag, button] : words)
         for (size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + button.size()))
             text.replace(at, flag.size(), button);

@@ -22,8 +22,7 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
         {session.part, session.blank, session.limits, session.surface, field, document.section},
         [&]() -> std::vector<SectionPiece> {
             const auto& line = document.section;
-            const TriMesh* mesh =
-                line ? section_mesh(frame, line->on_blank) : nullptr;
+            const TriMesh* mesh = line ? section_mesh(frame, line->on_blank) : nullptr;
             if (!mesh || field == Field::none || !available(session, field))
                 return {};
             return section(*mesh, values(session, field, false), *line);

@@ -93,8 +93,8 @@ struct Ui {
     std::optional<EditedRegion> edited_region;
     int step_fixed = 0, step_freed = -1; ///< regions of the step to be added; -1: the selection
     std::vector<StepPicture> step_pictures;
-    bool steps_listed = false;           ///< in the last frame
-    std::optional<float> playing;        ///< the unfolding, at this position
+    bool steps_listed = false;          ///< in the last frame
+    std::optional<float> playing;       ///< the unfolding, at this position
     std::optional<ImVec2> diagram_from; ///< where a click or drag in the strain diagram began
 
     // what would lose unsaved work: asked about, and the answer "go on" for the next action

@@ -15,11 +15,14 @@ void next_button(Frame& frame)
 {
     const Document& document = frame.state.document;
     if (document.steps.empty()) {
-        muted(frame, "For a part that is not made in one hit: its flanges are laid flat one after another, the outermost first.");
+        muted(
+            frame,
+            "For a part that is not made in one hit: its flanges are laid flat one after another, the outermost first.");
         if (primary_button(frame, "Propose steps", idle(frame)))
             frame.actions.push(ProposeSteps{});
-        tooltip("Splits the part at its bends and says in which order it can be unfolded; the largest flat region stays. All "
-                "of it can be changed.");
+        tooltip(
+            "Splits the part at its bends and says in which order it can be unfolded; the largest flat region stays. All "
+            "of it can be changed.");
         return;
     }
     if (all_steps_done(document))
@@ -39,8 +42,7 @@ void blank_figures(Frame& frame)
         return;
     const UnfoldRun& run = document.unfolding->run;
     if (!run.blank)
-        return coloured(palette_of(frame.state.view.dark).warning,
-                        "The part does not lie in a plane yet; add a step.");
+        return coloured(palette_of(frame.state.view.dark).warning, "The part does not lie in a plane yet; add a step.");
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     figure(frame, "Blank of the steps", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
     if (run.flipped > 0)
@@ -69,16 +71,16 @@ void slider(Frame& frame)
     tooltip("Plays the unfolding");
     ImGui::SameLine();
     const double whole = std::round(double(position));
-    const std::string text = position == 0                ? "the part"
+    const std::string text = position == 0               ? "the part"
                              : double(position) == whole ? fmt::format("after step {:.0f}", whole)
-                                                          : fmt::format("in step {:.0f}", std::ceil(position));
+                                                         : fmt::format("in step {:.0f}", std::ceil(position));
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderFloat("##unfolded", &position, 0, float(done), text.c_str(), ImGuiSliderFlags_NoInput)) {
         constexpr double near = 0.08; // of a step: whole ones are met
         const double nearest = std::round(double(position));
         playing.reset();
-        frame.actions.push(
-            ShowStep{{}, std::clamp(std::abs(double(position) - nearest) < near ? nearest : double(position), 0., done)});
+        frame.actions.push(ShowStep{
+            {}, std::clamp(std::abs(double(position) - nearest) < near ? nearest : double(position), 0., done)});
     }
     tooltip("How far the part is unfolded in its view");
 }
@@ -97,10 +99,10 @@ const char* status_words(StepStatus status)
 
 ImVec4 status_colour(const Palette& p, StepStatus status)
 {
-    return status == StepStatus::done                                     ? p.good
-           : status == StepStatus::poor || status == StepStatus::stale    ? p.warning
-           : status == StepStatus::failed                                 ? p.error
-                                                                          : p.muted;
+    return status == StepStatus::done                                  ? p.good
+           : status == StepStatus::poor || status == StepStatus::stale ? p.warning
+           : status == StepStatus::failed                              ? p.error
+                                                                       : p.muted;
 }
 
 /// With a sign, but for what is nothing when rounded.
@@ -148,8 +150,9 @@ void step_editor(Frame& frame, int number)
         ImGui::SetNextItemWidth(width);
         changed |= typed_number(frame, "Within, mm", edited.within_mm, "%.4g");
         edited.within_mm = std::max(0., edited.within_mm);
-        tooltip("How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is none, "
-                "a smooth face through them.");
+        tooltip(
+            "How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is none, "
+            "a smooth face through them.");
     }
     if (step.kind != UnfoldKind::unroll) {
         double tolerance = edited.tolerance.value_or(FlattenOptions{}.tolerance);
@@ -285,8 +288,7 @@ void new_step(Frame& frame)
     const bool nothing = ui.step_freed < 0 && document.selected.empty();
     ImGui::BeginDisabled(nothing || ui.step_fixed == ui.step_freed);
     if (ImGui::Button("Add step", {-1, 0}))
-        frame.actions.push(
-            AddStep{ui.step_fixed, ui.step_freed < 0 ? std::nullopt : std::optional(ui.step_freed), {}});
+        frame.actions.push(AddStep{ui.step_fixed, ui.step_freed < 0 ? std::nullopt : std::optional(ui.step_freed), {}});
     ImGui::EndDisabled();
     if (nothing)
         muted(frame, "Select the faces to unfold.");

@@ -126,9 +126,8 @@ void colour_by_field(Scene& scene, SceneLayer& sheet, const ViewerState& state, 
     const auto number = size_t(std::ceil(step_position(state))) - 1;
     scene.legend = legend_of(state, values, part_shape(state, cache).box.diagonal().norm());
     sheet.scale = scene.legend->scale;
-    sheet.field =
-        cache.steps.field.of({sheet.mesh, state.document.unfolding, number, display.field, display.per_face},
-                             [&] { return scene_field(*sheet.mesh, values.value, display.per_face); });
+    sheet.field = cache.steps.field.of({sheet.mesh, state.document.unfolding, number, display.field, display.per_face},
+                                       [&] { return scene_field(*sheet.mesh, values.value, display.per_face); });
 }
 
 } // namespace
@@ -165,8 +164,7 @@ TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places)
     for (const auto place : places.colwise())
         box.extend(developed(face, place));
     const double around = margin * box.diagonal().norm();
-    const Eigen::Vector2d from = box.min().array() - around,
-                          step = (box.sizes().array() + 2 * around) / double(cells);
+    const Eigen::Vector2d from = box.min().array() - around, step = (box.sizes().array() + 2 * around) / double(cells);
     TriMesh patch{Eigen::Matrix3Xd(3, (cells + 1) * (cells + 1)), Eigen::Matrix3Xi(3, 2 * cells * cells)};
     int next = 0;
     for (int j = 0; j <= cells; ++j)
@@ -198,10 +196,9 @@ Scene step_scene(const ViewerState& state, SceneCache& cache)
     const std::vector<FaceRegion>& picks =
         chosen ? cache.steps.picks.of({chosen}, [&] { return picks_of(*chosen); }) : nothing;
     scene.region_colours = region_colours(picks);
-    sheet.marks =
-        cache.steps.marks.of({part_shape(state, cache).mesh, chosen, document.selected, state.hovered}, [&] {
-            return face_marks(int(shape.mesh->triangle.cols()), document.selected, picks, state.hovered);
-        });
+    sheet.marks = cache.steps.marks.of({part_shape(state, cache).mesh, chosen, document.selected, state.hovered}, [&] {
+        return face_marks(int(shape.mesh->triangle.cols()), document.selected, picks, state.hovered);
+    });
     if (values)
         colour_by_field(scene, sheet, state, *values, cache);
     scene.layers.push_back(std::move(sheet));

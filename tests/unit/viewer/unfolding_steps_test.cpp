@@ -355,8 +355,8 @@ TEST_F(UnfoldingSteps, WhatEndedBeforeARunIsCancelledIsKept)
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     const Progress progress([&](double, std::string_view step) { *stop = *stop || step == document.steps[2]->name; },
                             stop);
-    const StepsOutcome outcome = run_steps(shared, document.steps, sheet_of_steps(document.session.options.flatten),
-                                           nullptr, 0, progress);
+    const StepsOutcome outcome =
+        run_steps(shared, document.steps, sheet_of_steps(document.session.options.flatten), nullptr, 0, progress);
     EXPECT_TRUE(outcome.cancelled);
     ASSERT_EQ(outcome.run->run.states.size(), 2u);
     EXPECT_EQ(outcome.run->figure.size(), 2u);
@@ -471,10 +471,9 @@ TEST_F(UnfoldingSteps, ScriptsSayTheSameActions)
     EXPECT_EQ(report["steps"][3]["freed"], document.steps[3]->pick.freed.size());
     EXPECT_EQ(report["steps"][3]["strain_equivalent"], document.unfolding->figure[3].strain_equivalent);
     EXPECT_GT(report["blank"]["size"][0], 100 + 2 * 30) << "with the lips it is wider than bottom and walls";
-    for (const Action& action :
-         {Action(ProposeSteps{7}), Action(RunSteps{}), Action(AddStep{2, 1, "a"}),
-          Action(ChangeStep{1, "b", -2.5, 0.5, 1e-6}), Action(RemoveStep{3}), Action(MoveStep{1, 2}),
-          Action(ShowStep{1, 0.5})})
+    for (const Action& action : {Action(ProposeSteps{7}), Action(RunSteps{}), Action(AddStep{2, 1, "a"}),
+                                 Action(ChangeStep{1, "b", -2.5, 0.5, 1e-6}), Action(RemoveStep{3}),
+                                 Action(MoveStep{1, 2}), Action(ShowStep{1, 0.5})})
         EXPECT_EQ(to_json(action_from_json(to_json(action), state)), to_json(action)) << to_json(action);
     perform(R"({"do": "remove_step", "step": 4})");
     perform(R"({"do": "move_step", "step": 0, "to": 2})");
