@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/mesh/topology.h"
 #include "engine/unfold/carriers.h"
 #include "engine/unfold/label_graph.h"
 #include "engine/unfold/pick_border.h"
@@ -175,7 +176,9 @@ private:
         const bool together = std::all_of(laid.begin(), laid.end(), [](char l) { return l; });
         const BinderFit* fit = carriers_.plain(result_.root);
         bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
-        if (rolls && std::holds_alternative<PlaneFace>(fit->face) && !carriers_.loose(result_.root))
+        constexpr double in_one_plane = 1e-7; // of the part; what lies farther off is put into the plane by a step
+        if (rolls && std::holds_alternative<PlaneFace>(fit->face) &&
+            fit->distance_mm <= in_one_plane * bounding_diagonal(part_))
             return;
         rolls &= unroll_;
         PlannedStep step;

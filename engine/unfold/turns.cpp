@@ -73,6 +73,20 @@ double roughness(const TriMesh& mesh, const std::vector<EdgeUse>& uses)
     return *middle;
 }
 
+/// Whether a quarter of the edges turn by nearly nothing, as those within flat strips do on a mesh without noise. However coarse
+/// that is at its bends: on a scan every edge turns a little.
+bool strips(const Eigen::Matrix3Xd& normal, const std::vector<EdgeUse>& uses, double nothing)
+{
+    size_t inner = 0, straight = 0;
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end - begin != 2)
+            return;
+        ++inner;
+        straight += (normal.col(uses[begin].face) - normal.col(uses[end - 1].face)).norm() < nothing;
+    });
+    return 4 * straight >= inner && inner > 0;
+}
+
 Eigen::Matrix3Xd smoothed(const TriMesh& mesh, Eigen::Matrix3Xd normal, const Eigen::VectorXd& area, double alike)
 {
     constexpr int passes = 10;
@@ -104,7 +118,7 @@ SheetTurns sheet_turns(const TriMesh& mesh, double rough)
     result.normal = vectors.colwise().normalized();
     const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
     result.roughness = roughness(mesh, uses);
-    result.smoothed = result.roughness > rough;
+    result.smoothed = result.roughness > rough && !strips(result.normal, uses, rough / 10);
     if (result.smoothed)
         result.normal = smoothed(mesh, std::move(result.normal), result.area, std::max(0.25, 6 * result.roughness));
     result.first.assign(size_t(mesh.triangles()) + 1, 0);

@@ -8,6 +8,8 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/turns.h"
+#include "tests/support/bent_family.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
@@ -292,6 +294,19 @@ TEST(Bends, NoiseOfAScanMakesNoRegions)
         }
     }
     EXPECT_FALSE(exact.smoothed);
+}
+
+TEST(Bends, AnExactMeshThatIsCoarseAtItsBendsIsNoScan)
+{
+    int rough = 0;
+    for (const shapes::BentShape& shape : shapes::bent_family(600, 6)) { // bends of 90 degrees by two rows of faces
+        const TriMesh part = shape.make().mesh;
+        rough += sheet_turns(part).roughness > 0.01;
+        EXPECT_FALSE(find_bends(part).smoothed) << shape.name();
+    }
+    EXPECT_GE(rough, 5) << "or this test shows nothing";
+    const TriMesh scan = shapes::noisy(shapes::lipped_channel({.triangles = 600}).mesh, 0.1);
+    EXPECT_TRUE(find_bends(scan).smoothed);
 }
 
 TEST(Bends, APlaceOfEachRegionLiesInIt)

@@ -1,13 +1,16 @@
 #include "engine/unfold/sequence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/forming/material_library.h"
 #include "engine/unfold/fit_binder.h"
+#include "engine/unfold/unfold_script.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
@@ -98,6 +101,20 @@ TEST(Sequence, EveryPickMovesOnlyWhatMayMove)
                 expect_valid(part, map, sequence);
             }
         }
+}
+
+TEST(Sequence, EndsFlatAlsoWhereTheRootIsOnlyNearlyAPlane)
+{
+    const TriMesh part = shapes::round_cup({.triangles = 1500}); // the first row of the bend belongs to the bottom
+    FlattenOptions steel;
+    steel.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    for (const double off : {0., 1e-6, 1e-5, 1e-4}) { // mm
+        TriMesh near = part;
+        for (int v = 0; v < near.vertices(); ++v)
+            near.position(2, v) += off * std::sin(7. * v);
+        const UnfoldRun run = run_unfolding(near, proposed(near).steps, steel);
+        EXPECT_TRUE(run.blank) << off << run.failure;
+    }
 }
 
 TEST(Sequence, AHatIsLaidOutFromItsFlangesInwards)
