@@ -61,7 +61,8 @@ struct UnfoldArguments {
     bool automatic = false;
     std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
     double thickness = 1;
-    int root = 0; ///< of --auto: the region that stays, from 1; 0: the largest flat one
+    int root = 0;        ///< of --auto: the region that stays, from 1; 0: the largest flat one
+    std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
 };

@@ -205,6 +205,11 @@ int main(int count, char** values)
                    "steps of its own; with --out they are written as a script, to be edited")
         ->excludes(by_script);
     unfold_command
+        ->add_option("--redo", unfolding.redo,
+                     "with --script: the states of steps that were done are taken from an earlier run with this --out; "
+                     "auto: as many as are the same, N: those before step N")
+        ->type_name("auto|N");
+    unfold_command
         ->add_option("--root", unfolding.root, "with --auto: the region that stays (default: the largest flat one)")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000))
@@ -214,7 +219,9 @@ int main(int count, char** values)
                      "folder for the states, trim lines, the blank with its bend lines and the script")
         ->type_name("DIR");
     unfolding.formats = unfold_formats();
-    unfold_command->add_option("--formats", unfolding.formats, "of the files: VTU for states, the others for lines")
+    unfold_command
+        ->add_option("--formats", unfolding.formats,
+                     "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo")
         ->delimiter(',')
         ->check(CLI::IsMember(unfold_formats()))
         ->type_name("LIST")

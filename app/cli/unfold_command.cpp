@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <numbers>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
+#include "engine/pipeline/unfold_states.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/unfold_by_itself.h"
@@ -122,14 +125,56 @@ std::string stem_of(const UnfoldArguments& arguments)
     return arguments.name.empty() ? arguments.part.stem().string() : arguments.name;
 }
 
+std::filesystem::path states_file(const UnfoldArguments& arguments)
+{
+    return arguments.folder / (stem_of(arguments) + "-states.cbor");
+}
+
+/// What --redo means; 0: as many states as hold. @throws InputError if it is neither auto nor the number of a step
+size_t redone_from(const std::string& text)
+{
+    size_t step = 0;
+    if (text == "auto")
+        return step;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), step);
+    if (error != std::errc() || end != text.data() + text.size() || step == 0)
+        throw InputError(fmt::format("--redo \"{}\" is neither auto nor the number of a step, from 1", text));
+    return step;
+}
+
+/// The states of an earlier run that are not solved again.
+KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, const FlattenOptions& options,
+                       const UnfoldScript& steps)
+{
+    if (arguments.redo.empty())
+        return {};
+    const size_t from = redone_from(arguments.redo);
+    KeptStates kept = read_unfold_states(states_file(arguments), part.mesh, options, steps);
+    if (from > steps.size())
+        throw InputError(fmt::format("--redo {}: the script has {} steps", from, steps.size()));
+    if (from > kept.keep + 1)
+        throw InputError(fmt::format("--redo {}: only {} states of the earlier run hold, for {}; give --redo auto",
+                                     from, kept.keep, kept.why));
+    if (from > 0)
+        kept.keep = from - 1;
+    fmt::print("kept      {} states of an earlier run{}\n", kept.keep,
+               from == 0 && !kept.why.empty() ? "; " + kept.why : "");
+    return kept;
+}
+
 std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
-                                               const BendMap& map, const UnfoldScript& steps, const UnfoldRun& run,
+                                               const BendMap& map, const FlattenOptions& options,
+                                               const UnfoldScript& steps, const UnfoldRun& run,
                                                const PolishedBlank* polished)
 {
     if (arguments.folder.empty())
         return {};
     auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
                                  polished ? &polished->whole : nullptr, arguments.formats);
+    if (std::count(arguments.formats.begin(), arguments.formats.end(), "states") && !run.states.empty()) {
+        files.push_back(states_file(arguments));
+        write_unfold_states(files.back(), part.mesh, options, steps, run);
+    }
     if (arguments.automatic) {
         files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
         write_atomically(files.back(), unfold_script_json(map, steps));
@@ -190,6 +235,9 @@ int unfold(const UnfoldArguments& arguments)
         throw InputError("give either --script FILE or --auto");
     if (arguments.folder.empty() && !(arguments.to_part.empty() && arguments.to_blank.empty()))
         throw InputError("lines that are carried over need a place: give --out DIR");
+    if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
+        throw InputError("--redo goes on from an earlier run: give --script FILE and the --out DIR of that run");
+    redone_from(arguments.redo.empty() ? "auto" : arguments.redo);
     for (const auto& file : {arguments.to_part, arguments.to_blank})
         if (!file.empty())
             read_line_file(file); // before the work
@@ -217,14 +265,15 @@ int unfold(const UnfoldArguments& arguments)
         findings = std::move(script.findings);
         if (steps.empty())
             throw InputError(fmt::format("no step of the script makes sense on this part; {}", findings.front()));
-        run = run_unfolding(part.mesh, steps, options, display.progress());
+        const KeptStates kept = kept_states(arguments, part, options, steps);
+        run = run_unfolding(part.mesh, steps, options, display.progress(), &kept.run, kept.keep);
     }
     display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
     std::optional<PolishedBlank> polished;
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
-    auto files = write_files(arguments, part, map, steps, run, both);
+    auto files = write_files(arguments, part, map, options, steps, run, both);
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
     if (!arguments.json.empty())

@@ -21,7 +21,7 @@ std::vector<std::string> without(std::vector<std::string> formats, const std::st
 
 const std::vector<std::string>& unfold_formats()
 {
-    static const std::vector<std::string> formats = {"vtu", "dxf", "iges", "step"};
+    static const std::vector<std::string> formats = {"vtu", "dxf", "iges", "step", "states"};
     return formats;
 }
 

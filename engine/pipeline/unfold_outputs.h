@@ -10,14 +10,14 @@
 
 namespace spia {
 
-/// Endings by the names the command line uses.
+/// By the names the command line uses; all but "states" (unfold_states.h) are endings.
 const std::vector<std::string>& unfold_formats();
 
 /// Writes what a run gave into a folder, which is made if need be. Of each step its state (NAME-stepN.vtu) and, if it laid
 /// faces on others, their developed edge as trim lines on the target (NAME-stepN-trim.dxf, .iges, .step); of the blank its
 /// outline and bend lines (NAME-blank.dxf, .iges, .step).
 /// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null
-/// @param formats some of unfold_formats()
+/// @param formats some of unfold_formats(); "states" is not written here
 /// @returns the files, in the order written
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,

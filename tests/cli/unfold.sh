@@ -36,6 +36,20 @@ expect_exit 2 "$spia" unfold "$part" --auto --to-part "$out/slot.json"
 grep -q '"flipped_triangles": 0' "$out/auto.json" || fail "the report has no blank"
 expect_exit 0 "$spia" unfold "$part" --script "$out/auto/lipped-channel-script.json" --out "$out/again" --threads 1 --strict
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "the script gives other bits"
+python3 - "$out/auto/lipped-channel-script.json" "$out/edited.json" <<'END'
+import json, sys
+script = json.load(open(sys.argv[1]))
+script["steps"][3]["options"] = {"tolerance": 1e-7}
+json.dump(script, open(sys.argv[2], "w"))
+END
+expect_exit 2 "$spia" unfold "$part" --script "$out/edited.json" --redo auto
+expect_exit 2 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/auto" --redo 5
+grep -q "only 3 states of the earlier run hold, for step 4 has changed" "$out.log" || fail "what does not hold is not told"
+expect_exit 0 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/auto" --redo auto --strict
+grep -q "kept      3 states" "$out.log" || fail "not three states are kept"
+expect_exit 0 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/again" --redo 2 --strict
+grep -q "kept      1 states" "$out.log" || fail "not the first state alone is kept"
+cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "redone steps give other bits"
 expect_exit 0 "$spia" unfold "$part" --auto --polish --out "$out/polished" --json "$out/polished.json" --strict
 for file in blank.dxf polished.dxf polished.vtu; do [ -s "$out/polished/lipped-channel-$file" ] || fail "no $file"; done
 grep -q "outline_distance_mm" "$out/polished.json" || fail "the two blanks are not compared"
