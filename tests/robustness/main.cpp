@@ -49,8 +49,9 @@ std::string line(const std::string& name, Row& row)
 std::string cells(const MethodRun& run)
 {
     if (!run.failure.empty())
-        return "none | none";
-    return fmt::format("{:.3g} | {:.3g}{}", run.quality.angular_rms, run.quality.area_rms,
+        return "none | none | none";
+    return fmt::format("{:.3g} | {:.3g} | {:.3g}{}", run.quality.angular_rms, run.quality.area_rms,
+                       std::max(0., run.quality.symmetric_dirichlet - 4),
                        run.quality.flips > 0 ? fmt::format(" ({} flips)", run.quality.flips) : "");
 }
 
@@ -59,8 +60,9 @@ int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const
 {
     fmt::print(
         "| part | triangles | regions | steps | converged | flips | on itself | strain up to | off exact mm | steps: angular | "
-        "area | at once: angular | area | strain up to | ABF++: angular | area | ARAP: angular | area | seconds |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "area | isometry | at once: angular | area | isometry | strain up to | ABF++: angular | area | isometry | ARAP: angular | "
+        "area | isometry | seconds |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     int wrong = 0;
     for (const shapes::BentShape& shape : shapes::bent_family(triangles, seed)) {
         if (shape.family.find(only) == std::string::npos)
