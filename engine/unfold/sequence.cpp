@@ -19,15 +19,20 @@ namespace {
 std::string names(const BendMap& map, const std::vector<int>& labels)
 {
     std::vector<std::string> words;
+    int rims = 0;
     for (const int label : labels)
         if (label < int(map.regions.size()))
             words.push_back(map.name(label));
-    if (words.empty())
-        for (const int label : labels)
-            words.push_back(map.name(label));
+        else
+            rims += map.bends[size_t(label) - map.regions.size()].b < 0; // no way to another region that is named
     constexpr size_t most = 6;
     if (words.size() > most)
         words = {words[0], words[1], words[2], fmt::format("{} more", words.size() - 3)};
+    if (words.empty() && labels.size() <= most)
+        for (const int label : labels)
+            words.push_back(map.name(label));
+    else if (rims > 0)
+        words.push_back(fmt::format("{} {}", rims, rims == 1 ? "bent edge" : "bent edges"));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -25,16 +25,24 @@ size_t alike(const UnfoldScript& a, const UnfoldScript& b)
 struct Fault {
     size_t step;
     std::string why;
+    bool has_blank = false; ///< the run ended in one all the same
 };
 
 std::optional<Fault> fault_in(const UnfoldScript& steps, const UnfoldRun& run)
 {
-    for (size_t k = 0; k < run.states.size(); ++k) // what is laid on a smooth face may as well move with its neighbours
-        if (const UnfoldState& state = run.states[k]; !state.converged && state.plain == "smooth")
-            return Fault{k, state.reason};
+    for (size_t k = 0; k < run.states.size();
+         ++k) // what does not converge for itself may as well move with its neighbours
+        if (const UnfoldState& state = run.states[k]; !state.converged && steps[k].kind == UnfoldKind::lay)
+            return Fault{k, "it did not converge: " + state.reason, run.blank && state.plain != "smooth"};
     if (run.failure.empty() || steps[run.states.size()].kind == UnfoldKind::flatten)
         return std::nullopt;
     return Fault{run.states.size(), run.failure};
+}
+
+bool converged(const UnfoldRun& run)
+{
+    return run.blank &&
+           std::all_of(run.states.begin(), run.states.end(), [](const UnfoldState& s) { return s.converged; });
 }
 
 } // namespace
@@ -47,14 +55,19 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
         throw InputError("the part is flat already; there is nothing to unfold");
     options.root = now.sequence.root; // stays, whatever carries nothing
     std::vector<std::string> given_up;
+    std::optional<UnfoldedByItself> nearly; // the first plan that ended in a blank, if no other one converges
     size_t keep = 0;
     for (UnfoldRun before;;) {
         now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep);
         const std::optional<Fault> fault = fault_in(now.sequence.steps, now.run);
         if (!fault)
             break;
+        if (fault->has_blank && !nearly) {
+            nearly = now;
+            nearly->sequence.notes.insert(nearly->sequence.notes.end(), given_up.begin(), given_up.end());
+        }
         const PlannedStep& failed = now.sequence.steps[fault->step];
-        const std::string what = fmt::format("\"{}\" had no result ({}); planned anew ", failed.name, fault->why);
+        const std::string what = fmt::format("\"{}\" did not work out ({}); planned anew ", failed.name, fault->why);
         if (failed.kind == UnfoldKind::unroll) {
             options.unroll = false;
             given_up.push_back(what + "with all flattened at last");
@@ -69,6 +82,8 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
         before = std::move(now.run);
         now.sequence = std::move(next);
     }
+    if (nearly && !converged(now.run))
+        return std::move(*nearly);
     now.sequence.notes.insert(now.sequence.notes.end(), given_up.begin(), given_up.end());
     return now;
 }

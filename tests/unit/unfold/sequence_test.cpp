@@ -137,6 +137,13 @@ TEST(Sequence, AHatIsLaidOutFromItsFlangesInwards)
               size_t(part.triangles()));
 }
 
+TEST(Sequence, NamesBentEdgesBesideTheRegionsThatItMoves)
+{
+    const TriMesh part =
+        shapes::extruded(Profile({0, 0}, 0).bend(0.2, 0.8).straight(40).bend(5, pi / 2).straight(20), 60, 2000).mesh;
+    EXPECT_EQ(step_names(proposed(part)), std::vector<std::string>{"region 2, 1 bent edge onto region 1"});
+}
+
 TEST(Sequence, WallsJoinedAtTheirCornersMoveTogetherOthersMayMoveAlone)
 {
     const UnfoldSequence joined = proposed(shapes::lipped_box(), {.unite = false}),

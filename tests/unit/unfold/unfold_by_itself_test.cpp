@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <numbers>
+#include <stdexcept>
 
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
@@ -10,6 +11,7 @@
 #include "tests/support/bent_parts.h"
 #include "tests/support/fender.h"
 #include "tests/support/revolved.h"
+#include "tests/support/shape_family.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -128,6 +130,31 @@ TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
     EXPECT_NE(sequence.notes[0].find("the smooth face through it is"), std::string::npos) << sequence.notes[0];
 }
 
+TEST(UnfoldByItself, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverges)
+{
+    const auto unfolded = [](const std::string& family, int number) {
+        for (const shapes::FamilyShape& shape : shapes::shape_family(600, 1))
+            if (shape.family == family && shape.number == number) {
+                const TriMesh part = shape.make();
+                return unfold_by_itself(part, find_bends(part), {}, steel());
+            }
+        throw std::runtime_error("there is no such shape");
+    };
+    const UnfoldedByItself better = unfolded("whiskers", 2);
+    ASSERT_EQ(better.run.states.size(), 1u);
+    EXPECT_EQ(better.sequence.steps[0].kind, UnfoldKind::flatten);
+    EXPECT_TRUE(better.run.states[0].converged);
+    ASSERT_FALSE(better.sequence.notes.empty());
+    EXPECT_NE(better.sequence.notes.back().find("did not converge"), std::string::npos);
+    const UnfoldedByItself no_better = unfolded("needles", 4); // on this mesh nothing converges to the tolerance
+    EXPECT_EQ(no_better.sequence.steps.size(), 3u);
+    EXPECT_EQ(no_better.run.states.size(), 3u);
+    EXPECT_TRUE(no_better.run.blank);
+    EXPECT_FALSE(no_better.run.states[0].converged);
+    for (const std::string& note : no_better.sequence.notes)
+        EXPECT_EQ(note.find("planned anew"), std::string::npos) << note;
+}
+
 TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
 {
     // Allowed to be far beside its plane, the flat-ish middle carries the flanges; the step itself refuses that. The long flange
@@ -144,7 +171,7 @@ TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
     EXPECT_EQ(unfolded.run.flipped, 0);
     EXPECT_EQ(unfolded.sequence.root, first.root);
     ASSERT_FALSE(unfolded.sequence.notes.empty());
-    EXPECT_NE(unfolded.sequence.notes.back().find("had no result"), std::string::npos);
+    EXPECT_NE(unfolded.sequence.notes.back().find("did not work out"), std::string::npos);
     EXPECT_EQ(unfolded.run.states.size(), unfolded.sequence.steps.size());
 }
 
