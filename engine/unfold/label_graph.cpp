@@ -49,18 +49,32 @@ std::vector<int> depths(const BendMap& map, const LabelGraph& graph, int root)
 {
     constexpr double curl = 0.5;
     const int none = std::numeric_limits<int>::max(), regions = int(map.regions.size());
+    // A bend leads from one of its two regions to the other; that bends touch at the corners of walls leads nowhere.
+    const auto joins = [&](int bend, int region) {
+        const Bend& between = map.bends[size_t(bend - regions)];
+        return between.a == region || between.b == region;
+    };
+    const auto leads = [&](int a, int b) {
+        return a < regions ? b < regions || joins(b, a) : b < regions && joins(a, b);
+    };
     std::vector<int> way(graph.edge.size(), none);
-    std::deque<int> queue = {root};
     way[size_t(root)] = 0;
-    while (!queue.empty()) {
-        const int a = queue.front();
-        queue.pop_front();
-        for (const auto& [b, length] : graph.edge[size_t(a)]) {
-            const int cost = way[size_t(a)] + (b < regions ? 1 : 0);
-            if (cost >= way[size_t(b)])
-                continue;
-            way[size_t(b)] = cost;
-            b < regions ? queue.push_back(b) : queue.push_front(b);
+    for (const bool anyhow : {false, true}) { // what is reached in no such way is reached over whatever touches
+        std::deque<int> queue;
+        for (int label = 0; label < int(way.size()); ++label)
+            if (way[size_t(label)] != none)
+                queue.push_back(label);
+        std::stable_sort(queue.begin(), queue.end(), [&](int a, int b) { return way[size_t(a)] < way[size_t(b)]; });
+        while (!queue.empty()) {
+            const int a = queue.front();
+            queue.pop_front();
+            for (const auto& [b, length] : graph.edge[size_t(a)]) {
+                const int cost = way[size_t(a)] + (b < regions ? 1 : 0);
+                if (cost >= way[size_t(b)] || !(leads(a, b) || (anyhow && way[size_t(b)] == none)))
+                    continue;
+                way[size_t(b)] = cost;
+                b < regions ? queue.push_back(b) : queue.push_front(b);
+            }
         }
     }
     if (std::find(way.begin(), way.end(), none) != way.end())

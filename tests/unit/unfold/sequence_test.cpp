@@ -174,6 +174,18 @@ TEST(Sequence, AFlangeAroundACupIsNotWhatStays)
     EXPECT_NEAR(map.regions[size_t(sequence.root)].place.z(), 0, 1e-6) << "the bottom";
 }
 
+TEST(Sequence, BendsThatTouchAtTheCornersOfWallsAreNoWayAroundTheWalls)
+{
+    const TriMesh cup = shapes::square_cup({.triangles = 4000});
+    const BendMap map = find_bends(cup);
+    const UnfoldSequence sequence = propose_sequence(cup, map);
+    ASSERT_EQ(map.regions.size(), 6u) << "flange, bottom, four walls";
+    for (int r = 0; r < 6; ++r) {
+        const double up = std::abs(map.regions[size_t(r)].normal.z());
+        EXPECT_EQ(sequence.depth[size_t(r)], r == sequence.root ? 0 : up < 0.5 ? 1 : 2) << map.name(r);
+    }
+}
+
 TEST(Sequence, WhatClosesATubeIsNotLaidOnTheTube)
 {
     const TriMesh cup = shapes::sharp_cup({.radius = 40, .height = 20, .triangles = 4000}).mesh;
