@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/exchange/dxf_curves.h"
 
 namespace spia {
 namespace {
@@ -80,33 +81,6 @@ struct Entity {
     bool in_plane() const { return number(210, 0) == 0 && number(220, 0) == 0 && number(230, 1) > 0; }
 };
 
-/// From an angle over a turn, the first point with it, the last not.
-void add_arc(const Eigen::Vector3d& centre, double radius, double from, double turn,
-             std::vector<Eigen::Vector3d>& points)
-{
-    constexpr double within = 2e-5; // of the radius
-    const int chords = std::max(int(std::ceil(std::abs(turn) / (2 * std::acos(1 - within)))), 1);
-    for (int k = 0; k < chords; ++k) {
-        const double a = from + turn * k / chords;
-        points.emplace_back(centre + radius * Eigen::Vector3d(std::cos(a), std::sin(a), 0));
-    }
-}
-
-/// What a bulge makes of the way between two points: the tangent of a quarter of its angle.
-void add_way(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double bulge, std::vector<Eigen::Vector3d>& points)
-{
-    if (bulge == 0 || (b - a).norm() == 0) {
-        points.push_back(a);
-        return;
-    }
-    const double turn = 4 * std::atan(bulge), radius = (b - a).norm() / (2 * std::abs(std::sin(turn / 2)));
-    const Eigen::Vector3d along = (b - a).normalized(), left(-along[1], along[0], 0),
-                          centre = (a + b) / 2 + left * ((b - a).norm() / 2 / std::tan(turn / 2));
-    const size_t first = points.size();
-    add_arc(centre, radius, std::atan2(a[1] - centre[1], a[0] - centre[0]), turn, points);
-    points[first] = a; // to the last digit
-}
-
 /// A chain of points, each with the bulge of the way to the next.
 struct Chain {
     std::vector<Eigen::Vector3d> at;
@@ -130,15 +104,31 @@ Chain light_chain(const Entity& entity)
     return chain;
 }
 
-std::vector<Eigen::Vector3d> points_of(Chain chain)
+dxf::Points points_of(const Chain& chain)
 {
-    std::vector<Eigen::Vector3d> points;
+    dxf::Points points;
     const size_t count = chain.at.size();
     for (size_t k = 0; k + (chain.closed ? 0 : 1) < count; ++k)
-        add_way(chain.at[k], chain.at[(k + 1) % count], chain.bulge[k], points);
+        dxf::add_way(chain.at[k], chain.at[(k + 1) % count], chain.bulge[k], points);
     if (!chain.closed && count > 0)
         points.push_back(chain.at.back());
     return points;
+}
+
+dxf::Spline spline_of(const Entity& entity)
+{
+    dxf::Spline spline;
+    spline.degree = int(std::clamp(entity.number(71, 3), -1., 1e3));
+    for (const Pair& pair : entity.pairs)
+        if (pair.code == 40)
+            spline.knots.push_back(entity.number(pair));
+        else if (pair.code == 41)
+            spline.weights.push_back(entity.number(pair));
+        else if (pair.code == 10)
+            spline.poles.emplace_back(entity.number(pair), 0, 0);
+        else if ((pair.code == 20 || pair.code == 30) && !spline.poles.empty())
+            spline.poles.back()[pair.code / 10 - 1] = entity.number(pair);
+    return spline;
 }
 
 class Reader {
@@ -157,8 +147,8 @@ public:
             return;
         if (entity.type == "LINE")
             return add(entity, {entity.point(10), entity.point(11)}, false);
-        if (!entity.in_plane() || !read(entity))
-            ++other_[entity.in_plane() ? entity.type : entity.type + " in another plane"];
+        if (!(entity.in_plane() || entity.type == "SPLINE") || !read(entity)) // the points of a spline lie in space
+            ++other_[entity.in_plane() || entity.type == "SPLINE" ? entity.type : entity.type + " in another plane"];
     }
 
     DxfLines done()
@@ -184,16 +174,39 @@ private:
             const double from = whole ? 0 : entity.number(50, 0) * pi / 180,
                          to = whole ? 2 * pi : entity.number(51, 0) * pi / 180,
                          turn = whole ? 2 * pi : std::fmod(std::fmod(to - from, 2 * pi) + 2 * pi, 2 * pi);
-            std::vector<Eigen::Vector3d> points;
+            dxf::Points points;
             const double radius = entity.number(40, 0);
-            add_arc(entity.point(10), radius, from, turn, points);
+            dxf::add_arc(entity.point(10), radius, from, turn, points);
             if (!whole)
                 points.emplace_back(entity.point(10) +
                                     radius * Eigen::Vector3d(std::cos(from + turn), std::sin(from + turn), 0));
             add(entity, points, whole);
+        } else if (entity.type == "ELLIPSE") {
+            const double from = entity.number(41, 0), to = entity.number(42, 2 * pi), turn = to - from;
+            constexpr double rounding = 1e-6; // radians: files have few digits
+            const bool whole = std::abs(std::abs(turn) - 2 * pi) < rounding;
+            const double round = whole ? 2 * pi : std::fmod(std::fmod(turn, 2 * pi) + 2 * pi, 2 * pi);
+            add_curve(entity,
+                      dxf::ellipse(entity.point(10), entity.point(11), entity.number(40, 1), from, from + round),
+                      whole);
+        } else if (entity.type == "SPLINE") {
+            const std::optional<dxf::Points> points = dxf::chords_of(spline_of(entity));
+            if (!points)
+                return false;
+            add_curve(entity, *points, entity.has_bit(70, closed));
         } else
             return false;
         return true;
+    }
+
+    /// The ends of a closed curve are one point but for rounding.
+    void add_curve(const Entity& entity, dxf::Points points, bool closed)
+    {
+        constexpr double rounding = 1e-6; // of the distance from the end to the middle
+        const double size = (points[points.size() / 2] - points.front()).norm();
+        if (closed && (points.front() - points.back()).norm() <= rounding * size)
+            points.back() = points.front();
+        add(entity, std::move(points), false);
     }
 
     /// The polyline whose vertices have come.

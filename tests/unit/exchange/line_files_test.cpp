@@ -129,6 +129,74 @@ TEST(LineFiles, CirclesArcsAndBulgesAreRound)
     EXPECT_NEAR(length(read.lines[3]), 5, 1e-15);
 }
 
+TEST(LineFiles, EllipsesAreReadWithTheirEnds)
+{
+    const ScratchFolder folder;
+    const DxfLines read =
+        read_text(folder, dxf_of(entity("0 ELLIPSE 8 a 10 5 20 6 30 1 11 0 21 4 31 0 40 0.5 41 0 42 6.283185 "
+                                        "0 ELLIPSE 8 b 10 0 20 0 30 0 11 3 21 0 31 0 40 0.5 41 4.712388980384690 "
+                                        "42 1.570796326794897")));
+    ASSERT_EQ(read.lines.size(), 2u);
+    EXPECT_TRUE(read.lines[0].closed);
+    for (const auto& x : read.lines[0].point.colwise()) {
+        EXPECT_NEAR(std::pow((x[0] - 5) / 2, 2) + std::pow((x[1] - 6) / 4, 2), 1, 1e-12);
+        EXPECT_EQ(x[2], 1);
+    }
+    const Eigen::Matrix3Xd& half = read.lines[1].point;
+    EXPECT_FALSE(read.lines[1].closed);
+    EXPECT_LT((half.col(0) - Eigen::Vector3d(0, -1.5, 0)).norm(), 1e-12);
+    EXPECT_LT((half.rightCols<1>() - Eigen::Vector3d(0, 1.5, 0)).norm(), 1e-12);
+    EXPECT_GT(half.row(0).minCoeff(), -1e-12) << "over the right side";
+    EXPECT_NEAR(half.row(0).maxCoeff(), 3, 1e-3);
+}
+
+TEST(LineFiles, SplinesAreReadByTheirPoles)
+{
+    const ScratchFolder folder;
+    // A quarter circle as a rational spline, a cubic that is x^3 over [0, 2], a closed quadratic with knots that are not clamped.
+    const std::string
+        quarter = "0 SPLINE 8 q 70 4 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.7071067811865476 41 1 "
+                  "10 5 20 0 30 2 10 5 20 5 30 2 10 0 20 5 30 2 ",
+        cubic = "0 SPLINE 8 c 210 0 220 0 230 -1 71 3 40 0 40 0 40 0 40 0 40 2 40 2 40 2 40 2 "
+                "10 0 20 0 30 0 10 0.66666666666666663 20 0 30 0 10 1.3333333333333333 20 0 30 0 10 2 20 8 30 0 ",
+        ring = "0 SPLINE 8 r 70 3 71 2 40 -2 40 -1 40 0 40 1 40 2 40 3 40 4 40 5 40 6 "
+               "10 1 20 0 10 0 20 1 10 -1 20 0 10 0 20 -1 10 1 20 0 10 0 20 1 ";
+    const DxfLines read = read_text(folder, dxf_of(entity(quarter + cubic + ring)));
+    ASSERT_EQ(read.lines.size(), 3u) << (read.left_out.empty() ? "" : read.left_out[0]);
+    const Eigen::Matrix3Xd &q = read.lines[0].point, &c = read.lines[1].point, &r = read.lines[2].point;
+    EXPECT_EQ(q.col(0), Eigen::Vector3d(5, 0, 2));
+    EXPECT_LT((q.rightCols<1>() - Eigen::Vector3d(0, 5, 2)).norm(), 1e-14);
+    for (Eigen::Index k = 0; k < q.cols(); ++k) {
+        EXPECT_NEAR(q.col(k).head<2>().norm(), 5, 1e-13);
+        if (k > 0) {
+            EXPECT_GT(((q.col(k) + q.col(k - 1)) / 2).head<2>().norm(), 5 - 2e-4) << "the chord";
+        }
+    }
+    for (const auto& x : c.colwise())
+        EXPECT_NEAR(x[1], std::pow(x[0], 3), 1e-13);
+    EXPECT_EQ(c(0, c.cols() - 1), 2);
+    EXPECT_GT(c.cols(), 20);
+    EXPECT_TRUE(read.lines[2].closed);
+    EXPECT_LT((r.col(0) - Eigen::Vector3d(0.5, 0.5, 0)).norm(), 1e-14) << "between its first poles";
+    EXPECT_LT(std::abs(r.rowwise().sum()[0]) / double(r.cols()), 0.05) << "all around";
+    EXPECT_GT(r.row(0).maxCoeff() - r.row(0).minCoeff(), 1.4);
+}
+
+TEST(LineFiles, ASplineThatIsNoneIsLeftOut)
+{
+    const ScratchFolder folder;
+    const std::string poles = "10 0 20 0 10 1 20 0 10 1 20 1 ";
+    for (const std::string& numbers :
+         {std::string("71 2 40 0 40 0 40 0 40 1 40 1 "), std::string("71 2 40 0 40 0 40 1 40 0 40 1 40 1 "),
+          std::string("71 2 40 0 40 0 40 0 40 0 40 0 40 0 "), std::string("71 99 40 0 40 1 "),
+          std::string("71 0 40 0 40 0 40 1 40 1 "), std::string("71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0 41 1 "),
+          std::string("71 2 11 0 21 0 11 1 21 1 ")}) {
+        const DxfLines read = read_text(folder, dxf_of(entity("0 SPLINE 8 s " + numbers + poles)));
+        EXPECT_TRUE(read.lines.empty()) << numbers;
+        EXPECT_EQ(read.left_out, std::vector<std::string>{"1 SPLINE"}) << numbers;
+    }
+}
+
 TEST(LineFiles, UnitsOfTheHeaderCount)
 {
     const ScratchFolder folder;
