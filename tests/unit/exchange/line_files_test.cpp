@@ -187,7 +187,7 @@ TEST(LineFiles, ASplineThatIsNoneIsLeftOut)
     const ScratchFolder folder;
     const std::string poles = "10 0 20 0 10 1 20 0 10 1 20 1 ";
     for (const std::string& numbers :
-         {std::string("71 2 40 0 40 0 40 0 40 1 40 1 "), std::string("71 2 40 0 40 0 40 1 40 0 40 1 40 1 "),
+         {std::string("71 2 40 0 40 0 40 0 40 1 40 1 "), std::string("71 2 40 0 40 1 40 0 40 1 40 1 40 1 "),
           std::string("71 2 40 0 40 0 40 0 40 0 40 0 40 0 "), std::string("71 99 40 0 40 1 "),
           std::string("71 0 40 0 40 0 40 1 40 1 "), std::string("71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0 41 1 "),
           std::string("71 2 11 0 21 0 11 1 21 1 ")}) {
