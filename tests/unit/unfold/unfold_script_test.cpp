@@ -264,6 +264,13 @@ TEST(UnfoldScript, UnrollsSheetThatGoesAroundMoreThanOnceButNoTube)
             const UnfoldRun run = run_unfolding(part, {step}, steel());
             ASSERT_TRUE(run.blank) << taper << ", " << angle << ": " << run.failure;
             EXPECT_EQ(run.flipped, 0);
+            if (taper == 0) { // the arc over each facet becomes its chord when it is formed
+                const double half = angle / 300 / 2, shortened = std::log(std::sin(half) / half);
+                for (int f = 0; f < part.triangles(); ++f) {
+                    EXPECT_NEAR(run.states[0].face.strain_minor[f], shortened, 1e-9);
+                    EXPECT_NEAR(run.states[0].face.strain_major[f], 0, 1e-9);
+                }
+            }
             double area = 0; // of the face, not of its facets
             for (const auto& t : part.triangle.colwise()) {
                 const Eigen::Vector2d a = run.blank->position.col(t[0]), p = run.blank->position.col(t[1]) - a,
