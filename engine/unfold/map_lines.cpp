@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/mesh/box_tree.h"
 #include "engine/mesh/closest_point.h"
-#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/locate.h"
 #include "engine/mesh/topology.h"
 
@@ -32,7 +32,7 @@ SheetLine line_through(const std::vector<Eigen::Vector3d>& points, const SheetLi
 class Lift {
 public:
     Lift(const TriMesh& part, const Eigen::Matrix2Xd& flat)
-        : part_(part), flat_(flat), locator_(flat, part.triangle), uses_(edge_uses(part.triangle))
+        : part_(part), flat_(flat), locator_(flat, part.triangle), tree_(in_space(part, flat))
     {
     }
 
@@ -67,27 +67,54 @@ private:
         constexpr double same = 1e-9; // of the segment
         std::vector<double> at = {0};
         const Eigen::AlignedBox2d box(p.cwiseMin(p + d), p.cwiseMax(p + d));
-        for_each_edge(uses_, [&](size_t begin, size_t) {
-            const Eigen::Vector2d a = flat_.col(uses_[begin].low), b = flat_.col(uses_[begin].high), e = b - a;
-            if ((a.cwiseMin(b).array() > box.max().array()).any() || (a.cwiseMax(b).array() < box.min().array()).any())
-                return;
-            const double turn = d.x() * e.y() - d.y() * e.x();
-            if (turn == 0)
-                return;
-            const double t = ((a - p).x() * e.y() - (a - p).y() * e.x()) / turn,
-                         s = ((a - p).x() * d.y() - (a - p).y() * d.x()) / turn;
-            if (t > same && t < 1 - same && s >= 0 && s <= 1)
-                at.push_back(t);
+        for_each_face_near(box, [&](int face) {
+            for (int k = 0; k < 3; ++k) { // an edge between two faces is met twice
+                const auto [low, high] = std::minmax({part_.triangle(k, face), part_.triangle((k + 1) % 3, face)});
+                const Eigen::Vector2d a = flat_.col(low), b = flat_.col(high), e = b - a;
+                const double turn = d.x() * e.y() - d.y() * e.x();
+                if (turn == 0)
+                    continue;
+                const double t = ((a - p).x() * e.y() - (a - p).y() * e.x()) / turn,
+                             s = ((a - p).x() * d.y() - (a - p).y() * d.x()) / turn;
+                if (t > same && t < 1 - same && s >= 0 && s <= 1)
+                    at.push_back(t);
+            }
         });
         std::sort(at.begin(), at.end());
         at.erase(std::unique(at.begin(), at.end(), [](double x, double y) { return y - x < same; }), at.end());
         return at;
     }
 
+    static TriMesh in_space(const TriMesh& part, const Eigen::Matrix2Xd& flat)
+    {
+        TriMesh mesh{Eigen::Matrix3Xd::Zero(3, flat.cols()), part.triangle};
+        mesh.position.topRows<2>() = flat;
+        return mesh;
+    }
+
+    template <class Visit> void for_each_face_near(const Eigen::AlignedBox2d& box, const Visit& visit) const
+    {
+        std::vector<int> open = {0};
+        while (!open.empty()) {
+            const int k = open.back();
+            open.pop_back();
+            const BoxTree::Node& node = tree_.node[size_t(k)];
+            const auto low = node.box.min().head<2>().array(), high = node.box.max().head<2>().array();
+            if ((low > box.max().array()).any() || (high < box.min().array()).any())
+                continue;
+            for (int f = 0; f < node.count; ++f)
+                visit(tree_.face[size_t(node.first + f)]);
+            if (node.count == 0) {
+                open.push_back(node.second);
+                open.push_back(k + 1);
+            }
+        }
+    }
+
     const TriMesh& part_;
     const Eigen::Matrix2Xd& flat_;
     PlanarLocator locator_;
-    std::vector<EdgeUse> uses_;
+    BoxTree tree_;
 };
 
 class Laying {
