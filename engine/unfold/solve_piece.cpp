@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -16,6 +17,7 @@
 #include "engine/forming/placing.h"
 #include "engine/forming/sheet_fields.h"
 #include "engine/unfold/piece_start.h"
+#include "engine/unfold/target_friction.h"
 #include "engine/unfold/turn_binder.h"
 
 namespace spia {
@@ -99,20 +101,37 @@ BinderFace developable(const FreedPiece& piece, const BinderFace& target, const 
     return *turned;
 }
 
-/// The axes of the development in space, where the hinge is.
+/// The axes of the development in space, where the hinge is; of a smooth face those of its plane.
 Eigen::Matrix<double, 3, 2> axes_at(const BinderFace& target, const Eigen::Vector2d& place)
 {
-    if (const auto* plane = std::get_if<PlaneFace>(&target))
-        return plane->axes;
     if (const auto* height = std::get_if<HeightFace>(&target))
         return height->axes;
-    const bool round = std::holds_alternative<CylinderFace>(target); // on a cone the axes turn beside its middle
-    const Eigen::Vector3d at = placed(target, round ? place : Eigen::Vector2d(0, place.norm())),
-                          n = outer_normal(target, at);
-    if (const auto* cylinder = std::get_if<CylinderFace>(&target))
-        return (Eigen::Matrix<double, 3, 2>() << cylinder->axis.cross(n), cylinder->axis).finished();
-    const Eigen::Vector3d y = (at - std::get<ConeFace>(target).apex).normalized();
-    return (Eigen::Matrix<double, 3, 2>() << y.cross(n), y).finished();
+    if (std::holds_alternative<ConeFace>(target)) // its axes turn beside its middle
+        return tangents(target, {0, place.norm()});
+    return tangents(target, place);
+}
+
+/// Friction of the piece's own faces; none where nothing rubs on them.
+Eigen::VectorXd of_piece(const Eigen::VectorXd& traction, const FreedPiece& piece)
+{
+    const bool rubs = traction.size() > 0 && traction(piece.face).maxCoeff() > 0;
+    return rubs ? Eigen::VectorXd(traction(piece.face)) : Eigen::VectorXd();
+}
+
+/// That as flatten() takes it, which knows the part alone.
+std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const Eigen::VectorXd& traction)
+{
+    if (traction.size() == 0)
+        return {};
+    if (now != piece.mesh.position)
+        throw InputError(fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the "
+                                     "part: what rubs on them cannot be told; leave out the friction, or fix some",
+                                     piece.face[0]));
+    ContactRegion region{"the target", {}, traction.maxCoeff(), {}, 0.5, 2}; // both sides together: the traction itself
+    for (int f = 0; f < piece.mesh.triangles(); ++f)
+        if (traction[f] > 0)
+            region.faces.push_back(f);
+    return {region};
 }
 
 /// A cone ends in its apex: behind it, along the negative y axis, its development is cut.
@@ -174,8 +193,11 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
             report.residual = solved.residual;
             report.converged = solved.ended == Ended::converged;
             next = std::move(solved.position);
-        } else
+        } else {
+            const double share = std::exchange(report.process_share, 1); // of the forces: of it the job has all by now
             next = solve(job, X, report, mine);
+            report.process_share *= share;
+        }
         way = (next - X).colwise().norm().maxCoeff();
         X = std::move(next);
         if (report.converged && way <= still * size)
@@ -192,13 +214,15 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
 } // namespace
 
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                        const FreedPiece& piece, const BinderFace& given_target, const FlattenOptions& given,
-                        const Progress& progress)
+                        const FreedPiece& piece, const BinderFace& given_target, const Eigen::VectorXd& traction,
+                        const FlattenOptions& given, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
-    const FlattenOptions options = options_of(piece, given);
-    if (piece.held.empty())
+    FlattenOptions options = options_of(piece, given);
+    if (piece.held.empty()) {
+        options.process.contact = rubbing(piece, state(Eigen::all, piece.vertex), of_piece(traction, piece));
         return free_piece(piece, state(Eigen::all, piece.vertex), given_target, options, progress);
+    }
     if (piece.hinge.empty())
         throw InputError(
             fmt::format("the freed faces around face {} touch the fixed ones in single vertices only; free or "
@@ -215,13 +239,17 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     for (HeldVertex& h : external.held)
         h.place -= middle;
     external.plane = axes_at(target, middle);
+    external.traction = of_piece(traction, piece);
+    if (external.any())
+        external.slip = slip_on(piece, state(Eigen::all, piece.vertex), target, middle);
 
     std::vector<Element> element = elements(piece.mesh);
     const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, target, X, middle, element); };
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
-    const Job job{piece.mesh, element, options, external, external.plane, matrix, cholesky, true};
+    const Job job{piece.mesh, element, options, external, external.plane, matrix, cholesky, true,
+                  pull_of(external, piece.mesh, options)};
     SolvedPiece result;
     const PieceStart start = piece_start(part, state, fixed, piece, job, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
