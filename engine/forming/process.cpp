@@ -145,8 +145,8 @@ void require_contact(const ContactRegion& region, const TriMesh& part)
     const std::string what = fmt::format("the contact region \"{}\"", region.name);
     require_faces(what, region.faces, part);
     if (!(region.friction >= 0) || !std::isfinite(region.friction) || region.sides < 1 || region.sides > 2)
-        throw InputError(fmt::format("{}: friction {} on {} sides; friction must not be negative, sides 1 or 2",
-                                     what, region.friction, region.sides));
+        throw InputError(fmt::format("{}: friction {} on {} sides; friction must not be negative, sides 1 or 2", what,
+                                     region.friction, region.sides));
     if (region.force_N.has_value() == region.pressure_MPa.has_value())
         throw InputError(fmt::format("{} needs either a force or a pressure", what));
     if (region.force_N)

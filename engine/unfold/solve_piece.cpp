@@ -119,14 +119,16 @@ Eigen::VectorXd of_piece(const Eigen::VectorXd& traction, const FreedPiece& piec
 }
 
 /// That as flatten() takes it, which knows the part alone.
-std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const Eigen::VectorXd& traction)
+std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
+                                   const Eigen::VectorXd& traction)
 {
     if (traction.size() == 0)
         return {};
     if (now != piece.mesh.position)
-        throw InputError(fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the "
-                                     "part: what rubs on them cannot be told; leave out the friction, or fix some",
-                                     piece.face[0]));
+        throw InputError(
+            fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the "
+                        "part: what rubs on them cannot be told; leave out the friction, or fix some",
+                        piece.face[0]));
     ContactRegion region{"the target", {}, traction.maxCoeff(), {}, 0.5, 2}; // both sides together: the traction itself
     for (int f = 0; f < piece.mesh.triangles(); ++f)
         if (traction[f] > 0)
@@ -248,8 +250,9 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
-    const Job job{piece.mesh, element, options, external, external.plane, matrix, cholesky, true,
-                  pull_of(external, piece.mesh, options)};
+    const Job job{piece.mesh, element,        options,
+                  external,   external.plane, matrix,
+                  cholesky,   true,           pull_of(external, piece.mesh, options)};
     SolvedPiece result;
     const PieceStart start = piece_start(part, state, fixed, piece, job, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;

@@ -25,14 +25,17 @@ Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, cons
     const auto number = [&](int v) { return v == first ? 0 : v == 0 ? first : v; };
     std::vector<std::array<int, 2>> edges;
     const std::vector<EdgeUse> uses = edge_uses(piece.mesh.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t) { edges.push_back({number(uses[begin].low), number(uses[begin].high)}); });
+    for_each_edge(uses, [&](size_t begin, size_t) {
+        edges.push_back({number(uses[begin].low), number(uses[begin].high)});
+    });
     Eigen::Matrix3Xd point = now;
     point.col(0).swap(point.col(first));
     std::optional<Eigen::Matrix2Xd> foot = unwound(target, point, edges);
     if (!foot)
-        throw InputError(fmt::format("the freed faces around face {} go all the way around the {}: what rubs on it cannot "
-                                     "be told; free one side after the other",
-                                     piece.face[0], name(target)));
+        throw InputError(
+            fmt::format("the freed faces around face {} go all the way around the {}: what rubs on it cannot "
+                        "be told; free one side after the other",
+                        piece.face[0], name(target)));
     foot->col(0).swap(foot->col(first));
     return *foot;
 }
@@ -90,7 +93,8 @@ Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& s
     region.faces.erase(std::unique(region.faces.begin(), region.faces.end()), region.faces.end());
     for (const int f : region.faces)
         if (!std::binary_search(freed.begin(), freed.end(), f))
-            throw InputError(fmt::format("face {} rubs on the target but is not freed; free it, too, or leave it out", f));
+            throw InputError(
+                fmt::format("face {} rubs on the target but is not freed; free it, too, or leave it out", f));
     if (region.faces.empty())
         region.faces = freed;
     require_contact(region, part);

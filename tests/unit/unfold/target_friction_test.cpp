@@ -95,7 +95,8 @@ TEST(TargetFriction, OnAPlaneItIsThatOfFlattenWithTheSameHeldVertices)
     const FlattenOptions options = steel(1.77);
     const UnfoldStepResult free = unfold_step(dish.part, dish.part.position, dish.pick, options);
     const FreedPiece piece = freed_pieces(dish.part, dish.pick.fixed, dish.pick.freed).at(0);
-    const std::vector<int> half(dish.pick.freed.begin(), dish.pick.freed.begin() + Eigen::Index(dish.pick.freed.size() / 2));
+    const std::vector<int> half(dish.pick.freed.begin(),
+                                dish.pick.freed.begin() + Eigen::Index(dish.pick.freed.size() / 2));
     ContactRegion press{"die", {}, {}, 20000, 0.12, 2}, some = rubbing(9);
     some.faces = half;
     for (const ContactRegion& friction : {rubbing(6), press, some}) {
@@ -191,8 +192,9 @@ TEST(TargetFriction, TheSlipIsThatOfTheStateHoweverThePartIsBent)
     EXPECT_TRUE(bent.converged());
     // Where the part has its sharp edge, forces are turned over half of its angle at a time.
     EXPECT_LT(furthest(bent.position, straight.position), 1e-3);
-    EXPECT_GT(furthest(bent.position, unfold_step(strip.part, state, {strip.pick.fixed, strip.pick.freed}, options).position),
-              0.1);
+    EXPECT_GT(
+        furthest(bent.position, unfold_step(strip.part, state, {strip.pick.fixed, strip.pick.freed}, options).position),
+        0.1);
 }
 
 TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
@@ -301,13 +303,23 @@ TEST(TargetFriction, WhatTheSheetDoesNotBearIsReportedAsAShare)
 TEST(TargetFriction, ASmoothFaceWithoutHeightIsAPlane)
 {
     QuarterDish dish;
-    dish.pick.friction = rubbing(6);
-    const UnfoldStepResult on_plane = unfold_step(dish.part, dish.part.position, dish.pick, steel(1.77));
-    dish.pick.target = HeightFace{
+    const HeightFace level{
         {0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity(), {-100, -100}, 20, Eigen::MatrixXd::Zero(13, 13)};
-    const UnfoldStepResult on_height = unfold_step(dish.part, dish.part.position, dish.pick, steel(1.77));
-    ASSERT_TRUE(on_height.converged()) << on_height.piece[0].report.reason;
-    EXPECT_LT(furthest(on_plane.position, on_height.position), 1e-8);
+    const auto laid = [&](double pressure, const std::optional<BinderFace>& target, int newton_steps) {
+        dish.pick.friction = rubbing(pressure);
+        dish.pick.target = target;
+        FlattenOptions options = steel(1.77);
+        options.most_newton_steps = newton_steps;
+        return unfold_step(dish.part, dish.part.position, dish.pick, options);
+    };
+    EXPECT_LT(furthest(laid(6, {}, 60).position, laid(6, level, 60).position), 1e-8);
+    // The rounds on a smooth face go on with the share of the friction that was found.
+    const UnfoldStepResult tired = laid(60, level, 5);
+    const double share = tired.piece[0].report.process_share;
+    ASSERT_TRUE(tired.converged()) << tired.piece[0].report.reason;
+    ASSERT_GT(share, 0.2);
+    ASSERT_LT(share, 0.8);
+    EXPECT_LT(furthest(tired.position, laid(60 * share, level, 60).position), 1e-8);
 }
 
 TEST(TargetFriction, BadValuesAreRefusedWithStepAndMember)
