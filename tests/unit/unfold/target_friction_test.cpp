@@ -250,6 +250,45 @@ TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
         }
 }
 
+TEST(TargetFriction, SheetRolledOnItsTargetSlipsInTheAxesOfTheFlatPart)
+{
+    // In the part it is flat and lies anywhere; in the state it goes around a cylinder or a cone by more than half a turn from its
+    // held edge on: each way of the development is the same way of the flat part.
+    const int columns = 200, rows = 6;
+    const Eigen::Matrix3d turn = shapes::random_rotation(5);
+    for (const bool bulges : {true, false})
+        for (const bool conical : {false, true}) {
+            const double angle = 4.5, radius = 30, half_angle = 0.4;
+            const BinderFace target = conical
+                                          ? BinderFace(ConeFace{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, half_angle, bulges})
+                                          : BinderFace(CylinderFace{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, radius, bulges});
+            const auto flat = [&](double u, double v) -> Eigen::Vector2d {
+                if (!conical)
+                    return {angle * radius * u, 20 * v};
+                const double turned = -angle * std::sin(half_angle) * u, slant = 60 + 20 * v;
+                return {-slant * std::sin(turned), slant * std::cos(turned)};
+            };
+            const shapes::GridPlan plan{columns, rows};
+            const TriMesh part = shapes::grid_surface(plan, [&](double u, double v) {
+                return Eigen::Vector3d(turn.leftCols<2>() * flat(u, v) + Eigen::Vector3d(7, 8, 9));
+            });
+            const Eigen::Matrix3Xd state =
+                shapes::grid_surface(plan, [&](double u, double v) { return placed(target, flat(u, v)); }).position;
+            std::vector<int> fixed, freed;
+            for (int f = 0; f < part.triangles(); ++f)
+                (f / 2 % columns == 0 ? fixed : freed).push_back(f);
+            const FreedPiece piece = freed_pieces(part, fixed, freed).at(0);
+            const Eigen::Vector2d origin(3, -4);
+            const SlipOnFace slip = slip_on(piece, state(Eigen::all, piece.vertex), target, origin);
+            for (size_t v = 0; v < piece.vertex.size(); ++v) {
+                const int column = piece.vertex[v] % (columns + 1), row = piece.vertex[v] / (columns + 1);
+                const Eigen::Vector2d place = flat(double(column) / columns, double(row) / rows);
+                EXPECT_LT((slip.foot.col(Eigen::Index(v)) + origin - place).norm(), 1e-9) << column;
+                EXPECT_LT((slip.into_sheet[v] - turn.leftCols<2>()).norm(), conical ? 1e-2 : 1e-9) << column;
+            }
+        }
+}
+
 TEST(TargetFriction, TangentsAreTheDerivativeOfPlaces)
 {
     const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized(), towards = axis.unitOrthogonal();
