@@ -16,7 +16,10 @@
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/sheet_fields.h"
+#include "engine/mesh/cut.h"
 #include "engine/unfold/piece_start.h"
+#include "engine/unfold/ring_chart.h"
+#include "engine/unfold/ring_start.h"
 #include "engine/unfold/target_friction.h"
 #include "engine/unfold/turn_binder.h"
 
@@ -83,8 +86,25 @@ SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, con
             std::move(flat.report)};
 }
 
-/// The target with its development whole around the hinge.
-BinderFace developable(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix3Xd& local)
+/// How the piece is told in the plane: by the target's development whole around the hinge, or where the hinge goes all the way around by
+/// a picture of it that is not cut.
+struct Picture {
+    BinderFace target;
+    std::optional<RingChart> ring;
+
+    Eigen::Vector2d place(const Eigen::Vector3d& point) const
+    {
+        return ring ? ring->place(point) : developed(target, point);
+    }
+    Eigen::Vector3d point(const Eigen::Vector2d& place) const { return ring ? ring->point(place) : placed(target, place); }
+    bool true_lengths() const { return !ring && !std::holds_alternative<HeightFace>(target); }
+    Eigen::Matrix2d lengths(const Eigen::Matrix<double, 2, 3>& corner) const
+    {
+        return ring ? ring->lengths(corner) : metric(target, corner.rowwise().mean());
+    }
+};
+
+Picture picture_of(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix3Xd& local)
 {
     std::vector<int> number(size_t(piece.mesh.vertices()), -1);
     for (size_t k = 0; k < piece.held.size(); ++k)
@@ -92,13 +112,13 @@ BinderFace developable(const FreedPiece& piece, const BinderFace& target, const 
     std::vector<std::array<int, 2>> edges;
     for (const auto& [a, b] : piece.hinge)
         edges.push_back({number[size_t(a)], number[size_t(b)]});
-    const std::optional<BinderFace> turned = turned_towards(target, local(Eigen::all, piece.held), edges);
-    if (!turned)
-        throw InputError(
-            fmt::format("the freed faces around face {} are joined to the fixed ones all the way around the {}; "
-                        "cut the part open along a line, or free one side after the other",
-                        piece.face[0], name(target)));
-    return *turned;
+    if (const std::optional<BinderFace> turned = turned_towards(target, local(Eigen::all, piece.held), edges))
+        return {*turned, std::nullopt};
+    if (surface_type(piece.mesh).loops < 2)
+        throw InputError(fmt::format("the freed faces around face {} are joined to the fixed ones all the way around the {} "
+                                     "and close it; free one side after the other, or flatten the part",
+                                     piece.face[0], name(target)));
+    return {target, RingChart::around(target, piece, local)};
 }
 
 /// The axes of the development in space, where the hinge is; of a smooth face those of its plane.
@@ -162,13 +182,13 @@ int first_flipped(const FreedPiece& piece, const Eigen::Matrix2Xd& X)
 }
 
 /// The lengths of the target around the middle of each triangle.
-void take_lengths(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix2Xd& X,
+void take_lengths(const FreedPiece& piece, const Picture& picture, const Eigen::Matrix2Xd& X,
                   const Eigen::Vector2d& middle, std::vector<Element>& element)
 {
-    if (!std::holds_alternative<HeightFace>(target)) // true everywhere
+    if (picture.true_lengths())
         return;
     parallel_for(piece.mesh.triangles(), [&](int f) {
-        element[size_t(f)].metric = metric(target, corners(X, piece.mesh.triangle.col(f)).rowwise().mean() + middle);
+        element[size_t(f)].metric = picture.lengths(corners(X, piece.mesh.triangle.col(f)).colwise() + middle);
     });
 }
 
@@ -213,6 +233,18 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
     return X;
 }
 
+PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
+                    const FreedPiece& piece, const Picture& picture, const Job& job,
+                    const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
+{
+    if (picture.ring) {
+        Eigen::Matrix2Xd X = ring_start(piece, state(Eigen::all, piece.vertex), *picture.ring);
+        if (one_to_one_around_vertices(piece.mesh, X))
+            return {std::move(X), StartMethod::harmonic};
+    }
+    return piece_start(part, state, fixed, piece, job, measure, progress);
+}
+
 } // namespace
 
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
@@ -230,14 +262,17 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
             fmt::format("the freed faces around face {} touch the fixed ones in single vertices only; free or "
                         "fix the faces between them",
                         piece.face[0]));
-    const BinderFace target = developable(piece, given_target, state(Eigen::all, piece.vertex));
+    const Picture picture = picture_of(piece, given_target, state(Eigen::all, piece.vertex));
+    const BinderFace& target = picture.target;
 
     ExternalForces external;
     for (const int v : piece.held)
-        external.held.push_back({v, developed(target, state.col(piece.vertex[size_t(v)]))});
+        external.held.push_back({v, picture.place(state.col(piece.vertex[size_t(v)]))});
     Eigen::Vector2d middle = Eigen::Vector2d::Zero(); // near the origin digits are not lost
     for (const HeldVertex& h : external.held)
         middle += h.place / double(external.held.size());
+    if (picture.ring) // that of the picture, though the hinge be no even circle
+        middle.setZero();
     for (HeldVertex& h : external.held)
         h.place -= middle;
     external.plane = axes_at(target, middle);
@@ -246,7 +281,7 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
         external.slip = slip_on(piece, state(Eigen::all, piece.vertex), target, middle);
 
     std::vector<Element> element = elements(piece.mesh);
-    const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, target, X, middle, element); };
+    const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, picture, X, middle, element); };
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
@@ -254,12 +289,11 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
                   external,   external.plane, matrix,
                   cholesky,   true,           pull_of(external, piece.mesh, options)};
     SolvedPiece result;
-    const PieceStart start = piece_start(part, state, fixed, piece, job, measure, progress.part(0.03, 0.2));
+    const PieceStart start = start_of(part, state, fixed, piece, picture, job, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
     measure(start.position);
-    const bool smooth = std::holds_alternative<HeightFace>(target);
-    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, smooth ? 0.6 : 1));
-    if (smooth)
+    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
+    if (!picture.true_lengths())
         X = in_rounds(job, measure, std::move(X), result.report, progress.part(0.6, 1));
 
     result.face = face_fields(piece.mesh, element, {X}, solved_sheet(job, result.report));
@@ -267,10 +301,11 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     if (const int f = first_flipped(piece, X); f >= 0)
         throw SolveError(
             fmt::format("face {} is too thin on the target for the arithmetic; mesh the part more evenly", f));
-    require_beside_apex(piece, target, X);
+    if (!picture.ring)
+        require_beside_apex(piece, target, X);
     result.position.resize(3, X.cols());
     for (Eigen::Index v = 0; v < X.cols(); ++v)
-        result.position.col(v) = placed(target, X.col(v));
+        result.position.col(v) = picture.point(X.col(v));
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;
 }
