@@ -71,7 +71,8 @@ std::optional<RingChart> RingChart::around(const BinderFace& face, const FreedPi
 Eigen::Vector2d RingChart::place(const Eigen::Vector3d& point) const
 {
     const Eigen::Vector3d arm = point - origin_;
-    const double along = axis_.dot(arm), x = towards_.dot(arm), y = axis_.cross(towards_).dot(arm), off = std::hypot(x, y);
+    const double along = axis_.dot(arm), x = towards_.dot(arm), y = axis_.cross(towards_).dot(arm),
+                 off = std::hypot(x, y);
     const double level = std::sqrt(1 - sine_ * sine_) * along + sine_ * off;
     const double r = sine_ > 0 ? radius_ * std::pow(level / level_, way_ / sine_)
                                : radius_ * std::exp(way_ * (level - level_) / radius_);
@@ -91,7 +92,8 @@ Eigen::Vector3d RingChart::point(const Eigen::Vector2d& place) const
 
 double RingChart::radius_of(double area_mm2) const
 {
-    constexpr double turn = 2 * std::numbers::pi, nearest = 0.1; // to the apex of a cone, of the way from the hinge to it
+    constexpr double turn = 2 * std::numbers::pi,
+                     nearest = 0.1; // to the apex of a cone, of the way from the hinge to it
     if (sine_ == 0)
         return radius_ * std::exp(area_mm2 / (turn * radius_ * radius_));
     const double square = 1 + way_ * 2 * area_mm2 / (turn * sine_ * level_ * level_);

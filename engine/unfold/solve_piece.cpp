@@ -16,12 +16,10 @@
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/sheet_fields.h"
-#include "engine/mesh/cut.h"
+#include "engine/unfold/piece_picture.h"
 #include "engine/unfold/piece_start.h"
-#include "engine/unfold/ring_chart.h"
 #include "engine/unfold/ring_start.h"
 #include "engine/unfold/target_friction.h"
-#include "engine/unfold/turn_binder.h"
 
 namespace spia {
 namespace {
@@ -86,41 +84,6 @@ SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, con
             std::move(flat.report)};
 }
 
-/// How the piece is told in the plane: by the target's development whole around the hinge, or where the hinge goes all the way around by
-/// a picture of it that is not cut.
-struct Picture {
-    BinderFace target;
-    std::optional<RingChart> ring;
-
-    Eigen::Vector2d place(const Eigen::Vector3d& point) const
-    {
-        return ring ? ring->place(point) : developed(target, point);
-    }
-    Eigen::Vector3d point(const Eigen::Vector2d& place) const { return ring ? ring->point(place) : placed(target, place); }
-    bool true_lengths() const { return !ring && !std::holds_alternative<HeightFace>(target); }
-    Eigen::Matrix2d lengths(const Eigen::Matrix<double, 2, 3>& corner) const
-    {
-        return ring ? ring->lengths(corner) : metric(target, corner.rowwise().mean());
-    }
-};
-
-Picture picture_of(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix3Xd& local)
-{
-    std::vector<int> number(size_t(piece.mesh.vertices()), -1);
-    for (size_t k = 0; k < piece.held.size(); ++k)
-        number[size_t(piece.held[k])] = int(k);
-    std::vector<std::array<int, 2>> edges;
-    for (const auto& [a, b] : piece.hinge)
-        edges.push_back({number[size_t(a)], number[size_t(b)]});
-    if (const std::optional<BinderFace> turned = turned_towards(target, local(Eigen::all, piece.held), edges))
-        return {*turned, std::nullopt};
-    if (surface_type(piece.mesh).loops < 2)
-        throw InputError(fmt::format("the freed faces around face {} are joined to the fixed ones all the way around the {} "
-                                     "and close it; free one side after the other, or flatten the part",
-                                     piece.face[0], name(target)));
-    return {target, RingChart::around(target, piece, local)};
-}
-
 /// The axes of the development in space, where the hinge is; of a smooth face those of its plane.
 Eigen::Matrix<double, 3, 2> axes_at(const BinderFace& target, const Eigen::Vector2d& place)
 {
@@ -182,7 +145,7 @@ int first_flipped(const FreedPiece& piece, const Eigen::Matrix2Xd& X)
 }
 
 /// The lengths of the target around the middle of each triangle.
-void take_lengths(const FreedPiece& piece, const Picture& picture, const Eigen::Matrix2Xd& X,
+void take_lengths(const FreedPiece& piece, const PiecePicture& picture, const Eigen::Matrix2Xd& X,
                   const Eigen::Vector2d& middle, std::vector<Element>& element)
 {
     if (picture.true_lengths())
@@ -234,7 +197,7 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
 }
 
 PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                    const FreedPiece& piece, const Picture& picture, const Job& job,
+                    const FreedPiece& piece, const PiecePicture& picture, const Job& job,
                     const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
 {
     if (picture.ring) {
@@ -262,23 +225,24 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
             fmt::format("the freed faces around face {} touch the fixed ones in single vertices only; free or "
                         "fix the faces between them",
                         piece.face[0]));
-    const Picture picture = picture_of(piece, given_target, state(Eigen::all, piece.vertex));
+    const PiecePicture picture = picture_of(piece, state(Eigen::all, piece.vertex), given_target);
     const BinderFace& target = picture.target;
+    if (picture.ring && options.process.rolling)
+        throw InputError(
+            fmt::format("the freed faces around face {} go all the way around the {}: seen square to it the "
+                        "rolling direction is another one everywhere; leave it out, or cut the part open",
+                        piece.face[0], name(target)));
 
     ExternalForces external;
-    for (const int v : piece.held)
-        external.held.push_back({v, picture.place(state.col(piece.vertex[size_t(v)]))});
     Eigen::Vector2d middle = Eigen::Vector2d::Zero(); // near the origin digits are not lost
-    for (const HeldVertex& h : external.held)
-        middle += h.place / double(external.held.size());
-    if (picture.ring) // that of the picture, though the hinge be no even circle
-        middle.setZero();
-    for (HeldVertex& h : external.held)
-        h.place -= middle;
+    if (!picture.ring)                                // whose picture has its own
+        middle = picture.held.rowwise().mean();
+    for (size_t k = 0; k < piece.held.size(); ++k)
+        external.held.push_back({piece.held[k], picture.held.col(Eigen::Index(k)) - middle});
     external.plane = axes_at(target, middle);
     external.traction = of_piece(traction, piece);
     if (external.any())
-        external.slip = slip_on(piece, state(Eigen::all, piece.vertex), target, middle);
+        external.slip = slip_on(piece, state(Eigen::all, piece.vertex), target, picture.held.col(0), middle);
 
     std::vector<Element> element = elements(piece.mesh);
     const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, picture, X, middle, element); };
@@ -292,7 +256,8 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     const PieceStart start = start_of(part, state, fixed, piece, picture, job, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
     measure(start.position);
-    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
+    Eigen::Matrix2Xd X =
+        solve(job, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
     if (!picture.true_lengths())
         X = in_rounds(job, measure, std::move(X), result.report, progress.part(0.6, 1));
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
@@ -9,35 +10,28 @@
 #include "engine/forming/membrane.h"
 #include "engine/forming/nearest_rotation.h"
 #include "engine/forming/smallest_turn.h"
-#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/turn_binder.h"
+#include "engine/unfold/piece_picture.h"
 
 namespace spia {
 namespace {
 
 using Axes = Eigen::Matrix<double, 3, 2>;
 
-/// The feet of the piece, from a held vertex on from edge to edge: a development that is cut does not cut the piece.
-Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target)
+/// The feet of the piece, from edge to edge: a development that is cut does not cut the piece. @param held of the first held vertex
+Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
+                      const Eigen::Vector2d& held)
 {
-    const int first = piece.held.front();
-    const auto number = [&](int v) { return v == first ? 0 : v == 0 ? first : v; };
-    std::vector<std::array<int, 2>> edges;
-    const std::vector<EdgeUse> uses = edge_uses(piece.mesh.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t) {
-        edges.push_back({number(uses[begin].low), number(uses[begin].high)});
-    });
-    Eigen::Matrix3Xd point = now;
-    point.col(0).swap(point.col(first));
-    std::optional<Eigen::Matrix2Xd> foot = unwound(target, point, edges);
+    std::optional<Eigen::Matrix2Xd> foot = unwound_piece(piece, now, target);
     if (!foot)
-        throw InputError(
-            fmt::format("the freed faces around face {} go all the way around the {}: what rubs on it cannot "
-                        "be told; free one side after the other",
-                        piece.face[0], name(target)));
-    foot->col(0).swap(foot->col(first));
-    return *foot;
+        throw InputError(fmt::format("the freed faces around face {} go all the way around the {}: what rubs on it "
+                                     "cannot be told; free one side after the other",
+                                     piece.face[0], name(target)));
+    const Eigen::Vector2d first = foot->col(piece.held.front());
+    if (!std::holds_alternative<ConeFace>(target))
+        return foot->colwise() + (held - first);
+    const double turn = std::atan2(first[0] * held[1] - first[1] * held[0], first.dot(held)); // once around the axis
+    return Eigen::Rotation2Dd(turn).toRotationMatrix() * *foot;
 }
 
 Axes turned(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Axes& axes)
@@ -111,12 +105,12 @@ Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& s
 }
 
 SlipOnFace slip_on(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
-                   const Eigen::Vector2d& origin)
+                   const Eigen::Vector2d& held, const Eigen::Vector2d& origin)
 {
     const TriMesh state{now, piece.mesh.triangle};
     const Eigen::Matrix3Xd part_normal = vertex_normals(piece.mesh), state_normal = vertex_normals(state);
     const std::vector<Eigen::Matrix3d> to_part = state_to_part(piece.mesh, part_normal, state, state_normal);
-    SlipOnFace slip{feet(piece, now, target), {}};
+    SlipOnFace slip{feet(piece, now, target, held), {}};
     for (Eigen::Index v = 0; v < now.cols(); ++v) {
         const Axes on_target = tangents(target, slip.foot.col(v));
         const Eigen::Vector3d up = on_target.col(0).cross(on_target.col(1)).normalized();

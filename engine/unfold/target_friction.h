@@ -17,9 +17,10 @@ Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& s
 /// How the sheet slips on the target: in its development to the foot of where it lies in the state; from there by the smallest turn
 /// into the sheet of the state, and with that to where it lies in the part.
 /// @param now    3 by #V of the piece, mm: the state
-/// @param target its development whole around the hinge; @param origin of the blank in it, mm
+/// @param target its development whole around the hinge
+/// @param held   where the first held vertex lies in it, mm; @param origin of the blank in it, mm
 /// @throws InputError if the piece goes all the way around the target
 SlipOnFace slip_on(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
-                   const Eigen::Vector2d& origin);
+                   const Eigen::Vector2d& held, const Eigen::Vector2d& origin);
 
 } // namespace spia

@@ -278,8 +278,8 @@ TEST(TargetFriction, SheetRolledOnItsTargetSlipsInTheAxesOfTheFlatPart)
             for (int f = 0; f < part.triangles(); ++f)
                 (f / 2 % columns == 0 ? fixed : freed).push_back(f);
             const FreedPiece piece = freed_pieces(part, fixed, freed).at(0);
-            const Eigen::Vector2d origin(3, -4);
-            const SlipOnFace slip = slip_on(piece, state(Eigen::all, piece.vertex), target, origin);
+            const Eigen::Vector2d origin(3, -4), first = flat(1. / columns, 0);
+            const SlipOnFace slip = slip_on(piece, state(Eigen::all, piece.vertex), target, first, origin);
             for (size_t v = 0; v < piece.vertex.size(); ++v) {
                 const int column = piece.vertex[v] % (columns + 1), row = piece.vertex[v] / (columns + 1);
                 const Eigen::Vector2d place = flat(double(column) / columns, double(row) / rows);
