@@ -136,11 +136,16 @@ void require_beside_apex(const FreedPiece& piece, const BinderFace& target, cons
     }
 }
 
-int first_flipped(const FreedPiece& piece, const Eigen::Matrix2Xd& X)
+/// @returns the face of the part, or -1
+int first_flipped(const FreedPiece& piece, const PiecePicture& picture, const Eigen::Matrix2Xd& X)
 {
-    for (int f = 0; f < piece.mesh.triangles(); ++f)
-        if (flipped_triangles(piece.mesh.triangle.col(f), X) > 0)
+    const Eigen::Vector3i alone(0, 1, 2);
+    for (int f = 0; f < piece.mesh.triangles(); ++f) {
+        const auto corner = corners(X, piece.mesh.triangle.col(f));
+        if (flipped_triangles(alone, corner) > 0 ||
+            (picture.ring && flipped_triangles(alone, picture.ring->developed(corner)) > 0))
             return piece.face[size_t(f)];
+    }
     return -1;
 }
 
@@ -263,7 +268,7 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
 
     result.face = face_fields(piece.mesh, element, {X}, solved_sheet(job, result.report));
     X.colwise() += middle;
-    if (const int f = first_flipped(piece, X); f >= 0)
+    if (const int f = first_flipped(piece, picture, X); f >= 0)
         throw SolveError(
             fmt::format("face {} is too thin on the target for the arithmetic; mesh the part more evenly", f));
     if (!picture.ring)

@@ -2,7 +2,7 @@
 #include "engine/unfold/ring_chart.h"
 
 #include <Eigen/Geometry>
-#include <functional>
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -64,7 +64,7 @@ UnfoldStepResult laid(const TriMesh& part, const FlattenOptions& options = steel
     return unfold_step(part, part.position, FlaredTube::pick(part.triangles()), options);
 }
 
-/// A freed ring of two triangles per cell around a face, for the chart alone.
+/// The freed ring of such a tube.
 struct Hinge {
     TriMesh part;
     FreedPiece piece;
@@ -151,6 +151,11 @@ TEST(RingChart, AFlaredEndIsLaidOnItsTubeWhereverAnglesAreCutAndTheMeshBegins)
             const Eigen::Vector3d x = result.position.col(v);
             EXPECT_NEAR(x.head<2>().norm(), 40 + x[2] * std::tan(taper), 1e-6);
         }
+        PlannedStep step;
+        step.pick = FlaredTube::pick(part.triangles());
+        const UnfoldRun run = run_unfolding(part, {step}, steel());
+        ASSERT_EQ(run.states.size(), 1u) << run.failure;
+        EXPECT_EQ(run.states[0].overlap.places, 0);
         // The same ring after a turn about its axis by some cells and a part of one.
         for (const double cells : {5., 17.4, 31.}) {
             FlaredTube other = tube;
@@ -189,7 +194,7 @@ TEST(RingChart, WhatIsOnTheTubeAlreadyStaysThere)
 
 TEST(RingChart, ARingThatIsHeldOnBothSidesLiesBetweenThem)
 {
-    // A bead around a tube is laid flat on it, all at once or one half of its width after the other half of its height.
+    // A bead around a tube is laid back on it.
     const int n = 48, rows = 24;
     const TriMesh part = shapes::grid_surface({n, rows, true, false}, [&](double u, double v) {
         const double z = 60 * v, a = 2 * pi * u, r = 40 + (z > 20 && z < 40 ? 2 * std::sin((z - 20) / 20 * pi) : 0.);
@@ -204,7 +209,6 @@ TEST(RingChart, ARingThatIsHeldOnBothSidesLiesBetweenThem)
     ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
     for (int v = 0; v < part.vertices(); ++v)
         EXPECT_NEAR(result.position.col(v).head<2>().norm(), 40, 1e-6);
-    // It is the same seen upside down.
     for (int k = 0; k < n; ++k)
         EXPECT_NEAR(result.position(2, 12 * n + k), 30, 0.02) << "the middle row stays";
 }
@@ -237,17 +241,33 @@ TEST(RingChart, ATubeThatIsCutOpenIsLaidOnItsDevelopmentAndUnrolled)
         EXPECT_GT(width, 0.05) << "the cut opens or overlaps";
         EXPECT_LT(width, 8) << taper;
     }
-    const BendMap map = find_bends(cut.mesh);
-    const UnfoldedByItself unfolded = unfold_by_itself(cut.mesh, map, {}, steel());
-    ASSERT_EQ(unfolded.sequence.steps.size(), 2u);
-    EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::lay);
-    EXPECT_EQ(unfolded.sequence.steps[1].kind, UnfoldKind::unroll);
-    EXPECT_EQ(unfolded.run.failure, "");
-    ASSERT_TRUE(unfolded.run.blank);
-    EXPECT_EQ(unfolded.run.flipped, 0);
-    const Eigen::Vector2d size =
-        unfolded.run.blank->position.rowwise().maxCoeff() - unfolded.run.blank->position.rowwise().minCoeff();
-    EXPECT_NEAR(size.maxCoeff(), 2 * pi * 40, 6);
+    tube = {.lean = 1};
+    TriMesh open = cut.mesh;
+    open.position = tube.mesh().position(Eigen::all, cut.source);
+    const BendMap map = find_bends(open);
+    ASSERT_EQ(map.regions.size(), 2u);
+    const int wall = map.regions[0].area > map.regions[1].area ? 0 : 1;
+    for (const int root : {-1, wall}) {
+        const UnfoldedByItself unfolded = unfold_by_itself(open, map, {.root = root}, steel());
+        ASSERT_EQ(unfolded.sequence.steps.size(), 2u);
+        EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::lay);
+        EXPECT_EQ(unfolded.sequence.steps[1].kind, UnfoldKind::unroll);
+        EXPECT_EQ(unfolded.run.failure, "");
+        for (const UnfoldState& state : unfolded.run.states)
+            EXPECT_TRUE(state.converged) << state.reason;
+        ASSERT_TRUE(unfolded.run.blank);
+        EXPECT_EQ(unfolded.run.flipped, 0);
+        if (root != wall)
+            continue;
+        const Eigen::Matrix2Xd& blank =
+            unfolded.run.blank->position; // the tube's own end is straight, as long as it is around
+        const auto opposite = std::find(cut.source.begin(), cut.source.end(), FlaredTube::around / 2);
+        const auto way = [&](int v) { return (blank.col(0) - blank.col(v)).norm(); };
+        ASSERT_EQ(cut.source[1], 0) << "the copy across the seam";
+        EXPECT_NEAR(way(1), 2 * pi * 40, 1e-6);
+        EXPECT_NEAR(way(int(opposite - cut.source.begin())), pi * 40, 1e-6);
+        EXPECT_NEAR(blank.row(1).maxCoeff() - blank.row(1).minCoeff(), 24 + 15, 3);
+    }
 }
 
 TEST(RingChart, FrictionAndTheRollingDirectionAreRefusedOnARing)
