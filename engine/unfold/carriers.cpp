@@ -8,7 +8,6 @@
 
 #include "engine/mesh/edge_uses.h"
 #include "engine/unfold/fit_height.h"
-#include "engine/unfold/turn_binder.h"
 
 namespace spia {
 namespace {
@@ -149,21 +148,6 @@ bool wraps(const BinderFace& face, const TriMesh& part, const std::set<int>& ver
     if (const auto* c = std::get_if<ConeFace>(&face))
         return around(c->apex, c->axis, c->towards);
     return false;
-}
-
-bool closes_around(const BinderFace& face, const TriMesh& part, const std::vector<int>& faces)
-{
-    const Eigen::Matrix3Xi triangle = part.triangle(Eigen::all, faces);
-    std::vector<int> vertex(triangle.reshaped().begin(), triangle.reshaped().end());
-    std::sort(vertex.begin(), vertex.end());
-    vertex.erase(std::unique(vertex.begin(), vertex.end()), vertex.end());
-    const auto number = [&](int v) { return int(std::lower_bound(vertex.begin(), vertex.end(), v) - vertex.begin()); };
-    std::vector<std::array<int, 2>> edges;
-    const std::vector<EdgeUse> uses = edge_uses(triangle);
-    for_each_edge(uses, [&](size_t begin, size_t) {
-        edges.push_back({number(uses[begin].low), number(uses[begin].high)});
-    });
-    return !unwound(face, part.position(Eigen::all, vertex), edges);
 }
 
 } // namespace spia

@@ -46,9 +46,6 @@ int chosen_root(const TriMesh& part, const BendMap& map, Carriers& carriers);
 /// Whether places go around a cylinder or cone so far that no line is left along which it could be cut.
 bool wraps(const BinderFace& face, const TriMesh& part, const std::set<int>& vertices);
 
-/// Whether sheet goes all the way around a cylinder or cone and closes there; not where it is cut.
-bool closes_around(const BinderFace& face, const TriMesh& part, const std::vector<int>& faces);
-
 /// mm, of the box around some faces
 double diagonal_of(const TriMesh& part, const std::vector<int>& faces);
 

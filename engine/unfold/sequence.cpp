@@ -65,6 +65,15 @@ private:
         return faces;
     }
 
+    std::set<int> vertices_of(int region) const
+    {
+        std::set<int> vertices;
+        for (const int f : map_.faces_of(region))
+            for (const int v : part_.triangle.col(f))
+                vertices.insert(v);
+        return vertices;
+    }
+
     /// The region inside of a cluster with the longest border to it, over bends of the cluster or directly.
     int carrier_of(const std::vector<int>& cluster, int depth) const
     {
@@ -107,11 +116,7 @@ private:
             if ((x - placed(fit->face, developed(fit->face, x))).norm() > distance_)
                 return cannot(fmt::format("it is joined to more than {}", map_.name(carrier)));
         }
-        FaceSet faces;
-        for (int f = 0; f < part_.triangles(); ++f)
-            if (freed[size_t(map_.label[f])])
-                faces.push_back(f);
-        if (wraps(fit->face, part_, held) && closes_around(fit->face, part_, faces))
+        if (wraps(fit->face, part_, held))
             return cannot(fmt::format("it goes all around {}", map_.name(carrier)));
         add(cluster, carrier, held, unite);
     }
@@ -169,7 +174,7 @@ private:
                     laid[size_t(label)] = 1;
         const bool together = std::all_of(laid.begin(), laid.end(), [](char l) { return l; });
         const BinderFit* fit = carriers_.plain(result_.root);
-        bool rolls = together && fit && !closes_around(fit->face, part_, map_.faces_of(result_.root));
+        bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
         if (rolls && std::holds_alternative<PlaneFace>(fit->face) && !carriers_.loose(result_.root))
             return;
         rolls &= unroll_;

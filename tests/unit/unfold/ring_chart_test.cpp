@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/cut.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/unfold_script.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 
@@ -241,33 +241,27 @@ TEST(RingChart, ATubeThatIsCutOpenIsLaidOnItsDevelopmentAndUnrolled)
         EXPECT_GT(width, 0.05) << "the cut opens or overlaps";
         EXPECT_LT(width, 8) << taper;
     }
+    // Steep and unrolled.
     tube = {.lean = 1};
     TriMesh open = cut.mesh;
     open.position = tube.mesh().position(Eigen::all, cut.source);
-    const BendMap map = find_bends(open);
-    ASSERT_EQ(map.regions.size(), 2u);
-    const int wall = map.regions[0].area > map.regions[1].area ? 0 : 1;
-    for (const int root : {-1, wall}) {
-        const UnfoldedByItself unfolded = unfold_by_itself(open, map, {.root = root}, steel());
-        ASSERT_EQ(unfolded.sequence.steps.size(), 2u);
-        EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::lay);
-        EXPECT_EQ(unfolded.sequence.steps[1].kind, UnfoldKind::unroll);
-        EXPECT_EQ(unfolded.run.failure, "");
-        for (const UnfoldState& state : unfolded.run.states)
-            EXPECT_TRUE(state.converged) << state.reason;
-        ASSERT_TRUE(unfolded.run.blank);
-        EXPECT_EQ(unfolded.run.flipped, 0);
-        if (root != wall)
-            continue;
-        const Eigen::Matrix2Xd& blank =
-            unfolded.run.blank->position; // the tube's own end is straight, as long as it is around
-        const auto opposite = std::find(cut.source.begin(), cut.source.end(), FlaredTube::around / 2);
-        const auto way = [&](int v) { return (blank.col(0) - blank.col(v)).norm(); };
-        ASSERT_EQ(cut.source[1], 0) << "the copy across the seam";
-        EXPECT_NEAR(way(1), 2 * pi * 40, 1e-6);
-        EXPECT_NEAR(way(int(opposite - cut.source.begin())), pi * 40, 1e-6);
-        EXPECT_NEAR(blank.row(1).maxCoeff() - blank.row(1).minCoeff(), 24 + 15, 3);
-    }
+    PlannedStep lay, unroll;
+    lay.pick = FlaredTube::pick(open.triangles());
+    unroll.kind = UnfoldKind::unroll;
+    unroll.pick.carrying = lay.pick.fixed;
+    const UnfoldRun run = run_unfolding(open, {lay, unroll}, steel());
+    ASSERT_EQ(run.failure, "");
+    for (const UnfoldState& state : run.states)
+        EXPECT_TRUE(state.converged) << state.reason;
+    ASSERT_TRUE(run.blank);
+    EXPECT_EQ(run.flipped, 0);
+    const Eigen::Matrix2Xd& blank = run.blank->position; // the tube's own end is straight, as long as it is around
+    const auto opposite = std::find(cut.source.begin(), cut.source.end(), FlaredTube::around / 2);
+    const auto way = [&](int v) { return (blank.col(0) - blank.col(v)).norm(); };
+    ASSERT_EQ(cut.source[1], 0) << "the copy across the seam";
+    EXPECT_NEAR(way(1), 2 * pi * 40, 1e-6);
+    EXPECT_NEAR(way(int(opposite - cut.source.begin())), pi * 40, 1e-6);
+    EXPECT_NEAR(blank.row(1).maxCoeff() - blank.row(1).minCoeff(), 24 + 15, 3);
 }
 
 TEST(RingChart, FrictionAndTheRollingDirectionAreRefusedOnARing)
