@@ -73,6 +73,8 @@ void print_states(const UnfoldRun& run)
         if (state.on && std::holds_alternative<HeightFace>(state.on->face))
             fmt::print("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
                        state.on->distance_mm, state.on->angle * degrees);
+        if (state.friction_share < 1)
+            fmt::print("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
             fmt::print("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n",
                        state.overlap.places, state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
@@ -177,7 +179,7 @@ std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments,
     }
     if (arguments.automatic) {
         files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
-        write_atomically(files.back(), unfold_script_json(map, steps));
+        write_atomically(files.back(), unfold_script_json(map, steps, part.source_face));
     }
     return files;
 }
@@ -218,6 +220,9 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, const std::vector<st
     for (const UnfoldState& state : run.states)
         if (!state.converged)
             poorer.push_back(fmt::format("step \"{}\" did not converge: {}", state.name, state.reason));
+        else if (state.friction_share < 1)
+            poorer.push_back(fmt::format("step \"{}\" has {:.2g} % of its friction: {}", state.name,
+                                         100 * state.friction_share, state.reason));
     if (!run.states.empty() && run.states.back().overlap.places > 0)
         poorer.push_back(fmt::format("the blank lies on itself at {} places", run.states.back().overlap.places));
     if (run.flipped > 0)

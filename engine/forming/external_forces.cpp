@@ -52,13 +52,15 @@ NodalForces::NodalForces(const ExternalForces& forces, const Eigen::Matrix3Xd& p
     line_.resize(size_t(vertices));
     for (const Restraint& r : forces.restraint)
         line_[size_t(r.vertex)].push_back(r);
-    below_ = forces.plane.transpose() * position;
+    below_ = forces.slip ? forces.slip->foot : Eigen::Matrix2Xd(forces.plane.transpose() * position);
     const Eigen::Vector3d up = forces.plane.col(0).cross(forces.plane.col(1));
     into_sheet_.resize(size_t(vertices));
+    if (forces.slip)
+        into_sheet_ = forces.slip->into_sheet;
     acts_.resize(size_t(vertices));
     for (size_t v = 0; v < acts_.size(); ++v) {
         acts_[v] = friction_[Eigen::Index(v)] != 0 || travelling_[Eigen::Index(v)] != 0 || !line_[v].empty();
-        for (int k = 0; k < 2 && acts_[v]; ++k)
+        for (int k = 0; k < 2 && acts_[v] && !forces.slip; ++k)
             into_sheet_[v].col(k) = smallest_turn(up, normal.col(Eigen::Index(v)), forces.plane.col(k));
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace spia {
@@ -17,6 +18,13 @@ struct HeldVertex {
     Eigen::Vector2d place; ///< mm, in the blank
 };
 
+/// Slip on a tool that rests and is no plane, and on sheet that lay elsewhere than the part when it slipped.
+struct SlipOnFace {
+    Eigen::Matrix2Xd foot; ///< 2 by #V, mm, in the blank: where the slip leads
+    std::vector<Eigen::Matrix<double, 3, 2>>
+        into_sheet; ///< per vertex: ways in the blank there to the part's tangent plane
+};
+
 /// What acts on the formed part from outside, all tangential to it, against the slip of the sheet on the tool. Slip is a way in
 /// the plane of the blank: from where the material was, X, to where it is seen along the stamping direction, or for a tool that
 /// travels to where it would be had it stuck to the tool. The smallest turn of that plane into the sheet's tangent plane
@@ -29,6 +37,7 @@ struct ExternalForces {
     std::vector<HeldVertex> held;                                                ///< each vertex once
     Eigen::Matrix<double, 3, 2> plane = Eigen::Matrix<double, 3, 2>::Identity(); ///< axes of the blank in space
     double full_slip = 0.1;                                                      ///< mm
+    std::optional<SlipOnFace> slip = {}; ///< none: the plane of the blank is the tool's, as above
 
     bool any() const { return traction.size() > 0 || travelling.size() > 0 || !restraint.empty(); }
     /// A share of all forces; what is held stays held.
@@ -53,7 +62,7 @@ public:
 
 private:
     const ExternalForces& forces_;
-    Eigen::Matrix2Xd below_; ///< the part seen along the stamping direction
+    Eigen::Matrix2Xd below_; ///< the part seen along the stamping direction, or its feet on the tool
     std::vector<Eigen::Matrix<double, 3, 2>>
         into_sheet_;                           ///< per vertex: ways in the blank's plane to its tangent plane
     Eigen::VectorXd friction_, travelling_;    ///< N, per vertex; empty where nothing acts at all

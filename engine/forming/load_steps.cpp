@@ -59,6 +59,7 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
         share.resultant = result.resultant;
         reached = std::move(result.position);
     }
+    job.external = whole.scaled(share.process_share); // what is in the blank, for who goes on from it
     share.energy = std::move(report.energy);
     share.newton = std::move(report.newton);
     report = std::move(share);
@@ -95,7 +96,7 @@ Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& r
 {
     if (!job.external.any()) {
         Eigen::Matrix2Xd blank = solve_at_once(job, X, report, progress);
-        if (report.system == SolvedSystem::energy && !job.external.held.empty())
+        if (report.system == SolvedSystem::energy && !job.external.held.empty() && !job.anchored)
             report.reason += "; the pilots hold nothing in it";
         return blank;
     }
@@ -105,7 +106,7 @@ Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& r
         if (!stepped) {
             report.process_share = 0;
             report.reason += "; the forces of the tools are not in it";
-            if (!job.external.held.empty())
+            if (!job.external.held.empty() && !job.anchored)
                 report.reason += ", and the pilots hold nothing";
             return blank;
         }

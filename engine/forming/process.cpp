@@ -38,17 +38,7 @@ void add_tractions(const ProcessConditions& process, const TriMesh& part, const 
 {
     const Eigen::Matrix3Xd area_vector = area_vectors(part);
     for (const ContactRegion& region : process.contact) {
-        const std::string what = fmt::format("the contact region \"{}\"", region.name);
-        require_faces(what, region.faces, part);
-        if (!(region.friction >= 0) || !std::isfinite(region.friction) || region.sides < 1 || region.sides > 2)
-            throw InputError(fmt::format("{}: friction {} on {} sides; friction must not be negative, sides 1 or 2",
-                                         what, region.friction, region.sides));
-        if (region.force_N.has_value() == region.pressure_MPa.has_value())
-            throw InputError(fmt::format("{} needs either a force or a pressure", what));
-        if (region.force_N)
-            require_positive("the force of " + what, *region.force_N, "N");
-        else
-            require_positive("the pressure of " + what, *region.pressure_MPa, "MPa");
+        require_contact(region, part);
         const double pressure = contact_pressure(region, area_vector, direction).MPa;
         if (region.friction == 0)
             continue;
@@ -149,6 +139,21 @@ Eigen::VectorXd lock_forces(const ProcessConditions& process, const TriMesh& par
 }
 
 } // namespace
+
+void require_contact(const ContactRegion& region, const TriMesh& part)
+{
+    const std::string what = fmt::format("the contact region \"{}\"", region.name);
+    require_faces(what, region.faces, part);
+    if (!(region.friction >= 0) || !std::isfinite(region.friction) || region.sides < 1 || region.sides > 2)
+        throw InputError(fmt::format("{}: friction {} on {} sides; friction must not be negative, sides 1 or 2", what,
+                                     region.friction, region.sides));
+    if (region.force_N.has_value() == region.pressure_MPa.has_value())
+        throw InputError(fmt::format("{} needs either a force or a pressure", what));
+    if (region.force_N)
+        require_positive("the force of " + what, *region.force_N, "N");
+    else
+        require_positive("the pressure of " + what, *region.pressure_MPa, "MPa");
+}
 
 double lock_force(const Material& material, double thickness)
 {

@@ -64,6 +64,9 @@ struct ProcessConditions {
 /// h sigma_1 in plane strain. What a bead takes at most.
 double lock_force(const Material& material, double thickness);
 
+/// @throws InputError if a face does not exist or a value is out of its bounds: names the region and the fault
+void require_contact(const ContactRegion& region, const TriMesh& part);
+
 /// The sheet with its tailored pieces.
 /// @param plane axes of the blank in space; @throws InputError  names the piece and the fault
 Sheet sheet_of(const Material& material, double thickness, const StressCurve::Options& curve,

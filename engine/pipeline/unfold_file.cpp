@@ -240,6 +240,40 @@ void read_options(const Json& json, const Place& place, PlannedStep& step)
     step.most_newton_steps = whole("most_newton_steps");
 }
 
+/// What rubs, on all that is freed or on what its own picks name. @returns the names of these that are not there
+std::vector<std::string> read_friction(const Json& json, const Place& place, const PartFile& part, const BendMap& map,
+                                       const NamedRegions& regions, PlannedStep& step)
+{
+    require_object(json, place, {"coefficient", "pressure_MPa", "force_N", "sides", "regions", "faces", "box"});
+    ContactRegion rubs;
+    rubs.name = "the target";
+    rubs.friction = *number_in(json, place, "coefficient", 0, 10, true);
+    rubs.pressure_MPa = number_in(json, place, "pressure_MPa", 1e-9, 1e5);
+    rubs.force_N = number_in(json, place, "force_N", 1e-9, 1e9);
+    if (rubs.force_N.has_value() == rubs.pressure_MPa.has_value())
+        place.fail("needs either the member \"pressure_MPa\" or \"force_N\"");
+    const double sides = number_in(json, place, "sides", 1, 2).value_or(2);
+    if (sides != 1 && sides != 2)
+        place.member("sides").fail("must be 1 or 2");
+    rubs.sides = int(sides);
+    Json picks = Json::object();
+    for (const char* member : {"regions", "faces", "box"})
+        if (const Json* pick = find(json, place, member, false))
+            picks[member] = *pick;
+    Pick picked;
+    if (!picks.empty()) {
+        picked = pick_in(picks, place, part, map, regions);
+        for (const int f : picked.faces)
+            if (!std::binary_search(step.pick.freed.begin(), step.pick.freed.end(), f))
+                place.fail(fmt::format("picks face {}, which is not freed", part.source_face[size_t(f)]));
+        if (picked.faces.empty()) // on nothing that is there; no faces would mean all of them
+            return picked.missing;
+    }
+    rubs.faces = picked.faces;
+    step.pick.friction = std::move(rubs);
+    return picked.missing;
+}
+
 UnfoldKind kind_in(const Json& json, const Place& place)
 {
     const std::string wanted = text_in(json, place, "kind", "lay");
@@ -253,7 +287,7 @@ UnfoldKind kind_in(const Json& json, const Place& place)
 std::string read_step(const Json& json, const Place& place, const PartFile& part, const BendMap& map,
                       const NamedRegions& regions, PlannedStep& step, std::vector<std::string>& left_out)
 {
-    require_object(json, place, {"name", "kind", "freed", "fixed", "carrying", "target", "options"});
+    require_object(json, place, {"name", "kind", "freed", "fixed", "carrying", "target", "friction", "options"});
     step.kind = kind_in(json, place);
     const auto read = [&](std::string_view name, bool required) -> std::optional<Pick> {
         const Json* pick = find(json, place, name, required);
@@ -266,7 +300,7 @@ std::string read_step(const Json& json, const Place& place, const PartFile& part
     };
     const bool lays = step.kind == UnfoldKind::lay;
     if (!lays)
-        for (const std::string_view member : {"freed", "fixed"})
+        for (const std::string_view member : {"freed", "fixed", "friction"})
             if (find(json, place, member, false))
                 place.member(member).fail(fmt::format("has no meaning: {} moves the whole part", name(step.kind)));
     const auto freed = read("freed", lays), fixed = read("fixed", lays),
@@ -290,6 +324,9 @@ std::string read_step(const Json& json, const Place& place, const PartFile& part
     step.pick.carrying = carrying ? carrying->faces : step.pick.fixed;
     if (const Json* target = find(json, place, "target", false))
         read_target(*target, place.member("target"), part, step);
+    if (const Json* friction = find(json, place, "friction", false))
+        for (const std::string& missing : read_friction(*friction, place.member("friction"), part, map, regions, step))
+            left_out.push_back("friction without " + missing);
     if (const Json* options = find(json, place, "options", false))
         read_options(*options, place.member("options"), step);
     if (step.pick.freed.empty())

@@ -25,7 +25,8 @@ struct ReadScript {
 ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile& part, const BendMap& map);
 
 /// A proposal as a script to be edited: regions are named, with the places by which they are found again.
-std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps);
+/// @param source_face of PartFile: numbers for faces on which there is friction and that are no whole regions; empty: the mesh's own
+std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps, const std::vector<int>& source_face = {});
 
 /// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
 /// @param files    written, in order

@@ -1,5 +1,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
+#include <optional>
+#include <set>
 
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
@@ -50,7 +52,43 @@ Json face_json(const BinderFace& face)
         {"cone", {{"apex", xyz(cone.apex)}, {"axis", xyz(cone.axis)}, {"half_angle_deg", cone.half_angle * degrees}}}};
 }
 
-Json step_json(const BendMap& map, const PlannedStep& step)
+/// The labels that some faces are all of; none: they are no whole regions.
+std::optional<std::vector<int>> whole_labels(const BendMap& map, const std::vector<int>& faces)
+{
+    std::vector<char> picked(size_t(map.label.size()), 0);
+    std::set<int> labels;
+    for (const int f : faces) {
+        picked[size_t(f)] = 1;
+        labels.insert(map.label[f]);
+    }
+    for (Eigen::Index f = 0; f < map.label.size(); ++f)
+        if (labels.count(map.label[f]) && !picked[size_t(f)])
+            return std::nullopt;
+    return std::vector<int>(labels.begin(), labels.end());
+}
+
+Json friction_json(const BendMap& map, const ContactRegion& rubs, const std::vector<int>& source_face)
+{
+    Json json = {{"coefficient", rubs.friction}};
+    if (rubs.pressure_MPa)
+        json["pressure_MPa"] = *rubs.pressure_MPa;
+    if (rubs.force_N)
+        json["force_N"] = *rubs.force_N;
+    json["sides"] = rubs.sides;
+    if (rubs.faces.empty())
+        return json;
+    if (const auto labels = whole_labels(map, rubs.faces))
+        json["regions"] = names_of(map, *labels);
+    else {
+        std::set<int> numbers; // several triangles may be one face of the file
+        for (const int f : rubs.faces)
+            numbers.insert(source_face.empty() ? f : source_face[size_t(f)]);
+        json["faces"] = numbers;
+    }
+    return json;
+}
+
+Json step_json(const BendMap& map, const PlannedStep& step, const std::vector<int>& source_face)
 {
     Json json = {{"name", step.name}, {"kind", name(step.kind)}};
     if (step.kind == UnfoldKind::lay) {
@@ -69,6 +107,8 @@ Json step_json(const BendMap& map, const PlannedStep& step)
         target["offset_mm"] = step.offset_mm;
     if (!target.empty())
         json["target"] = target;
+    if (step.pick.friction)
+        json["friction"] = friction_json(map, *step.pick.friction, source_face);
     Json options = Json::object();
     if (step.tolerance)
         options["tolerance"] = *step.tolerance;
@@ -123,6 +163,7 @@ Json state_json(const UnfoldState& state)
                  {"thinning_max", state.face.thinning.maxCoeff()},
                  {"thinning_min", state.face.thinning.minCoeff()},
                  {"necking_triangles", state.necking},
+                 {"friction_share", state.friction_share},
                  {"overlap", {{"places", state.overlap.places}}},
                  {"seconds", state.seconds}};
     if (state.overlap.places > 0)
@@ -161,11 +202,11 @@ Json polish_json(const PolishedBlank& polished)
 
 } // namespace
 
-std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps)
+std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps, const std::vector<int>& source_face)
 {
     Json list = Json::array();
     for (const PlannedStep& step : steps)
-        list.push_back(step_json(map, step));
+        list.push_back(step_json(map, step, source_face));
     return Json{{"schema", "spia.unfold/1"}, {"regions", regions_json(map)}, {"steps", list}}.dump(
                1, ' ', false, Json::error_handler_t::replace) +
            "\n";

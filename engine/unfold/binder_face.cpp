@@ -70,6 +70,32 @@ struct Placed {
     }
 };
 
+struct Tangents {
+    using Matrix32d = Eigen::Matrix<double, 3, 2>;
+    const Eigen::Vector2d& place;
+
+    Matrix32d operator()(const PlaneFace& p) const { return p.axes; }
+    Matrix32d operator()(const HeightFace& h) const
+    {
+        return h.axes + h.axes.col(0).cross(h.axes.col(1)) * height_at(h, place).slope.transpose();
+    }
+    Matrix32d operator()(const CylinderFace& c) const
+    {
+        const double way = c.bulges ? 1 : -1;
+        Matrix32d out;
+        out << way * c.axis.cross(direction_at(c.axis, c.towards, way * place[0] / c.radius)), c.axis;
+        return out;
+    }
+    Matrix32d operator()(const ConeFace& c) const
+    {
+        const double way = c.bulges ? -1 : 1, angle = way * std::atan2(-place[0], place[1]) / std::sin(c.half_angle);
+        const Eigen::Vector3d out = direction_at(c.axis, c.towards, angle), round = way * c.axis.cross(out),
+                              along = std::cos(c.half_angle) * c.axis + std::sin(c.half_angle) * out;
+        const Eigen::Vector2d slant = place.normalized();
+        return along * slant.transpose() + round * Eigen::RowVector2d(-slant[1], slant[0]);
+    }
+};
+
 struct OuterNormal {
     const Eigen::Vector3d& point;
 
@@ -108,6 +134,11 @@ Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place) { r
 Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point)
 {
     return std::visit(OuterNormal{point}, face);
+}
+
+Eigen::Matrix<double, 3, 2> tangents(const BinderFace& face, const Eigen::Vector2d& place)
+{
+    return std::visit(Tangents{place}, face);
 }
 
 Eigen::Matrix2d metric(const BinderFace& face, const Eigen::Vector2d& place)

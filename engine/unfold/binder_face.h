@@ -49,6 +49,8 @@ Eigen::Vector2d developed(const BinderFace& face, const Eigen::Vector3d& point);
 Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place);
 /// The unit normal on the outer side, where the face is nearest to the point.
 Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point);
+/// The derivative of placed() by the place: ways of the development in space. On a smooth face they are not of unit length.
+Eigen::Matrix<double, 3, 2> tangents(const BinderFace& face, const Eigen::Vector2d& place);
 /// The lengths of the face around a place of its development: M = sqrt(J^T J), J the derivative of placed(); a small way d of the
 /// development is |M d| long. The identity, but on a smooth face.
 Eigen::Matrix2d metric(const BinderFace& face, const Eigen::Vector2d& place);

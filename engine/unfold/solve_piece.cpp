@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -15,8 +16,10 @@
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/sheet_fields.h"
+#include "engine/unfold/piece_picture.h"
 #include "engine/unfold/piece_start.h"
-#include "engine/unfold/turn_binder.h"
+#include "engine/unfold/ring_start.h"
+#include "engine/unfold/target_friction.h"
 
 namespace spia {
 namespace {
@@ -81,38 +84,39 @@ SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, con
             std::move(flat.report)};
 }
 
-/// The target with its development whole around the hinge.
-BinderFace developable(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix3Xd& local)
-{
-    std::vector<int> number(size_t(piece.mesh.vertices()), -1);
-    for (size_t k = 0; k < piece.held.size(); ++k)
-        number[size_t(piece.held[k])] = int(k);
-    std::vector<std::array<int, 2>> edges;
-    for (const auto& [a, b] : piece.hinge)
-        edges.push_back({number[size_t(a)], number[size_t(b)]});
-    const std::optional<BinderFace> turned = turned_towards(target, local(Eigen::all, piece.held), edges);
-    if (!turned)
-        throw InputError(
-            fmt::format("the freed faces around face {} are joined to the fixed ones all the way around the {}; "
-                        "cut the part open along a line, or free one side after the other",
-                        piece.face[0], name(target)));
-    return *turned;
-}
-
-/// The axes of the development in space, where the hinge is.
+/// The axes of the development in space, where the hinge is; of a smooth face those of its plane.
 Eigen::Matrix<double, 3, 2> axes_at(const BinderFace& target, const Eigen::Vector2d& place)
 {
-    if (const auto* plane = std::get_if<PlaneFace>(&target))
-        return plane->axes;
     if (const auto* height = std::get_if<HeightFace>(&target))
         return height->axes;
-    const bool round = std::holds_alternative<CylinderFace>(target); // on a cone the axes turn beside its middle
-    const Eigen::Vector3d at = placed(target, round ? place : Eigen::Vector2d(0, place.norm())),
-                          n = outer_normal(target, at);
-    if (const auto* cylinder = std::get_if<CylinderFace>(&target))
-        return (Eigen::Matrix<double, 3, 2>() << cylinder->axis.cross(n), cylinder->axis).finished();
-    const Eigen::Vector3d y = (at - std::get<ConeFace>(target).apex).normalized();
-    return (Eigen::Matrix<double, 3, 2>() << y.cross(n), y).finished();
+    if (std::holds_alternative<ConeFace>(target)) // its axes turn beside its middle
+        return tangents(target, {0, place.norm()});
+    return tangents(target, place);
+}
+
+/// Friction of the piece's own faces; none where nothing rubs on them.
+Eigen::VectorXd of_piece(const Eigen::VectorXd& traction, const FreedPiece& piece)
+{
+    const bool rubs = traction.size() > 0 && traction(piece.face).maxCoeff() > 0;
+    return rubs ? Eigen::VectorXd(traction(piece.face)) : Eigen::VectorXd();
+}
+
+/// That as flatten() takes it, which knows the part alone.
+std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
+                                   const Eigen::VectorXd& traction)
+{
+    if (traction.size() == 0)
+        return {};
+    if (now != piece.mesh.position)
+        throw InputError(
+            fmt::format("the freed faces around face {} are joined to no fixed face and not as they are in the "
+                        "part: what rubs on them cannot be told; leave out the friction, or fix some",
+                        piece.face[0]));
+    ContactRegion region{"the target", {}, traction.maxCoeff(), {}, 0.5, 2}; // both sides together: the traction itself
+    for (int f = 0; f < piece.mesh.triangles(); ++f)
+        if (traction[f] > 0)
+            region.faces.push_back(f);
+    return {region};
 }
 
 /// A cone ends in its apex: behind it, along the negative y axis, its development is cut.
@@ -132,22 +136,27 @@ void require_beside_apex(const FreedPiece& piece, const BinderFace& target, cons
     }
 }
 
-int first_flipped(const FreedPiece& piece, const Eigen::Matrix2Xd& X)
+/// @returns the face of the part, or -1
+int first_flipped(const FreedPiece& piece, const PiecePicture& picture, const Eigen::Matrix2Xd& X)
 {
-    for (int f = 0; f < piece.mesh.triangles(); ++f)
-        if (flipped_triangles(piece.mesh.triangle.col(f), X) > 0)
+    const Eigen::Vector3i alone(0, 1, 2);
+    for (int f = 0; f < piece.mesh.triangles(); ++f) {
+        const auto corner = corners(X, piece.mesh.triangle.col(f));
+        if (flipped_triangles(alone, corner) > 0 ||
+            (picture.ring && flipped_triangles(alone, picture.ring->developed(corner)) > 0))
             return piece.face[size_t(f)];
+    }
     return -1;
 }
 
 /// The lengths of the target around the middle of each triangle.
-void take_lengths(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix2Xd& X,
+void take_lengths(const FreedPiece& piece, const PiecePicture& picture, const Eigen::Matrix2Xd& X,
                   const Eigen::Vector2d& middle, std::vector<Element>& element)
 {
-    if (!std::holds_alternative<HeightFace>(target)) // true everywhere
+    if (picture.true_lengths())
         return;
     parallel_for(piece.mesh.triangles(), [&](int f) {
-        element[size_t(f)].metric = metric(target, corners(X, piece.mesh.triangle.col(f)).rowwise().mean() + middle);
+        element[size_t(f)].metric = picture.lengths(corners(X, piece.mesh.triangle.col(f)).colwise() + middle);
     });
 }
 
@@ -174,8 +183,11 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
             report.residual = solved.residual;
             report.converged = solved.ended == Ended::converged;
             next = std::move(solved.position);
-        } else
+        } else {
+            const double share = std::exchange(report.process_share, 1); // of the forces: of it the job has all by now
             next = solve(job, X, report, mine);
+            report.process_share *= share;
+        }
         way = (next - X).colwise().norm().maxCoeff();
         X = std::move(next);
         if (report.converged && way <= still * size)
@@ -189,57 +201,81 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
     return X;
 }
 
+PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
+                    const FreedPiece& piece, const PiecePicture& picture, const Job& job,
+                    const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
+{
+    if (picture.ring) {
+        Eigen::Matrix2Xd X = ring_start(piece, state(Eigen::all, piece.vertex), *picture.ring);
+        if (one_to_one_around_vertices(piece.mesh, X))
+            return {std::move(X), StartMethod::harmonic};
+    }
+    return piece_start(part, state, fixed, piece, job, measure, progress);
+}
+
 } // namespace
 
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                        const FreedPiece& piece, const BinderFace& given_target, const FlattenOptions& given,
-                        const Progress& progress)
+                        const FreedPiece& piece, const BinderFace& given_target, const Eigen::VectorXd& traction,
+                        const FlattenOptions& given, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
-    const FlattenOptions options = options_of(piece, given);
-    if (piece.held.empty())
+    FlattenOptions options = options_of(piece, given);
+    if (piece.held.empty()) {
+        options.process.contact = rubbing(piece, state(Eigen::all, piece.vertex), of_piece(traction, piece));
         return free_piece(piece, state(Eigen::all, piece.vertex), given_target, options, progress);
+    }
     if (piece.hinge.empty())
         throw InputError(
             fmt::format("the freed faces around face {} touch the fixed ones in single vertices only; free or "
                         "fix the faces between them",
                         piece.face[0]));
-    const BinderFace target = developable(piece, given_target, state(Eigen::all, piece.vertex));
+    const PiecePicture picture = picture_of(piece, state(Eigen::all, piece.vertex), given_target);
+    const BinderFace& target = picture.target;
+    if (picture.ring && options.process.rolling)
+        throw InputError(
+            fmt::format("the freed faces around face {} go all the way around the {}: seen square to it the "
+                        "rolling direction is another one everywhere; leave it out, or cut the part open",
+                        piece.face[0], name(target)));
 
     ExternalForces external;
-    for (const int v : piece.held)
-        external.held.push_back({v, developed(target, state.col(piece.vertex[size_t(v)]))});
     Eigen::Vector2d middle = Eigen::Vector2d::Zero(); // near the origin digits are not lost
-    for (const HeldVertex& h : external.held)
-        middle += h.place / double(external.held.size());
-    for (HeldVertex& h : external.held)
-        h.place -= middle;
+    if (!picture.ring)                                // whose picture has its own
+        middle = picture.held.rowwise().mean();
+    for (size_t k = 0; k < piece.held.size(); ++k)
+        external.held.push_back({piece.held[k], picture.held.col(Eigen::Index(k)) - middle});
     external.plane = axes_at(target, middle);
+    external.traction = of_piece(traction, piece);
+    if (external.any())
+        external.slip = slip_on(piece, state(Eigen::all, piece.vertex), target, picture.held.col(0), middle);
 
     std::vector<Element> element = elements(piece.mesh);
-    const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, target, X, middle, element); };
+    const auto measure = [&](const Eigen::Matrix2Xd& X) { take_lengths(piece, picture, X, middle, element); };
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
-    const Job job{piece.mesh, element, options, external, external.plane, matrix, cholesky, true};
+    const Job job{piece.mesh, element,        options,
+                  external,   external.plane, matrix,
+                  cholesky,   true,           pull_of(external, piece.mesh, options)};
     SolvedPiece result;
-    const PieceStart start = piece_start(part, state, fixed, piece, job, measure, progress.part(0.03, 0.2));
+    const PieceStart start = start_of(part, state, fixed, piece, picture, job, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
     measure(start.position);
-    const bool smooth = std::holds_alternative<HeightFace>(target);
-    Eigen::Matrix2Xd X = solve(job, start.position, result.report, progress.part(0.2, smooth ? 0.6 : 1));
-    if (smooth)
+    Eigen::Matrix2Xd X =
+        solve(job, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
+    if (!picture.true_lengths())
         X = in_rounds(job, measure, std::move(X), result.report, progress.part(0.6, 1));
 
     result.face = face_fields(piece.mesh, element, {X}, solved_sheet(job, result.report));
     X.colwise() += middle;
-    if (const int f = first_flipped(piece, X); f >= 0)
+    if (const int f = first_flipped(piece, picture, X); f >= 0)
         throw SolveError(
             fmt::format("face {} is too thin on the target for the arithmetic; mesh the part more evenly", f));
-    require_beside_apex(piece, target, X);
+    if (!picture.ring)
+        require_beside_apex(piece, target, X);
     result.position.resize(3, X.cols());
     for (Eigen::Index v = 0; v < X.cols(); ++v)
-        result.position.col(v) = placed(target, X.col(v));
+        result.position.col(v) = picture.point(X.col(v));
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;
 }

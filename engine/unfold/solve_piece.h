@@ -12,8 +12,9 @@ struct SolvedPiece {
 };
 
 /// Lays one freed piece on the target: see unfold_step().
+/// @param traction of friction, see friction_traction()
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                        const FreedPiece& piece, const BinderFace& target, const FlattenOptions& options,
-                        const Progress& progress);
+                        const FreedPiece& piece, const BinderFace& target, const Eigen::VectorXd& traction,
+                        const FlattenOptions& options, const Progress& progress);
 
 } // namespace spia

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/forming/process.h"
 #include "engine/unfold/binder_face.h"
 
 namespace spia {
@@ -13,6 +14,9 @@ struct UnfoldPick {
     std::optional<BinderFace> target =
         {};                         ///< not given: the plane, cylinder or cone of the carrying faces in the state
     std::vector<int> carrying = {}; ///< of the fixed ones; empty: all of them
+    /// What the target, which rests, rubs against the freed faces as they slip from it to where they are in the state: on these
+    /// of them, empty: on all. On one side or on both (a pad above, which rests as well). None: they slide freely.
+    std::optional<ContactRegion> friction = {};
 };
 
 } // namespace spia

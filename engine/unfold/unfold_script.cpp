@@ -173,9 +173,12 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     state.on = result.binder;
     state.plain = name(result.binder.face);
     state.converged = result.converged();
-    for (const UnfoldedPiece& piece : result.piece)
-        if (!piece.report.converged && state.reason.empty())
+    for (const UnfoldedPiece& piece : result.piece) {
+        state.friction_share = std::min(state.friction_share, piece.report.process_share);
+        const bool poorer = !piece.report.converged || (step.pick.friction && !piece.report.whole());
+        if (poorer && state.reason.empty())
             state.reason = fmt::format("the piece around face {}: {}", piece.faces[0], piece.report.reason);
+    }
     state.necking = result.necking_triangles;
     state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
                                    carried_within(state.position, part, step, result));
@@ -220,8 +223,39 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     return blank;
 }
 
+/// Names the step and what of its friction is wrong.
+void require_friction(const PlannedStep& step)
+{
+    if (!step.pick.friction)
+        return;
+    const ContactRegion& rubs = *step.pick.friction;
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(fmt::format("step \"{}\": friction: {}", step.name, why));
+    };
+    const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+    if (step.kind != UnfoldKind::lay)
+        refuse("only a step that lays faces on a target has a tool that could rub on them");
+    if (!(rubs.friction >= 0) || !std::isfinite(rubs.friction))
+        refuse(fmt::format("the coefficient is {}; it must not be negative", rubs.friction));
+    if (rubs.sides != 1 && rubs.sides != 2)
+        refuse(fmt::format("sides is {}; it must be 1 or 2", rubs.sides));
+    if (rubs.force_N.has_value() == rubs.pressure_MPa.has_value())
+        refuse("it needs either a pressure_MPa or a force_N");
+    if (rubs.pressure_MPa && !positive(*rubs.pressure_MPa))
+        refuse(fmt::format("pressure_MPa is {}; it must be positive", *rubs.pressure_MPa));
+    if (rubs.force_N && !positive(*rubs.force_N))
+        refuse(fmt::format("force_N is {}; it must be positive", *rubs.force_N));
+    std::vector<int> freed = step.pick.freed;
+    std::sort(freed.begin(), freed.end());
+    for (const int f : rubs.faces)
+        if (!std::binary_search(freed.begin(), freed.end(), f))
+            refuse(fmt::format("face {} of its faces is not freed", f));
+}
+
 void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t keep)
 {
+    for (const PlannedStep& step : script)
+        require_friction(step);
     if (script.empty())
         throw InputError("the script has no step; there is nothing to unfold");
     if (keep > script.size() || (keep > 0 && (!before || before->states.size() < keep)))

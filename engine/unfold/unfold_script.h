@@ -21,10 +21,11 @@ struct UnfoldState {
     std::optional<BinderFit> on; ///< the target; none for an unroll
     std::string plain;           ///< plane, cylinder, cone: what it was laid on or unrolled from
     bool converged = true;       ///< else the best shape found
-    std::string reason;          ///< why not
+    std::string reason;          ///< why not; with friction also with which curve, and how much of it
     int necking = 0;             ///< faces beyond the trusted strain
     LandedOverlap overlap;       ///< of all that lies on the target after the step; of an unroll, in the plane
     double seconds = 0;
+    double friction_share = 1; ///< of the step's friction that is in the state: below 1 the sheet does not bear it
 };
 
 struct UnfoldRun {
@@ -37,7 +38,8 @@ struct UnfoldRun {
 /// Runs all steps; of a step that has no result the run keeps the states before it.
 /// @param before of a run of the same part whose first `keep` steps are those of this script: they are not solved again
 /// @param progress one checkpoint per iteration; cancelling takes effect at the next one
-/// @throws InputError if there is no step, an option is not as described or there are fewer steps before than to keep
+/// @throws InputError if there is no step, an option or the friction of a step is not as described or there are fewer steps before
+///                    than to keep
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
                         const Progress& progress = {}, const UnfoldRun* before = nullptr, size_t keep = 0);
 

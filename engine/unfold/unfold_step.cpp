@@ -12,6 +12,7 @@
 #include "engine/unfold/fit_height.h"
 #include "engine/unfold/freed_piece.h"
 #include "engine/unfold/solve_piece.h"
+#include "engine/unfold/target_friction.h"
 #include "engine/unfold/turn_binder.h"
 
 namespace spia {
@@ -51,7 +52,7 @@ void require_valid(const TriMesh& part, const Eigen::Matrix3Xd& state, const Fla
         process.edge_restraint != 0)
         throw InputError(
             "binders, pads, drawbeads, pilots and a held edge act on the part as a whole; leave them out of the "
-            "local steps and apply them when the whole part is flattened");
+            "local steps and apply them when the whole part is flattened; what rubs on a step's target belongs to its pick");
 }
 
 struct Picked {
@@ -180,6 +181,7 @@ UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state,
     require_area(now, picked.fixed, "in the state");
     const BinderFace target = target_of(part, now, pick, picked);
     const std::vector<FreedPiece> pieces = freed_pieces(part, picked.fixed, picked.freed);
+    const Eigen::VectorXd traction = friction_traction(part, state, pick, picked.freed, target);
 
     UnfoldStepResult result;
     result.position = state;
@@ -190,7 +192,7 @@ UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state,
     for (const FreedPiece& piece : pieces) {
         const double share = double(piece.face.size()) / double(picked.freed.size());
         const SolvedPiece solved =
-            solve_piece(part, state, picked.fixed, piece, target, options, progress.part(done, done + share));
+            solve_piece(part, state, picked.fixed, piece, target, traction, options, progress.part(done, done + share));
         done += share;
         for (size_t v = 0; v < piece.vertex.size(); ++v)
             result.position.col(piece.vertex[v]) = solved.position.col(Eigen::Index(v));

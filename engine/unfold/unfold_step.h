@@ -30,7 +30,8 @@ struct UnfoldStepResult {
 
 /// One step of local unfolding: the freed faces are laid on a target face in space without moving the fixed ones. Positions live
 /// in the target's development, and vertices shared with fixed faces stay where they are. On a smooth face, which has no
-/// development with true lengths, those around each triangle are taken from where it lies, in rounds until it lies still. The
+/// development with true lengths, those around each triangle are taken from where it lies, in rounds until it lies still; so on a
+/// cylinder or cone where a ring goes all the way around it, which knows neither friction nor a rolling direction. The
 /// equations are those of flatten(): equilibrium of the freed material, whose strain is measured from its place on the target
 /// to the original part, whatever steps were before.
 /// @param part   as it is formed, mm

@@ -82,8 +82,8 @@ FlangeBlank held_flange_blank(const HeldFlange& flange, int steps)
         }
         return y.R - held;
     };
-    // Between the edge of a strip that was longer by a quarter and the edge's own radius.
-    double low = held + 1.25 * way * length, high = flange.meridian.at(length).x();
+    // Between the edge of a strip that was longer by a quarter and the held ring.
+    double low = held + 1.25 * way * length / std::hypot(1, flange.slope(held)), high = held;
     for (int k = 0; k < 50; ++k) {
         const double middle = (low + high) / 2;
         (shoot(middle) * way > 0 ? low : high) = middle;

@@ -1,6 +1,7 @@
 // Local unfolding against closed forms and an independent solution along the meridian.
 #include "engine/unfold/unfold_step.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <oneapi/tbb/global_control.h>
@@ -175,6 +176,69 @@ TEST(UnfoldStep, TheWallAroundACrownedBottomConvergesToTheSolutionAlongItsMeridi
     }
     EXPECT_LT(error.back(), 2e-4);
     EXPECT_GT(shapes::convergence_order(h, error), 1.5);
+}
+
+TEST(UnfoldStep, ARingAllAroundACylinderOrAConeConvergesToTheSolutionAlongItsMeridian)
+{
+    // A fixed wall and a straight end that leans another way, all around; radians of their headings in (r, z).
+    struct Case {
+        const char* name;
+        double wall, end, length;
+    };
+    constexpr double degree = pi / 180, radius = 40, steep = 1e6; // slope of what stands for a cylinder
+    for (const Case& c : {Case{"flared tube", 90, 50, 18},
+                          {"collar of a tube", 90, 0, 10},
+                          {"necked tube", 90, 120, 18},
+                          {"flared cone", 70, 35, 15},
+                          {"necked cone", 110, 140, 14}}) {
+        const double r = 1.77;
+        const auto heading = [](double angle) {
+            return Eigen::Vector2d(std::cos(angle * degree), std::sin(angle * degree));
+        };
+        const bool inwards = c.end > 90;
+        Eigen::Matrix2Xd meridian(2, 3); // from the axis outwards
+        meridian.col(1) << radius, 0;
+        meridian.col(inwards ? 0 : 2) = meridian.col(1) + c.length * heading(c.end);
+        meridian.col(inwards ? 2 : 0) = meridian.col(1) - 20 * heading(c.wall);
+        shapes::HeldFlange flange{shapes::Profile({radius, 0}, c.end * degree).straight(c.length), swift, 206000, r,
+                                  0.8};
+        const double slope = c.wall == 90 ? steep : std::tan(c.wall * degree);
+        flange.slope = [&](double) { return slope; };
+        const shapes::FlangeBlank truth = shapes::held_flange_blank(flange);
+        const double length = std::abs(truth.R.tail(1)[0] - radius) * std::hypot(1, slope); // along the generators
+        std::vector<double> h, error, thickness_error;
+        for (const int triangles : {3000, 12000, 48000}) {
+            const shapes::AxisymmetricPart part = shapes::axisymmetric(meridian, triangles);
+            UnfoldPick pick;
+            for (int f = 0; f < part.mesh.triangles(); ++f)
+                (part.mesh.position.row(2)(part.mesh.triangle.col(f)).mean() < (c.end == 0 ? -1e-9 : 0) ? pick.fixed
+                                                                                                        : pick.freed)
+                    .push_back(f);
+            const UnfoldStepResult result = unfold_step(part.mesh, part.mesh.position, pick, steel(r));
+            ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
+            EXPECT_EQ(name(result.binder.face), c.wall == 90 ? "cylinder" : "cone");
+            const std::vector<int> edge = inwards ? inner_edge(part) : part.rim;
+            double found = 0, thickness = 0, count = 0;
+            for (const int v : edge)
+                found += result.position.col(v).dot(Eigen::Vector3d(0, 0, 1)) / std::abs(std::sin(c.wall * degree)) /
+                         double(edge.size());
+            for (size_t k = 0; k < result.freed.size(); ++k)
+                for (const int v : part.mesh.triangle.col(result.freed[k]))
+                    if (std::find(edge.begin(), edge.end(), v) != edge.end()) {
+                        thickness += result.face.thickness[Eigen::Index(k)];
+                        ++count;
+                    }
+            h.push_back(shapes::mean_edge(part.mesh));
+            error.push_back(std::abs(found / length - 1));
+            thickness_error.push_back(std::abs(thickness / count / truth.thickness.tail(1)[0] - 1));
+            std::printf("%s, %d triangles: %.4f mm (%.2e), thickness %.4f (%.2e), %zu Newton steps, %.2f s\n", c.name,
+                        triangles, length, error.back(), truth.thickness.tail(1)[0], thickness_error.back(),
+                        result.piece[0].report.newton.size(), result.seconds);
+        }
+        EXPECT_LT(error.back(), 5e-4) << c.name;
+        EXPECT_LT(thickness_error.back(), 5e-3) << c.name; // of the faces at the edge, whose middles lie beside it
+        EXPECT_GT(shapes::convergence_order(h, error), 1.5) << c.name;
+    }
 }
 
 TEST(UnfoldStep, HasTheSameBitsOnOneThreadAndOnTwo)

@@ -1,5 +1,6 @@
 #include "engine/pipeline/unfold_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -103,6 +104,41 @@ TEST_F(UnfoldFile, APickUnitesRegionsFacesAndABox)
     EXPECT_NEAR((normal + Eigen::Vector3d::UnitZ()).norm(), 0, 1e-12);
 }
 
+TEST_F(UnfoldFile, FrictionIsReadAndWrittenBackAsItIs)
+{
+    const std::string lip =
+        R"({"steps": [{"freed": {"regions": ["region 6", "region 7"]}, "fixed": {"regions": ["region 2",
+        "region 3"]}, "carrying": {"regions": ["region 2"]}, "friction": )";
+    const auto back = [&](const std::string& friction) {
+        const ReadScript first = read(lip + friction + "}]}");
+        // The writer names the carrier alone, so that it can be read again.
+        UnfoldScript steps = first.steps;
+        steps.at(0).carrier = 1;
+        const ReadScript again = read(unfold_script_json(map, steps, part.source_face));
+        EXPECT_TRUE(again.findings.empty()) << again.findings[0];
+        EXPECT_EQ(again.steps.at(0).pick.friction, first.steps.at(0).pick.friction) << friction;
+        return *first.steps.at(0).pick.friction;
+    };
+    const ContactRegion plain = back(R"({"coefficient": 0.12, "pressure_MPa": 2.5})");
+    EXPECT_EQ(plain, (ContactRegion{"the target", {}, 2.5, {}, 0.12, 2}));
+    const ContactRegion forced = back(R"({"coefficient": 0.1, "force_N": 4000, "sides": 1, "regions": ["region 7"]})");
+    EXPECT_EQ(forced, (ContactRegion{"the target", map.faces_of(6), {}, 4000, 0.1, 1}));
+    const int some = map.faces_of(5)[3];
+    for (int& number : part.source_face) // as the file counts them
+        number += 7;
+    const std::string number = std::to_string(part.source_face[size_t(some)]);
+    const ContactRegion face = back(R"({"coefficient": 0.1, "pressure_MPa": 1, "faces": [)" + number + "]}");
+    EXPECT_EQ(face.faces, std::vector<int>{some});
+    // Where the region on which it was is gone, nothing rubs: no faces would mean all.
+    const ReadScript gone =
+        read(R"({"regions": [{"name": "far", "at": [900, 0, 0]}], "steps": [{"freed": {"regions": ["region 6"]},
+        "fixed": {"regions": ["region 2"]}, "friction": {"coefficient": 0.1, "pressure_MPa": 1, "regions": ["far"]}}]})");
+    ASSERT_EQ(gone.steps.size(), 1u);
+    EXPECT_FALSE(gone.steps[0].pick.friction);
+    EXPECT_NE(std::find(gone.findings.begin(), gone.findings.end(), "step \"steps 1\": friction without far"),
+              gone.findings.end());
+}
+
 TEST_F(UnfoldFile, CylinderAndConeAreTargets)
 {
     const auto target = [&](const std::string& face) {
@@ -142,6 +178,24 @@ TEST_F(UnfoldFile, EveryFaultIsToldWithItsPlace)
               ": /steps/0/target/cylinder needs the member \"radius\"");
     EXPECT_EQ(fault(lip + R"("options": {"most_newton_steps": 1.5}}]})"),
               ": /steps/0/options/most_newton_steps must be a whole number");
+    const auto friction = [&](const std::string& members) {
+        return fault(lip + R"("friction": {)" + members + "}}]}");
+    };
+    EXPECT_EQ(friction(R"("pressure_MPa": 1)"), ": /steps/0/friction needs the member \"coefficient\"");
+    EXPECT_EQ(friction(R"("coefficient": -0.1, "pressure_MPa": 1)").find(": /steps/0/friction/coefficient "), 0u);
+    EXPECT_EQ(friction(R"("coefficient": 0.1, "pressure_MPa": 0)").find(": /steps/0/friction/pressure_MPa "), 0u);
+    EXPECT_EQ(friction(R"("coefficient": 0.1, "force_N": -1)").find(": /steps/0/friction/force_N "), 0u);
+    EXPECT_EQ(friction(R"("coefficient": 0.1, "pressure_MPa": 1, "sides": 1.5)"),
+              ": /steps/0/friction/sides must be 1 or 2");
+    EXPECT_EQ(friction(R"("coefficient": 0.1, "pressure_MPa": 1, "force_N": 1)"),
+              ": /steps/0/friction needs either the member \"pressure_MPa\" or \"force_N\"");
+    EXPECT_EQ(friction(R"("coefficient": 0.1)"),
+              ": /steps/0/friction needs either the member \"pressure_MPa\" or \"force_N\"");
+    EXPECT_EQ(friction(R"("coefficient": 0.1, "pressure_MPa": 1, "regions": ["region 2"])")
+                  .find(": /steps/0/friction picks face"),
+              0u);
+    EXPECT_EQ(fault(R"({"steps": [{"kind": "flatten", "friction": {"coefficient": 0.1, "pressure_MPa": 1}}]})"),
+              ": /steps/0/friction has no meaning: flatten moves the whole part");
     EXPECT_EQ(fault(lip + R"("kind": "bend"}]})"), ": /steps/0/kind must be \"lay\", \"unroll\" or \"flatten\"");
     EXPECT_EQ(fault(lip + R"("kind": "flatten"}]})"), ": /steps/0/freed has no meaning: flatten moves the whole part");
     EXPECT_EQ(fault(lip + R"("carrying": {"regions": ["region 1"]}}]})").find(": /steps/0/carrying picks face"), 0u);

@@ -476,13 +476,13 @@ TEST(UnfoldStep, WhatCannotBeUnfoldedIsRefusedWithItsFace)
     const PlaneFace ground{{0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity()};
     expect("the freed faces 1 and 2 touch in one vertex only", refusal(corners, {{}, counted(0, 4), ground}));
     expect("touch the fixed ones in single vertices only", refusal(corners, {{0, 1}, {2, 3}}));
-    // Around a tube the development has no place for a ring.
-    const TriMesh tube = shapes::grid_surface({24, 6, true, false}, [](double u, double v) {
-        const double a = 2 * pi * u, r = 30 + std::max(60 * v - 30, 0.);
-        return Eigen::Vector3d(r * std::cos(a), r * std::sin(a), std::min(60 * v, 30.));
-    });
-    expect("joined to the fixed ones all the way around the cylinder",
-           refusal(tube, {counted(0, 144), counted(144, 288)}));
+    // What closes a tube has no place on it.
+    const shapes::AxisymmetricPart cup = shapes::sharp_cup({.triangles = 1000});
+    const auto bottom = [](const Eigen::VectorXd& at) { return at[2] > -1e-9; };
+    expect("close the cylinder that they are joined to all the way around",
+           refusal(cup.mesh,
+                   {faces_where(cup.mesh.position, cup.mesh, [&](const Eigen::VectorXd& at) { return !bottom(at); }),
+                    faces_where(cup.mesh.position, cup.mesh, bottom)}));
     const TriMesh ball = shapes::closed_sphere(20, 300), ring = shapes::torus(30, 10, 600);
     expect("are closed", refusal(ball, {{}, counted(0, ball.triangles()), ground}));
     expect("have a handle (genus 1)", refusal(ring, {{0, 1}, counted(2, ring.triangles()), ground, {}}));

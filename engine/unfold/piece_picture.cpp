@@ -1,0 +1,86 @@
+#include "engine/unfold/piece_picture.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+#include "engine/mesh/cut.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/unfold/turn_binder.h"
+
+namespace spia {
+namespace {
+
+/// Sheet that goes around once and is cut somewhere: one side of the cut is where the other is, a turn away.
+PiecePicture around_once(const BinderFace& target, Eigen::Matrix2Xd held)
+{
+    PiecePicture out{target, std::nullopt, std::move(held)};
+    auto* cone = std::get_if<ConeFace>(&out.target);
+    if (!cone) // of a cylinder the development goes on and on
+        return out;
+    const auto angle = [&](Eigen::Index k) { return std::atan2(-out.held(0, k), out.held(1, k)); };
+    // From the first one on each is less than a turn of the development further, either way: its middle comes to the middle.
+    double least = 0, most = 0;
+    for (Eigen::Index k = 0; k < out.held.cols(); ++k) {
+        const double way = angle(k) - angle(0);
+        least = std::min(least, way);
+        most = std::max(most, way);
+    }
+    const double middle = angle(0) + (least + most) / 2,
+                 turn = (cone->bulges ? -1 : 1) * middle / std::sin(cone->half_angle);
+    cone->towards = Eigen::AngleAxisd(turn, cone->axis) * cone->towards;
+    out.held = (Eigen::Rotation2Dd(-middle).toRotationMatrix() * out.held).eval();
+    return out;
+}
+
+} // namespace
+
+std::optional<Eigen::Matrix2Xd> unwound_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
+                                              const BinderFace& target)
+{
+    const int first = piece.held.front();
+    const auto number = [&](int v) { return v == first ? 0 : v == 0 ? first : v; };
+    std::vector<std::array<int, 2>> edges;
+    const std::vector<EdgeUse> uses = edge_uses(piece.mesh.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t) {
+        edges.push_back({number(uses[begin].low), number(uses[begin].high)});
+    });
+    Eigen::Matrix3Xd point = now;
+    point.col(0).swap(point.col(first));
+    std::optional<Eigen::Matrix2Xd> place = unwound(target, point, edges);
+    if (place)
+        place->col(0).swap(place->col(first));
+    return place;
+}
+
+PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target)
+{
+    std::vector<int> number(size_t(piece.mesh.vertices()), -1);
+    for (size_t k = 0; k < piece.held.size(); ++k)
+        number[size_t(piece.held[k])] = int(k);
+    std::vector<std::array<int, 2>> edges;
+    for (const auto& [a, b] : piece.hinge)
+        edges.push_back({number[size_t(a)], number[size_t(b)]});
+    const Eigen::Matrix3Xd point = now(Eigen::all, piece.held);
+    PiecePicture out{target, std::nullopt, Eigen::Matrix2Xd(2, point.cols())};
+    if (const std::optional<BinderFace> turned = turned_towards(target, point, edges)) {
+        out.target = *turned;
+        for (Eigen::Index k = 0; k < point.cols(); ++k)
+            out.held.col(k) = developed(out.target, point.col(k));
+        return out;
+    }
+    if (const std::optional<Eigen::Matrix2Xd> open = unwound_piece(piece, now, target))
+        return around_once(target, (*open)(Eigen::all, piece.held));
+    if (surface_type(piece.mesh).loops < 2)
+        throw InputError(fmt::format("the freed faces around face {} close the {} that they are joined to all the way "
+                                     "around; free the other side in their place, or flatten the part",
+                                     piece.face[0], name(target)));
+    out.ring = RingChart::around(target, piece, now);
+    for (Eigen::Index k = 0; k < point.cols(); ++k)
+        out.held.col(k) = out.ring->place(point.col(k));
+    return out;
+}
+
+} // namespace spia
