@@ -5,18 +5,20 @@
 #include "engine/core/parallel.h"
 
 namespace spia {
+namespace {
+
+constexpr Eigen::VectorXd SheetFields::*scalars[] = {&SheetFields::thickness,         &SheetFields::thinning,
+                                                     &SheetFields::strain_major,      &SheetFields::strain_minor,
+                                                     &SheetFields::stress_major,      &SheetFields::stress_minor,
+                                                     &SheetFields::strain_equivalent, &SheetFields::stress_equivalent};
+
+} // namespace
 
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
                         const Sheet& sheet)
 {
     const int faces = part.triangles();
-    SheetFields out;
-    for (Eigen::VectorXd* field :
-         {&out.thickness, &out.thinning, &out.strain_major, &out.strain_minor, &out.strain_equivalent,
-          &out.stress_major, &out.stress_minor, &out.stress_equivalent})
-        field->resize(faces);
-    out.direction_major.resize(3, faces);
-    out.necking.resize(faces);
+    SheetFields out = sized_fields(faces);
     parallel_for(faces, [&](int f) {
         const Element& e = element[size_t(f)];
         const Svd2 d = svd(inverse_gradient(e, corners(blank.position, part.triangle.col(f))));
@@ -51,14 +53,8 @@ SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element
         return Eigen::VectorXd(sum.cwiseQuotient(weight));
     };
     SheetFields node;
-    node.thickness = mean(face.thickness);
-    node.thinning = mean(face.thinning);
-    node.strain_major = mean(face.strain_major);
-    node.strain_minor = mean(face.strain_minor);
-    node.strain_equivalent = mean(face.strain_equivalent);
-    node.stress_major = mean(face.stress_major);
-    node.stress_minor = mean(face.stress_minor);
-    node.stress_equivalent = mean(face.stress_equivalent);
+    for (const auto field : scalars)
+        node.*field = mean(face.*field);
     node.necking = Eigen::VectorXi::Zero(n);
     std::vector<Eigen::Matrix3d> tensor(size_t(n), Eigen::Matrix3d::Zero());
     for (int f = 0; f < part.triangles(); ++f)
@@ -73,6 +69,27 @@ SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element
         node.direction_major.col(v) =
             Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor[size_t(v)]).eigenvectors().col(2);
     return node;
+}
+
+SheetFields sized_fields(Eigen::Index entries)
+{
+    SheetFields fields;
+    for (const auto field : scalars)
+        (fields.*field).resize(entries);
+    fields.direction_major.resize(3, entries);
+    fields.necking.resize(entries);
+    return fields;
+}
+
+void put_fields(const SheetFields& from, const std::vector<int>& at, SheetFields& to)
+{
+    for (size_t k = 0; k < at.size(); ++k) {
+        const auto i = Eigen::Index(at[k]), j = Eigen::Index(k);
+        for (const auto field : scalars)
+            (to.*field)[i] = (from.*field)[j];
+        to.direction_major.col(i) = from.direction_major.col(j);
+        to.necking[i] = from.necking[j];
+    }
 }
 
 } // namespace spia

@@ -15,4 +15,10 @@ SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element
 /// d d^T. A vertex necks if a face around it does.
 SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element, const SheetFields& face);
 
+/// Room for as many entries, not set.
+SheetFields sized_fields(Eigen::Index entries);
+
+/// Copies entry k to entry at[k].
+void put_fields(const SheetFields& from, const std::vector<int>& at, SheetFields& to);
+
 } // namespace spia

@@ -169,6 +169,16 @@ Json sheet_json(const FlattenOptions& options)
             {"steps", {options.most_energy_steps, options.most_newton_steps}}};
 }
 
+Json friction_json(const ContactRegion& friction)
+{
+    const auto or_none = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+    return {{"faces", numbers(friction.faces)},
+            {"pressure_MPa", or_none(friction.pressure_MPa)},
+            {"force_N", or_none(friction.force_N)},
+            {"coefficient", friction.friction},
+            {"sides", friction.sides}};
+}
+
 /// What a step does, without its name.
 Json step_json(const PlannedStep& step)
 {
@@ -180,6 +190,7 @@ Json step_json(const PlannedStep& step)
             {"target", step.pick.target ? face_json(*step.pick.target) : Json()},
             {"within_mm", step.within_mm},
             {"offset_mm", step.offset_mm},
+            {"friction", step.pick.friction ? friction_json(*step.pick.friction) : Json()},
             {"tolerance", or_none(step.tolerance)},
             {"most", {or_none(step.most_energy_steps), or_none(step.most_newton_steps)}}};
 }
@@ -205,6 +216,7 @@ Json state_json(const UnfoldState& state)
                  {"step", numbers(state.step)},
                  {"plain", state.plain},
                  {"converged", state.converged},
+                 {"friction_share", state.friction_share},
                  {"reason", state.reason},
                  {"beyond", state.necking},
                  {"overlap", state.overlap.places},
@@ -234,6 +246,7 @@ UnfoldState state_of(const Json& json, const TriMesh& part, const std::string& n
     if (!member(json, "converged").is_boolean())
         damaged("converged");
     state.converged = json["converged"].get<bool>();
+    state.friction_share = number(json, "friction_share");
     state.necking = count(json, "beyond");
     state.overlap.places = count(json, "overlap");
     take(json, "overlap_first", 3, 1, state.overlap.first);

@@ -22,17 +22,16 @@ namespace {
 SheetFields unformed(const TriMesh& part, double thickness)
 {
     const Eigen::Index count = part.triangles();
-    SheetFields fields;
+    SheetFields fields = sized_fields(count);
     for (const auto field : {&SheetFields::thinning, &SheetFields::strain_major, &SheetFields::strain_minor,
                              &SheetFields::strain_equivalent, &SheetFields::stress_major, &SheetFields::stress_minor,
                              &SheetFields::stress_equivalent})
-        fields.*field = Eigen::VectorXd::Zero(count);
-    fields.thickness = Eigen::VectorXd::Constant(count, thickness);
-    fields.direction_major.resize(3, count);
+        (fields.*field).setZero();
+    fields.thickness.setConstant(thickness);
     for (Eigen::Index f = 0; f < count; ++f)
         fields.direction_major.col(f) =
             (part.position.col(part.triangle(1, f)) - part.position.col(part.triangle(0, f))).normalized();
-    fields.necking = Eigen::VectorXi::Zero(count);
+    fields.necking.setZero();
     return fields;
 }
 
@@ -43,20 +42,6 @@ Eigen::VectorXd sheet_thickness(const TriMesh& part, const FlattenOptions& optio
         for (const int f : piece.faces)
             thickness[f] = piece.thickness;
     return thickness;
-}
-
-void take(const SheetFields& from, const std::vector<int>& faces, SheetFields& to)
-{
-    for (size_t k = 0; k < faces.size(); ++k) {
-        const auto i = Eigen::Index(faces[k]), j = Eigen::Index(k);
-        for (const auto field :
-             {&SheetFields::thickness, &SheetFields::thinning, &SheetFields::strain_major, &SheetFields::strain_minor,
-              &SheetFields::strain_equivalent, &SheetFields::stress_major, &SheetFields::stress_minor,
-              &SheetFields::stress_equivalent})
-            (to.*field)[i] = (from.*field)[j];
-        to.direction_major.col(i) = from.direction_major.col(j);
-        to.necking[i] = from.necking[j];
-    }
 }
 
 double diagonal(const TriMesh& mesh, const std::vector<int>& faces)
@@ -169,7 +154,7 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
         pick.target = mean_plane(now);
     const UnfoldStepResult result = unfold_step(part, state.position, pick, own, progress);
     state.position = result.position;
-    take(result.face, result.freed, state.face);
+    put_fields(result.face, result.freed, state.face);
     state.on = result.binder;
     state.plain = name(result.binder.face);
     state.converged = result.converged();

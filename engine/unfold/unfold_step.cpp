@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "engine/core/error.h"
+#include "engine/forming/sheet_fields.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/fit_height.h"
 #include "engine/unfold/freed_piece.h"
@@ -135,31 +136,13 @@ BinderFit along_hinges(const BinderFace& face, const TriMesh& state, const std::
     return fit;
 }
 
-void take_fields(const std::vector<int>& freed, const std::vector<int>& faces, const SheetFields& from, SheetFields& to)
+/// Where faces stand among the freed ones.
+std::vector<int> places_of(const std::vector<int>& faces, const std::vector<int>& freed)
 {
-    for (size_t k = 0; k < faces.size(); ++k) {
-        const auto i = std::lower_bound(freed.begin(), freed.end(), faces[k]) - freed.begin();
-        const auto j = Eigen::Index(k);
-        for (const auto field :
-             {&SheetFields::thickness, &SheetFields::thinning, &SheetFields::strain_major, &SheetFields::strain_minor,
-              &SheetFields::strain_equivalent, &SheetFields::stress_major, &SheetFields::stress_minor,
-              &SheetFields::stress_equivalent})
-            (to.*field)[i] = (from.*field)[j];
-        to.direction_major.col(i) = from.direction_major.col(j);
-        to.necking[i] = from.necking[j];
-    }
-}
-
-SheetFields empty_fields(Eigen::Index faces)
-{
-    SheetFields out;
-    for (const auto field : {&SheetFields::thickness, &SheetFields::thinning, &SheetFields::strain_major,
-                             &SheetFields::strain_minor, &SheetFields::strain_equivalent, &SheetFields::stress_major,
-                             &SheetFields::stress_minor, &SheetFields::stress_equivalent})
-        (out.*field).resize(faces);
-    out.direction_major.resize(3, faces);
-    out.necking.resize(faces);
-    return out;
+    std::vector<int> at;
+    for (const int f : faces)
+        at.push_back(int(std::lower_bound(freed.begin(), freed.end(), f) - freed.begin()));
+    return at;
 }
 
 } // namespace
@@ -187,7 +170,7 @@ UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state,
     result.position = state;
     result.binder = along_hinges(target, now, picked.fixed, pieces);
     result.freed = picked.freed;
-    result.face = empty_fields(Eigen::Index(picked.freed.size()));
+    result.face = sized_fields(Eigen::Index(picked.freed.size()));
     double done = 0;
     for (const FreedPiece& piece : pieces) {
         const double share = double(piece.face.size()) / double(picked.freed.size());
@@ -198,7 +181,7 @@ UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state,
             result.position.col(piece.vertex[v]) = solved.position.col(Eigen::Index(v));
         for (const int v : piece.held) // where they are, even where the target runs beside them
             result.position.col(piece.vertex[size_t(v)]) = state.col(piece.vertex[size_t(v)]);
-        take_fields(picked.freed, piece.face, solved.face, result.face);
+        put_fields(solved.face, places_of(piece.face, picked.freed), result.face);
         result.piece.push_back({piece.face, int(piece.held.size()), solved.report});
     }
     result.necking_triangles = result.face.necking.sum();

@@ -59,6 +59,7 @@ void expect_same(const UnfoldState& a, const UnfoldState& b)
     EXPECT_EQ(a.plain, b.plain);
     EXPECT_EQ(a.converged, b.converged);
     EXPECT_EQ(a.reason, b.reason);
+    EXPECT_EQ(a.friction_share, b.friction_share);
     EXPECT_EQ(a.necking, b.necking);
     EXPECT_EQ(a.overlap.places, b.overlap.places);
     EXPECT_EQ(a.overlap.first, b.overlap.first);
@@ -84,6 +85,7 @@ TEST_F(UnfoldStates, AreReadBackToTheLastBit)
     run.states[0].converged = false;
     run.states[0].reason = "because";
     run.states[0].necking = 7;
+    run.states[0].friction_share = 0.75;
     run.states[0].overlap = {3, {1, 2, 3}};
     write();
     const KeptStates kept = read(steps);
@@ -135,6 +137,9 @@ TEST_F(UnfoldStates, HoldUpToTheFirstStepThatIsAnotherOne)
     }
     script = steps;
     script[1].pick.freed.pop_back();
+    EXPECT_EQ(read(script).keep, 1U);
+    script = steps;
+    script[1].pick.friction = ContactRegion{"", {}, 2., {}, 0.1};
     EXPECT_EQ(read(script).keep, 1U);
     script = steps;
     script[0].offset_mm = 1;
