@@ -61,7 +61,9 @@ struct UnfoldArguments {
     bool automatic = false;
     std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
     double thickness = 1;
-    int root = 0; ///< of --auto: the region that stays, from 1; 0: the largest flat one
+    int root = 0;                             ///< of --auto: the region that stays, from 1; 0: the largest flat one
+    std::string surface;                      ///< grid and surface of which blank: "steps", "polished"; empty: none
+    std::vector<std::string> surface_formats; ///< of output_formats()
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
 };
