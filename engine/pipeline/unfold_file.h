@@ -27,6 +27,10 @@ ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile&
 /// A proposal as a script to be edited: regions are named, with the places by which they are found again.
 std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps);
 
+/// Likewise of any steps: faces are named by the regions and bends that lie wholly among them, the others by their numbers in the
+/// part's file. A face of the file that was split is named whole.
+std::string unfold_script_json(const PartFile& part, const BendMap& map, const UnfoldScript& steps);
+
 /// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
 /// @param files    written, in order
 /// @param polished null: not asked for, or there was none
