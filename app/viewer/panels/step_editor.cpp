@@ -9,7 +9,7 @@ namespace {
 /// A row of three numbers with its name.
 bool place_row(Frame& frame, const char* label, Eigen::Vector3d& v)
 {
-    ImGui::SetNextItemWidth(186 * frame.ui.scale);
+    ImGui::SetNextItemWidth(190 * frame.ui.scale);
     return typed_numbers(frame, label, v.data(), 3, "%.4g");
 }
 
@@ -19,14 +19,14 @@ bool target_numbers(Frame& frame, StepTarget& target)
     const float width = 86 * frame.ui.scale;
     bool changed = false;
     if (target.plane) {
-        changed |= place_row(frame, "Through, mm", target.plane->origin);
+        changed |= place_row(frame, "Through", target.plane->origin);
         Eigen::Vector3d normal = target.plane->normal;
         if (place_row(frame, "Normal", normal) && normal.norm() > 0) {
             target.plane->normal = normal;
             changed = true;
         }
     } else if (target.cylinder) {
-        changed |= place_row(frame, "On axis, mm", target.cylinder->origin);
+        changed |= place_row(frame, "On axis", target.cylinder->origin);
         Eigen::Vector3d axis = target.cylinder->axis;
         if (place_row(frame, "Axis", axis) && axis.norm() > 0) {
             target.cylinder->axis = axis;
@@ -36,7 +36,7 @@ bool target_numbers(Frame& frame, StepTarget& target)
         changed |= typed_number(frame, "Radius, mm", target.cylinder->radius, "%.5g");
         target.cylinder->radius = std::max(1e-6, target.cylinder->radius);
     } else if (target.cone) {
-        changed |= place_row(frame, "Apex, mm", target.cone->apex);
+        changed |= place_row(frame, "Apex", target.cone->apex);
         Eigen::Vector3d axis = target.cone->axis;
         if (place_row(frame, "Axis", axis) && axis.norm() > 0) {
             target.cone->axis = axis;
@@ -59,7 +59,7 @@ bool target_editor(Frame& frame, int number, ChangeStep& edited)
     const int now = int(kind_of(target));
     int wanted = now;
     bool changed = false;
-    ImGui::SetNextItemWidth(186 * frame.ui.scale);
+    ImGui::SetNextItemWidth(190 * frame.ui.scale);
     if (ImGui::Combo("Target", &wanted, names, 4) && wanted != now) {
         const double before = double(std::min(size_t(number), steps_done(document)));
         target = suggested_target(TargetKind(wanted),

@@ -1,5 +1,6 @@
 // What is shown of unfolding step by step, and picked there.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
 
@@ -50,6 +51,53 @@ TEST_F(UnfoldingSteps, ThePartIsShownAsItsStepsHaveUnfoldedIt)
         << "at the end all lies in the upright plane";
     model.apply(ShowStep{});
     EXPECT_EQ(shown().layers[0].mesh, layers_of_the_part[0].mesh);
+}
+
+TEST_F(UnfoldingSteps, TheTargetIsShownBeforeItsStepIsRun)
+{
+    open_channel();
+    const double below = document.session.part->mesh.position.row(2).minCoeff();
+    propose(with_height(below - 1e-6, below + 1e-6)[0]); // the other leg, the web, and all onto this one
+    ASSERT_EQ(document.steps.size(), 2u);
+    SceneCache cache;
+    const auto target = [&]() -> std::optional<Eigen::Matrix3Xd> {
+        const Scene scene = part_scene(state, cache);
+        if (scene.layers.size() < 2)
+            return std::nullopt;
+        const SceneMesh& mesh = *scene.layers[1].mesh;
+        return mesh.position.cast<double>().colwise() + mesh.origin;
+    };
+    model.apply(ShowStep{0, {}});
+    auto patch = target();
+    ASSERT_TRUE(patch);
+    const TriMesh& part = document.session.part->mesh;
+    // In the plane of what carries it, and as far out as what unfolds may reach.
+    const Eigen::Matrix3d carrying =
+        part.position(Eigen::all, part.triangle.col(carrying_faces(*document.steps[0])[0]));
+    const Eigen::Vector3d normal =
+        (carrying.col(1) - carrying.col(0)).cross(carrying.col(2) - carrying.col(0)).normalized();
+    EXPECT_LT((normal.transpose() * (patch->colwise() - carrying.col(0))).cwiseAbs().maxCoeff(), 1e-3);
+    double height = 0;
+    for (const int f : document.steps[0]->pick.freed)
+        for (const int v : part.triangle.col(f))
+            height = std::max(height, std::abs(normal.dot(part.position.col(v) - carrying.col(0))));
+    const auto length = [](const Eigen::Matrix3Xd& x) {
+        return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+    };
+    EXPECT_GT(length(*patch), 80 + 2 * height);
+    // One's own, wherever it is; its offset moves it.
+    ChangeStep change = change_of(0);
+    change.target = StepTarget{.plane = TargetPlane{{0, 0, 4}, {0, 0, 1}}};
+    model.apply(change);
+    patch = target();
+    ASSERT_TRUE(patch);
+    EXPECT_LT((patch->row(2).array() - 4).abs().maxCoeff(), 1e-3);
+    change.offset_mm = 2.5;
+    model.apply(change);
+    EXPECT_LT((target()->row(2).array() - 6.5).abs().maxCoeff(), 1e-3);
+    // What carries a later one may still move.
+    model.apply(ShowStep{1, {}});
+    EXPECT_FALSE(target());
 }
 
 TEST_F(UnfoldingSteps, TheFieldOfTheStateThatIsShownOrComesNextColoursIt)

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/html_report.h"
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/state_report.h"
 #include "tests/unit/viewer/steps_fixture.h"
@@ -9,7 +10,9 @@
 namespace spia::viewer {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 struct UsedBlank : UnfoldingSteps {
     void use(bool polish = false)
@@ -127,6 +130,23 @@ TEST_F(UsedBlank, ToolsAreLeftOutAndTheReportHasNone)
     EXPECT_EQ(document.made_with.flatten.process.edge_restraint, 0);
     EXPECT_EQ(first_stale(document), std::nullopt);
     EXPECT_EQ(state_report(state)["options"]["blank_from"], "steps");
+}
+
+TEST_F(UsedBlank, TheReportForPeopleTellsOfTheSteps)
+{
+    unfold_box();
+    const auto html = [&] {
+        write_html_report(folder / "report.html", as_made(document), {}, {}, {});
+        return content_of(folder / "report.html");
+    };
+    run_to(Stage::solve);
+    EXPECT_THAT(html(), AllOf(Not(HasSubstr("step by step")), HasSubstr("How the solver got there")));
+    use();
+    EXPECT_THAT(html(), AllOf(HasSubstr("made step by step, in 5 steps<"), HasSubstr("The steps of the blank"),
+                              HasSubstr(document.steps[3]->name), HasSubstr("each of which converged"),
+                              Not(HasSubstr("How the solver got there"))));
+    use(true);
+    EXPECT_THAT(html(), AllOf(HasSubstr("then polished"), HasSubstr("How the solver got there")));
 }
 
 TEST_F(UsedBlank, AProjectMakesItAgain)
