@@ -252,6 +252,16 @@ int main(int count, char** values)
         ->capture_default_str();
     unfold_command->add_flag("--polish", unfolding.polish,
                              "also solve the whole part at once, from the blank of the steps, and compare both blanks");
+    unfold_command->add_flag(
+        "--surface{steps}", unfolding.surface,
+        "also grid and NURBS surface of the blank of the steps (--surface=polished: of the polished one), with "
+        "--out written as by `spia run`, and its report as NAME.json");
+    unfolding.surface_formats = output_formats();
+    unfold_command->add_option("--surface-formats", unfolding.surface_formats, "of these files")
+        ->delimiter(',')
+        ->check(CLI::IsMember(output_formats()))
+        ->type_name("LIST")
+        ->capture_default_str();
     unfold_command->add_flag("--strict", unfolding.strict, "exit 1 if the result is poorer or a script did not fit");
     unfold_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
         ->type_name("N")

@@ -7,12 +7,15 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/cli/print_summary.h"
+#include "app/cli/surface_of_steps.h"
 #include "app/cli/terminal.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/line_file.h"
+#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
@@ -238,6 +241,8 @@ int unfold(const UnfoldArguments& arguments)
 {
     if (arguments.automatic == !arguments.script.empty())
         throw InputError("give either --script FILE or --auto");
+    if (!arguments.surface.empty() && arguments.surface != "steps" && arguments.surface != "polished")
+        throw InputError(fmt::format("--surface={}: there is steps (the default) and polished", arguments.surface));
     if (arguments.folder.empty() && !(arguments.to_part.empty() && arguments.to_blank.empty()))
         throw InputError("lines that are carried over need a place: give --out DIR");
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
@@ -281,15 +286,30 @@ int unfold(const UnfoldArguments& arguments)
     auto files = write_files(arguments, part, map, options, steps, run, both);
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
+    std::optional<SurfaceOfSteps> surface;
+    if (!arguments.surface.empty() && run.failure.empty() && run.blank) {
+        surface = surface_of_steps(arguments, part, run, options);
+        for (const auto& file : write_surface(arguments, *surface))
+            files.push_back(file);
+        if (surface->failure)
+            findings.push_back(fmt::format("the surface ends before the stage \"{}\": {}",
+                                           name(surface->failure->stage), surface->failure->message));
+    } else if (!arguments.surface.empty())
+        findings.emplace_back("there is no surface, for there is no blank");
     if (!arguments.json.empty())
         write_atomically(arguments.json,
                          unfold_report_json(arguments.part, part, map, steps, run, findings, files, both));
     print_states(run);
     if (polished)
         print_polish(*polished);
+    if (surface && surface->session.blank)
+        print_summary(surface->session);
     for (const auto& file : files)
         fmt::print("wrote     {}\n", file.string());
-    const auto poorer = shortcomings(run, findings);
+    auto poorer = shortcomings(run, findings);
+    if (surface)
+        for (std::string& text : spia::shortcomings(surface->session))
+            poorer.push_back(std::move(text));
     for (const std::string& text : poorer)
         fmt::print("WARNING   {}\n", text);
     if (!run.failure.empty())

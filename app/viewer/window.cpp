@@ -437,7 +437,7 @@ private:
         return json;
     }
 
-    /// What only the window knows: its size, where the pictures of the views lie, the mouse as the last frame saw it. Pixels.
+    /// What only the window knows: its size, where the pictures of the views and the items of the steps lie, the mouse as the last frame saw it. Pixels.
     Json window_json() const
     {
         const auto pair = [](ImVec2 v) { return Json{v.x, v.y}; };
@@ -448,8 +448,12 @@ private:
             if (!only || *only == view)
                 views[std::string(name(view))] = {{"at", pair(ui_.view_from[size_t(view)])},
                                                   {"size", pair(ui_.view_size[size_t(view)])}};
+        Json items = Json::object();
+        for (const auto& [name, place] : ui_.items)
+            items[name] = {{"at", pair(place[0])}, {"size", pair({place[1].x - place[0].x, place[1].y - place[0].y})}};
         return {{"size", pair(io.DisplaySize)},
                 {"views", views},
+                {"items", items},
                 {"mouse", ImGui::IsMousePosValid() ? pair(io.MousePos) : Json(nullptr)},
                 {"buttons", {io.MouseDown[0], io.MouseDown[1], io.MouseDown[2]}}};
     }

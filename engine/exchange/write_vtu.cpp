@@ -114,7 +114,7 @@ std::string vtu_text(const Eigen::Matrix3Xd& position, const TriMesh& part, cons
 
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra,
-               LengthUnit unit, const Zones* zones, const SkinStrains* skins)
+               LengthUnit unit, const Zones* zones, const SkinStrains* skins, std::string_view blank_from)
 {
     const double mm = millimetres(unit);
     require_blank_of(part, blank);
@@ -131,8 +131,10 @@ void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Bla
         require_finite(field, part.triangles(), "face");
         face_data += array(field.name, *field.value);
     }
-    write_atomically(path, vtu_text(part.position, part, point_data, face_data, "thinning", unit,
-                                    zones ? zone_names() : std::string()));
+    std::string field_data = zones ? zone_names() : std::string();
+    if (!blank_from.empty())
+        field_data += text_array("blank_from", blank_from);
+    write_atomically(path, vtu_text(part.position, part, point_data, face_data, "thinning", unit, field_data));
 }
 
 void write_state_vtu(const std::filesystem::path& path, const TriMesh& part, const Eigen::Matrix3Xd& state,

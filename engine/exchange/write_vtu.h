@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "engine/exchange/length_unit.h"
@@ -18,11 +19,13 @@ namespace spia {
 /// field data zone_names say which is which.
 /// With skins the cell data have their strains (skin_fields()).
 /// @param extra one length per vertex each, mm
+/// @param blank_from how the blank was made, as field data of that name; may be empty
 /// @throws InputError if the fields do not match the part or are not finite; ExchangeError if the file cannot
 /// be written
 void write_vtu(const std::filesystem::path& path, const TriMesh& part, const Blank& blank,
                const SheetFields& face_fields, const SheetFields& node_fields, std::span<const NamedField> extra = {},
-               LengthUnit unit = LengthUnit::mm, const Zones* zones = nullptr, const SkinStrains* skins = nullptr);
+               LengthUnit unit = LengthUnit::mm, const Zones* zones = nullptr, const SkinStrains* skins = nullptr,
+               std::string_view blank_from = {});
 
 /// Writes a part while it is unfolded: the places of a state with the part's faces. Point data: displacement_to_part ("Warp By
 /// Vector" with factor 1 shows the part). Cell data: the fields of forming the state into the part, and the numbers.

@@ -11,7 +11,9 @@
 #include "engine/forming/load_steps.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/rigid_steps.h"
+#include "engine/forming/seen_along.h"
 #include "engine/forming/sheet_fields.h"
+#include "engine/forming/volume_error.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/orient2d.h"
 #include "engine/mesh/topology.h"
@@ -54,38 +56,7 @@ void require_start(const TriMesh& part, const Eigen::Matrix2Xd& start)
 
 StampingDirection stamping(const TriMesh& part, const FlattenOptions& options)
 {
-    if (!options.direction)
-        return stamping_direction(part);
-    StampingDirection given{options.direction->normalized(), 0, true, 0};
-    double hidden = 0, area = 0;
-    const Eigen::Matrix3Xd area_vector = area_vectors(part);
-    if (area_vector.rowwise().sum().dot(given.direction) <
-        0) // seen from the inner side: a mirrored blank would be wanted
-        given.direction *= -1;
-    for (int f = 0; f < part.triangles(); ++f) {
-        const double size = area_vector.col(f).norm(), cosine = area_vector.col(f).dot(given.direction) / size;
-        given.steepest_angle = std::max(given.steepest_angle, std::acos(std::clamp(cosine, -1.0, 1.0)));
-        hidden += cosine <= 0 ? size : 0;
-        area += size;
-    }
-    given.height_field = hidden == 0;
-    given.hidden_area_fraction = hidden / area;
-    return given;
-}
-
-/// Incompressibility, from thickness and areas measured anew in space and in the plane.
-double volume_error(const TriMesh& part, const FlattenResult& result, const Sheet& sheet)
-{
-    const Eigen::VectorXd formed = area_vectors(part).colwise().norm();
-    double largest = 0;
-    for (int f = 0; f < part.triangles(); ++f) {
-        const auto x = corners(result.blank.position, part.triangle.col(f));
-        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
-        const double flat = 0.5 * (p[0] * q[1] - p[1] * q[0]);
-        const double h0 = sheet.thickness[f];
-        largest = std::max(largest, std::abs(result.face.thickness[f] * formed[f] - h0 * flat) / (h0 * flat));
-    }
-    return largest;
+    return options.direction ? seen_along(part, *options.direction) : stamping_direction(part);
 }
 
 /// The first guess, as rigid as possible.
@@ -135,7 +106,7 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     if (options.skins)
         result.skins = skin_strains(part, element, result.blank, sheet);
     result.necking_triangles = result.face.necking.sum();
-    result.volume_error = volume_error(part, result, sheet);
+    result.volume_error = volume_error(part, result.blank, result.face, sheet.thickness);
     result.blank.position.colwise() += plane.transpose() * centre;
     result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
     if (result.flipped_triangles > 0)

@@ -144,6 +144,7 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
         scene.control_net = surface;
     }
 
+    const std::string_view blank_from = spia::name(session.options.steps);
     std::vector<fs::path> files;
     for (size_t i = 0; i < formats.size(); ++i) {
         const std::string& format = formats[i];
@@ -168,7 +169,7 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
                 extra.push_back({"deviation", &deviation});
             }
             write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit, zones,
-                      flat.skins ? &*flat.skins : nullptr);
+                      flat.skins ? &*flat.skins : nullptr, blank_from);
         } else if (format == "dxf")
             write_dxf(path, blank_outline(part, flat.blank), unit);
         else if (format == "csv") {

@@ -109,6 +109,21 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping)
             {"newton_steps", steps_json(report.newton)}};
 }
 
+Json source_json(const std::optional<BlankOfSteps>& made)
+{
+    Json json = {{"from", name(made)}};
+    if (!made)
+        return json;
+    json["steps"] = Json::array();
+    for (const UnfoldState& state : made->run->states)
+        json["steps"].push_back({{"name", state.name},
+                                 {"face", state.plain},
+                                 {"converged", state.converged},
+                                 {"reason", state.reason},
+                                 {"seconds", state.seconds}});
+    return json;
+}
+
 /// Vertices by their numbers in the file; the first hundred of each list: nobody looks at more.
 Json overlap_json(const Overlap& overlap, const PartFile& file)
 {
@@ -439,6 +454,7 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["hardening"] = Json::parse(hardening_text(session.options.flatten.material.hardening));
         json["sheet_thickness_mm"] = session.options.flatten.thickness;
         json["process"] = process_json(session);
+        json["source"] = source_json(session.options.steps);
         json["solve"] = solve_json(session.blank->report, session.blank->stamping);
         json["blank"] = blank_json(*session.part, *session.blank);
         json["result"] = result_json(*session.blank);

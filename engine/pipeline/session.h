@@ -13,6 +13,7 @@
 #include "engine/limits/limits.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/interpolate.h"
+#include "engine/unfold/unfold_script.h"
 
 namespace spia {
 
@@ -21,9 +22,18 @@ enum class Stage { read, solve, grid, lift, fit };
 inline constexpr Stage chain[] = {Stage::read, Stage::solve, Stage::grid, Stage::lift, Stage::fit};
 std::string_view name(Stage stage);
 
+/// Steps whose blank takes the place of the one-step solve's.
+struct BlankOfSteps {
+    std::shared_ptr<const UnfoldRun> run; ///< of the session's part in its sheet, with a blank without flips
+    bool polish = false; ///< the one-step solve is started from their blank: all material may move once more
+
+    friend bool operator==(const BlankOfSteps&, const BlankOfSteps&) = default;
+};
+
 struct SessionOptions {
     ReadOptions read;
     FlattenOptions flatten;
+    std::optional<BlankOfSteps> steps; ///< not given: the blank is solved in one step
     LimitsOptions limits;
     std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if not given
     GridOptions grid;
@@ -35,6 +45,9 @@ struct GridStage {
     BlankBoundary boundary;
     GridResult result;
 };
+
+/// Where the blank comes from: "one step", "steps" or "steps, polished".
+std::string_view name(const std::optional<BlankOfSteps>& steps);
 
 struct SurfaceStage {
     InterpolateResult result;

@@ -7,6 +7,8 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/session.h"
+#include "engine/unfold/polish.h"
+#include "engine/unfold/stepped_blank.h"
 
 namespace spia {
 namespace {
@@ -68,8 +70,26 @@ void read(Session& session, const Progress& progress)
     session.part = std::make_shared<PartFile>(read_part(session.file, session.options.read, progress));
 }
 
+/// Tools act on the part as a whole, which steps do not know.
+void require_no_tools(const ProcessConditions& process)
+{
+    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() || process.edge_restraint > 0)
+        throw InputError(
+            "the steps of unfolding leave out contact, drawbeads, pilots and the held edge; take these away, or solve "
+            "the part in one step");
+}
+
 void solve(Session& session, const Progress& progress)
 {
+    if (const auto& steps = session.options.steps) {
+        require_no_tools(session.options.flatten.process);
+        const TriMesh& part = session.part->mesh;
+        progress.checkpoint(0, "taking the blank of the steps");
+        session.blank = std::make_shared<FlattenResult>(
+            steps->polish ? polish(part, *steps->run, session.options.flatten, progress).whole
+                          : stepped_blank(part, *steps->run, session.options.flatten));
+        return;
+    }
     session.blank = std::make_shared<FlattenResult>(flatten(session.part->mesh, session.options.flatten, progress));
 }
 
@@ -121,6 +141,11 @@ std::string_view name(Stage stage)
     case Stage::fit: return "fit";
     }
     return "";
+}
+
+std::string_view name(const std::optional<BlankOfSteps>& steps)
+{
+    return !steps ? "one step" : steps->polish ? "steps, polished" : "steps";
 }
 
 void require_possible(const Session& session)

@@ -9,6 +9,7 @@
 
 #include "engine/mesh/closest_point.h"
 #include "engine/pipeline/file_members.h"
+#include "engine/unfold/given_face.h"
 #include "engine/unfold/pick_border.h"
 
 namespace spia {
@@ -178,30 +179,21 @@ BinderFace face_in(const Json& json, const Place& place, const Eigen::Vector3d& 
     const auto direction_of = [](const Json& object, const Place& at, std::string_view name) {
         return direction(*find(object, at, name, true), at.member(name));
     };
-    const auto across = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& axis) -> Eigen::Vector3d {
-        const Eigen::Vector3d arm = towards - origin, square = arm - axis.dot(arm) * axis;
-        return square.norm() > 0 ? Eigen::Vector3d(square.normalized()) : axis.unitOrthogonal();
-    };
     const std::string kind = json.begin().key();
     const Json& object = json.begin().value();
     const Place at = place.member(kind);
     if (kind == "plane") {
         require_object(object, at, {"origin", "normal"});
-        const Eigen::Vector3d normal = direction_of(object, at, "normal"), x = normal.unitOrthogonal();
-        Eigen::Matrix<double, 3, 2> axes;
-        axes << x, normal.cross(x);
-        return PlaneFace{vector_of(object, at, "origin"), axes};
+        return given_plane(vector_of(object, at, "origin"), direction_of(object, at, "normal"));
     }
     if (kind == "cylinder") {
         require_object(object, at, {"origin", "axis", "radius"});
-        const Eigen::Vector3d origin = vector_of(object, at, "origin"), axis = direction_of(object, at, "axis");
-        return CylinderFace{origin, axis, across(origin, axis), *number_in(object, at, "radius", 1e-9, most_mm, true),
-                            true};
+        return given_cylinder(vector_of(object, at, "origin"), direction_of(object, at, "axis"),
+                              *number_in(object, at, "radius", 1e-9, most_mm, true), towards);
     }
     require_object(object, at, {"apex", "axis", "half_angle_deg"});
-    const Eigen::Vector3d apex = vector_of(object, at, "apex"), axis = direction_of(object, at, "axis");
-    return ConeFace{apex, axis, across(apex, axis),
-                    *number_in(object, at, "half_angle_deg", 1e-3, 89.999, true) / degrees, true};
+    return given_cone(vector_of(object, at, "apex"), direction_of(object, at, "axis"),
+                      *number_in(object, at, "half_angle_deg", 1e-3, 89.999, true) / degrees, towards);
 }
 
 void read_target(const Json& json, const Place& place, const PartFile& part, PlannedStep& step)
@@ -219,11 +211,7 @@ void read_target(const Json& json, const Place& place, const PartFile& part, Pla
     face.erase("offset_mm");
     if (face.empty())
         return;
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    const FaceSet& faces = step.pick.fixed.empty() ? step.pick.freed : step.pick.fixed;
-    for (const int f : faces)
-        middle += part.mesh.position(Eigen::all, part.mesh.triangle.col(f)).rowwise().mean() / double(faces.size());
-    step.pick.target = face_in(face, place, middle);
+    step.pick.target = face_in(face, place, middle_of_pick(part.mesh, step.pick));
 }
 
 void read_options(const Json& json, const Place& place, PlannedStep& step)

@@ -28,6 +28,10 @@ ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile&
 /// @param source_face of PartFile: numbers for faces on which there is friction and that are no whole regions; empty: the mesh's own
 std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps, const std::vector<int>& source_face = {});
 
+/// Likewise of any steps: faces are named by the regions and bends that lie wholly among them, the others by their numbers in the
+/// part's file. A face of the file that was split is named whole.
+std::string unfold_script_json(const PartFile& part, const BendMap& map, const UnfoldScript& steps);
+
 /// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
 /// @param files    written, in order
 /// @param polished null: not asked for, or there was none

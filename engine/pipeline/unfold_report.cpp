@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -121,6 +122,49 @@ Json step_json(const BendMap& map, const PlannedStep& step, const std::vector<in
     return json;
 }
 
+/// Faces by regions and bends as far as these are whole, the rest by numbers of the file.
+Json faces_json(const PartFile& part, const BendMap& map, const std::vector<int>& faces)
+{
+    std::vector<int> missing(size_t(map.label.maxCoeff() + 1), 0);
+    for (const int label : map.label)
+        ++missing[size_t(label)];
+    for (const int f : faces)
+        --missing[size_t(map.label[f])];
+    std::vector<int> whole, numbers;
+    for (size_t label = 0; label < missing.size(); ++label)
+        if (missing[label] == 0)
+            whole.push_back(int(label));
+    for (const int f : faces)
+        if (missing[size_t(map.label[f])] != 0)
+            numbers.push_back(part.source_face[size_t(f)]);
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    Json json = Json::object();
+    if (!whole.empty())
+        json["regions"] = names_of(map, whole);
+    if (!numbers.empty())
+        json["faces"] = numbers;
+    return json;
+}
+
+/// A step whose faces may be any.
+Json step_json(const PartFile& part, const BendMap& map, const PlannedStep& step)
+{
+    PlannedStep named = step;
+    named.freed.clear();
+    named.fixed.clear();
+    if (step.kind == UnfoldKind::unroll) // by one of its faces
+        return step_json(map, named, part.source_face);
+    Json json = step_json(map, named, part.source_face);
+    if (step.kind != UnfoldKind::lay)
+        return json;
+    json["freed"] = faces_json(part, map, step.pick.freed);
+    json["fixed"] = faces_json(part, map, step.pick.fixed);
+    if (!step.pick.carrying.empty() && step.pick.carrying != step.pick.fixed)
+        json["carrying"] = faces_json(part, map, step.pick.carrying);
+    return json;
+}
+
 Json bends_json(const BendMap& map)
 {
     Json list = Json::array();
@@ -200,6 +244,13 @@ Json polish_json(const PolishedBlank& polished)
             {"worse", polished.worse}};
 }
 
+std::string script_text(const BendMap& map, const Json& steps)
+{
+    return Json{{"schema", "spia.unfold/1"}, {"regions", regions_json(map)}, {"steps", steps}}.dump(
+               1, ' ', false, Json::error_handler_t::replace) +
+           "\n";
+}
+
 } // namespace
 
 std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps, const std::vector<int>& source_face)
@@ -207,9 +258,15 @@ std::string unfold_script_json(const BendMap& map, const UnfoldScript& steps, co
     Json list = Json::array();
     for (const PlannedStep& step : steps)
         list.push_back(step_json(map, step, source_face));
-    return Json{{"schema", "spia.unfold/1"}, {"regions", regions_json(map)}, {"steps", list}}.dump(
-               1, ' ', false, Json::error_handler_t::replace) +
-           "\n";
+    return script_text(map, list);
+}
+
+std::string unfold_script_json(const PartFile& part, const BendMap& map, const UnfoldScript& steps)
+{
+    Json list = Json::array();
+    for (const PlannedStep& step : steps)
+        list.push_back(step_json(part, map, step));
+    return script_text(map, list);
 }
 
 std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,

@@ -9,6 +9,7 @@
 
 #include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
+#include "app/viewer/model/step_target.h"
 #include "engine/forming/material_fit.h"
 #include "engine/pipeline/outputs.h"
 
@@ -82,21 +83,48 @@ struct ProposeSteps {
     std::optional<int> keep = {};
 };
 struct RunSteps {}; ///< "run_steps": those that are missing or out of date, in the background
+/// "use_blank_of_steps": grid, surface, limits and files go on from it, in the background, until the part is solved in one step
+/// again (run_to). polish: the one-step solve is started from it first
+struct UseBlankOfSteps {
+    bool polish = false;
+};
+/// "open_steps": replaces the list by the steps of a file of the command line (schema spia.unfold/1), in the background
+struct OpenSteps {
+    std::filesystem::path file;
+};
+struct SaveSteps {
+    std::filesystem::path file;
+}; ///< "save_steps" as such a file, in the background
 /// "add_step": lays the faces of a region (freed; not given: the selected faces) on the face that those of another one (fixed) lie
-/// on; everything else stays. name may be empty
+/// on, or on the plane through those of a region (plane_of), or on a target of its own: plane {origin, normal}, cylinder {origin,
+/// axis, radius} or cone {apex, axis, half_angle_deg}; everything else stays. name may be empty
 struct AddStep {
     int fixed = 0;
     std::optional<int> freed = {};
     std::string name = {};
+    StepTarget target = {};
+    std::optional<int> plane_of = {};
 };
 /// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0: automatic), tolerance (null: that
-/// of the solver)
+/// of the solver), target (as of add_step; with none of the three it is fitted again; not given: stays)
 struct ChangeStep {
     int step = 0;
     std::string name = {};
     double offset_mm = 0;
     double within_mm = 0;
     std::optional<double> tolerance = {};
+    std::optional<StepTarget> target = {};
+};
+/// "set_target_plane": the target of a step becomes the plane through the faces of a region (not given: the selected faces), as
+/// they lie before it
+struct SetTargetPlane {
+    int step = 0;
+    std::optional<int> region = {};
+};
+/// "set_carrying": the target of a step is fitted to the faces of a region (not given: the selected faces), which stay
+struct SetCarrying {
+    int step = 0;
+    std::optional<int> region = {};
 };
 struct RemoveStep {
     int step = 0;
@@ -280,12 +308,13 @@ struct Quit {};            ///< "quit"
 using Action =
     std::variant<OpenPart, SetUnit, SetReading, SetSeam, RunTo, CancelJob, SetMaterial, FitMaterial, SetThickness,
                  SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits, ProposeSteps, RunSteps,
-                 AddStep, ChangeStep, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
-                 SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection,
-                 ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine,
-                 RemoveLine, PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection,
-                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
-                 Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+                 UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep,
+                 MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
+                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
+                 ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
+                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
+                 SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo, OpenProject,
+                 SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -55,8 +55,20 @@ struct ViewerModel::Apply {
     void change_steps(std::string name, StepList steps, bool merge = false);
     void operator()(const ProposeSteps& action);
     void operator()(const RunSteps&);
+    void operator()(const UseBlankOfSteps& action);
+    void operator()(const OpenSteps& action);
+    void operator()(const SaveSteps& action);
     void operator()(const AddStep& action);
     void operator()(const ChangeStep& action);
+    /// Faces of a region, or the selected ones.
+    const std::vector<int>& faces_or_selected(std::optional<int> number, const char* what_for) const;
+    /// A step that lays faces on a target. @throws InputError if it does not
+    const PlannedStep& laying_step(int number) const;
+    void replace_step(std::string name, size_t number, PlannedStep changed, bool merge = false);
+    /// The plane through faces as they lie before a step; says how well it goes through them.
+    TargetPlane plane_before(size_t step, const std::vector<int>& faces);
+    void operator()(const SetTargetPlane& action);
+    void operator()(const SetCarrying& action);
     void operator()(const RemoveStep& action);
     void operator()(const MoveStep& action);
     void operator()(const ShowStep& action);

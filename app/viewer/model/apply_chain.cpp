@@ -21,6 +21,7 @@ void ViewerModel::Apply::begin_with(Document fresh)
     state.view.unfolded = 0;
     state.view.step.reset();
     model.next_.reset();
+    model.blank_next_.reset();
     model.unsaved_before_.reset();
     model.project_.reset();
     state.job = JobView{};
@@ -113,8 +114,13 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         model.next_ = action.stage;
         return;
     }
-    if (!first_stale(document) || *first_stale(document) > action.stage) {
-        model.say(Severity::hint, "Everything is up to date.");
+    // Asked for by name, the one-step solve takes the place of the blank of the steps; else only where that does not hold.
+    const bool instead = session.options.steps && action.stage == Stage::solve;
+    if (!instead && (!first_stale(document) || *first_stale(document) > action.stage)) {
+        model.say(Severity::hint, session.options.steps
+                                      ? "Everything is up to date, from the blank of the steps. Unfold (F6) solves the "
+                                        "part in one step instead."
+                                      : "Everything is up to date.");
         return;
     }
     part();
@@ -130,6 +136,12 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     }
     const bool unsaved = state.unsaved;
     change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
+    if (instead) {
+        session.options.steps.reset();
+        model.say(Severity::hint,
+                  "The blank is that of one step again. That of the steps is kept with them, to be used "
+                  "once more.");
+    }
     model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
     if (model.chain_job_)
         model.unsaved_before_ = unsaved;
@@ -138,6 +150,7 @@ void ViewerModel::Apply::operator()(const RunTo& action)
 void ViewerModel::Apply::operator()(const CancelJob&)
 {
     model.next_.reset();
+    model.blank_next_.reset();
     model.steps_next_ = false;
     if (model.steps_job_)
         model.steps_job_->cancel();

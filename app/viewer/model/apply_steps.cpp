@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/apply.h"
+#include "app/viewer/model/chain.h"
 #include "engine/mesh/region.h"
 
 namespace spia::viewer {
@@ -56,6 +57,51 @@ void ViewerModel::Apply::operator()(const RunSteps&)
                                   "leave them out.");
 }
 
+void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
+{
+    require_idle();
+    if (!all_steps_done(document))
+        throw InputError(document.steps.empty() ? "There are no steps yet: propose some, or add one."
+                                                : "Run the steps first: their blank is that of all of them.");
+    const std::shared_ptr<const StepsRun>& last = document.unfolding;
+    if (!last->run.blank)
+        throw InputError("After the last step the part does not lie in a plane yet; add a step.");
+    if (last->run.flipped > 0)
+        throw InputError("Triangles of the blank of the steps are flipped; unfold there in smaller steps.");
+    const BlankOfSteps wanted{{last, &last->run}, action.polish};
+    if (session.options.steps == wanted && !first_stale(document)) {
+        model.say(Severity::hint, "The blank of the steps is in use already, and everything is up to date.");
+        return;
+    }
+    for (Message& message : state.messages) // of the run before
+        message.dismissed |= message.severity != Severity::error;
+    const bool unsaved = state.unsaved;
+    change(action.polish ? "Polish the blank of the steps" : "Use the blank of the steps");
+    session.options.steps = wanted;
+    model.run_to(Stage::fit, action.polish ? "Polishing the blank of the steps" : "Using the blank of the steps");
+    if (model.chain_job_)
+        model.unsaved_before_ = unsaved;
+}
+
+void ViewerModel::Apply::operator()(const OpenSteps& action)
+{
+    require_idle();
+    model.start_steps("Opening the steps",
+                      [part = session.part, bends = document.bends, file = action.file](const Progress& progress) {
+                          return open_steps(part, bends, file, progress);
+                      });
+}
+
+void ViewerModel::Apply::operator()(const SaveSteps& action)
+{
+    require_idle();
+    if (document.steps.empty())
+        throw InputError("There are no steps yet: propose some, or add one.");
+    model.start_steps("Saving the steps",
+                      [part = session.part, bends = document.bends, steps = document.steps, file = action.file](
+                          const Progress& progress) { return save_steps(part, bends, steps, file, progress); });
+}
+
 void ViewerModel::Apply::operator()(const AddStep& action)
 {
     part();
@@ -82,6 +128,10 @@ void ViewerModel::Apply::operator()(const AddStep& action)
     made.pick.freed = freed;
     made.pick.fixed = inverted(freed, part().mesh.triangles());
     made.pick.carrying = fixed.faces;
+    StepTarget target = action.target;
+    if (action.plane_of)
+        target = {.plane = plane_before(document.steps.size(), document.regions[region(*action.plane_of)].faces)};
+    made.pick.target = face_of(target, part().mesh, made.pick);
     StepList steps = document.steps;
     steps.push_back(std::make_shared<PlannedStep>(std::move(made)));
     change_steps("Add step", std::move(steps));
@@ -100,14 +150,88 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
     const PlannedStep& before = *document.steps[number];
     if (before.kind != UnfoldKind::lay && action.offset_mm != before.offset_mm)
         throw InputError("Only a step that lays faces on a face can have it moved.");
-    auto changed = std::make_shared<PlannedStep>(before);
-    changed->name = action.name;
-    changed->offset_mm = action.offset_mm;
-    changed->within_mm = action.within_mm;
-    changed->tolerance = action.tolerance;
+    PlannedStep changed = before;
+    changed.name = action.name;
+    changed.offset_mm = action.offset_mm;
+    changed.within_mm = action.within_mm;
+    changed.tolerance = action.tolerance;
+    if (action.target && *action.target != numbers_of(before)) {
+        changed.pick.target = face_of(*action.target, part().mesh, before.pick);
+        if (changed.pick.target && before.kind != UnfoldKind::lay)
+            throw InputError("Only a step that lays faces on a face can have a target of its own.");
+    }
+    replace_step("Change step", number, std::move(changed), true);
+}
+
+void ViewerModel::Apply::replace_step(std::string name, size_t number, PlannedStep changed, bool merge)
+{
     StepList steps = document.steps;
-    steps[number] = std::move(changed);
-    change_steps("Change step", std::move(steps), true);
+    steps[number] = std::make_shared<PlannedStep>(std::move(changed));
+    change_steps(std::move(name), std::move(steps), merge);
+}
+
+const std::vector<int>& ViewerModel::Apply::faces_or_selected(std::optional<int> number, const char* what_for) const
+{
+    const std::vector<int>& faces = number ? document.regions[region(*number)].faces : document.selected;
+    if (faces.empty())
+        throw InputError(fmt::format("Select the faces {} first, or make a region of them.", what_for));
+    return faces;
+}
+
+const PlannedStep& ViewerModel::Apply::laying_step(int number) const
+{
+    const PlannedStep& wanted = *document.steps[step(number)];
+    if (wanted.kind != UnfoldKind::lay)
+        throw InputError("Only a step that lays faces on a face can have a target of its own.");
+    return wanted;
+}
+
+TargetPlane ViewerModel::Apply::plane_before(size_t step, const std::vector<int>& faces)
+{
+    const size_t known = std::min(step, steps_done(document));
+    for (size_t k = known; k < step; ++k) {
+        const std::vector<int>& moved = document.steps[k]->pick.freed;
+        if (std::any_of(faces.begin(), faces.end(),
+                        [&](int f) { return std::binary_search(moved.begin(), moved.end(), f); }))
+            throw InputError(fmt::format("Step {} moves some of these faces; run the steps before this one first, then "
+                                         "their plane is known.",
+                                         k + 1));
+    }
+    const TriMesh now{unfolded_places(document, double(known)), part().mesh.triangle};
+    const PlaneThrough through = plane_through(now, faces);
+    model.say(Severity::hint,
+              fmt::format("The target is the plane through {} faces, which are up to {:.3g} mm from it.", faces.size(),
+                          through.distance_mm));
+    return through.plane;
+}
+
+void ViewerModel::Apply::operator()(const SetTargetPlane& action)
+{
+    PlannedStep changed = laying_step(action.step);
+    const std::vector<int>& faces = faces_or_selected(action.region, "through which the plane shall go");
+    const StepTarget target{.plane = plane_before(size_t(action.step), faces)};
+    changed.pick.target = face_of(target, part().mesh, changed.pick);
+    replace_step("Set target plane", size_t(action.step), std::move(changed));
+}
+
+void ViewerModel::Apply::operator()(const SetCarrying& action)
+{
+    PlannedStep changed = laying_step(action.step);
+    const std::vector<int>& faces = faces_or_selected(action.region, "to which the target shall be fitted");
+    const std::vector<int>& freed = changed.pick.freed;
+    const auto moves = std::count_if(faces.begin(), faces.end(),
+                                     [&](int f) { return std::binary_search(freed.begin(), freed.end(), f); });
+    if (moves > 0)
+        throw InputError(fmt::format("{} of these faces {} moved by the step and cannot carry its target; choose faces "
+                                     "that stay.",
+                                     moves, moves == 1 ? "is" : "are"));
+    std::vector<int> fixed;
+    std::set_union(changed.pick.fixed.begin(), changed.pick.fixed.end(), faces.begin(), faces.end(),
+                   std::back_inserter(fixed));
+    changed.pick.fixed = std::move(fixed);
+    changed.pick.carrying = faces;
+    changed.pick.target.reset();
+    replace_step("Set carrying faces", size_t(action.step), std::move(changed));
 }
 
 void ViewerModel::Apply::operator()(const RemoveStep& action)

@@ -55,6 +55,7 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
     case Stage::read: made_with.read = options.read; break;
     case Stage::solve:
         made_with.flatten = options.flatten;
+        made_with.steps = options.steps;
         made_with.limits = options.limits;
         break;
     case Stage::grid:
@@ -66,7 +67,22 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
     }
 }
 
+/// Whether the blank is what is wanted now.
+bool blank_holds(const Document& document)
+{
+    const SessionOptions &wanted = document.session.options, &made = document.made_with;
+    if (wanted.steps != made.steps)
+        return false;
+    return made.steps ? holds(document, *made.steps) && wanted.flatten.skins == made.flatten.skins
+                      : same(wanted.flatten, made.flatten);
+}
+
 } // namespace
+
+bool holds(const Document& document, const BlankOfSteps& steps)
+{
+    return all_steps_done(document) && steps.run.get() == &document.unfolding->run;
+}
 
 std::optional<Stage> first_stale(const Document& document)
 {
@@ -74,7 +90,7 @@ std::optional<Stage> first_stale(const Document& document)
     const SessionOptions &wanted = session.options, &made = document.made_with;
     if (!session.part || !same(wanted.read, made.read))
         return Stage::read;
-    if (!session.blank || !same(wanted.flatten, made.flatten))
+    if (!session.blank || !blank_holds(document))
         return Stage::solve;
     if (!session.grid || wanted.corners != made.corners || !same(wanted.grid, made.grid))
         return Stage::grid;
@@ -144,8 +160,10 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
     return result;
 }
 
-std::string advice(Stage failed)
+std::string advice(Stage failed, bool of_steps)
 {
+    if (of_steps && failed == Stage::solve)
+        return "Use the blank of the steps as it is, without polishing.";
     switch (failed) {
     case Stage::read: return "Look at the faults in the step Part, where some can be mended, or choose another file.";
     case Stage::solve: return "Look at the part's faces named above; a coarser or cleaner mesh often helps.";

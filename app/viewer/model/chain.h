@@ -12,6 +12,9 @@ namespace spia::viewer {
 /// Old results stay to be looked at until newer ones take their place.
 std::optional<Stage> first_stale(const Document& document);
 
+/// Whether a blank of steps is still that of the document's list.
+bool holds(const Document& document, const BlankOfSteps& steps);
+
 /// The results with the options they were made with, for what leaves the program.
 Session as_made(const Document& document);
 
@@ -33,8 +36,8 @@ struct ChainResult {
 /// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.
 ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress);
 
-/// What to do about a stage that failed, in one sentence.
-std::string advice(Stage failed);
+/// What to do about a stage that failed, in one sentence. @param of_steps the blank was to be that of the steps
+std::string advice(Stage failed, bool of_steps = false);
 
 /// What to do about a blank that solves a weaker system than wanted, in one sentence; empty for the strict one.
 std::string advice(const SolveReport& report);

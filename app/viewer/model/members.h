@@ -5,6 +5,7 @@
 #include "app/viewer/model/json_members.h"
 #include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
+#include "app/viewer/model/step_target.h"
 #include "engine/pipeline/outputs.h"
 
 /// The members of the structs that scripts, projects and reports share.
@@ -86,6 +87,36 @@ inline constexpr auto members_of<GridOptions> = std::tuple{
     member("columns", &GridOptions::columns, Between{0, 2000}), member("rows", &GridOptions::rows, Between{0, 2000}),
     member("cells", &GridOptions::cells, Between{1, 2000}),
     member("smoothing", &GridOptions::smoothing, Between{0, 100000}), member("method", &GridOptions::method)};
+
+inline constexpr auto has_length = [](const Eigen::Vector3d& direction, const Place& place) {
+    if (!(direction.norm() > 0))
+        place.fail("must have a length");
+};
+template <>
+inline constexpr auto members_of<TargetPlane> =
+    std::tuple{required("origin", &TargetPlane::origin, Between{-most_mm, most_mm}),
+               required("normal", &TargetPlane::normal, has_length)};
+template <>
+inline constexpr auto members_of<TargetCylinder> =
+    std::tuple{required("origin", &TargetCylinder::origin, Between{-most_mm, most_mm}),
+               required("axis", &TargetCylinder::axis, has_length),
+               required("radius", &TargetCylinder::radius, Between{1e-9, most_mm})};
+template <>
+inline constexpr auto members_of<TargetCone> =
+    std::tuple{required("apex", &TargetCone::apex, Between{-most_mm, most_mm}),
+               required("axis", &TargetCone::axis, has_length),
+               required("half_angle_deg", &TargetCone::half_angle_deg, Between{1e-3, 89.999})};
+inline constexpr auto one_target = [](const StepTarget& target, const Place& place) {
+    if (target.plane.has_value() + target.cylinder.has_value() + target.cone.has_value() > 1)
+        place.fail("needs one of the members \"plane\", \"cylinder\" and \"cone\", or none");
+};
+inline constexpr auto one_target_if_any = [](const std::optional<StepTarget>& target, const Place& place) {
+    if (target)
+        one_target(*target, place);
+};
+template <>
+inline constexpr auto members_of<StepTarget> = std::tuple{
+    member("plane", &StepTarget::plane), member("cylinder", &StepTarget::cylinder), member("cone", &StepTarget::cone)};
 
 template <>
 inline constexpr auto members_of<LimitsChoice> =

@@ -44,6 +44,7 @@ struct StoredProject {
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
     std::optional<Stage> ran;
     bool steps_ran = false;
+    std::optional<bool> blank_of_steps;
     double edge_restraint = 0;
     std::optional<Eigen::Vector3d> rolling;
     LimitsChoice limits;
@@ -94,7 +95,8 @@ inline constexpr auto members_of<StoredStep> =
                member("offset_mm", &StoredStep::offset_mm, Between{-most_mm, most_mm}),
                member("tolerance", &StoredStep::tolerance, Between{1e-15, 1}),
                member("most_energy_steps", &StoredStep::most_energy_steps, Between{0, 1e6}),
-               member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6})};
+               member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6}),
+               member("target", &StoredStep::target, one_target)};
 template <>
 inline constexpr auto members_of<StoredSteps> =
     std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step)};
@@ -132,6 +134,7 @@ inline constexpr auto members_of<StoredProject> =
                member("parameters", &StoredProject::parameters),
                member("ran", &StoredProject::ran),
                member("steps_ran", &StoredProject::steps_ran),
+               member("blank_of_steps_polished", &StoredProject::blank_of_steps),
                member("edge_restraint", &StoredProject::edge_restraint, Between{0, 1}),
                member("rolling", &StoredProject::rolling),
                member("limits", &StoredProject::limits),
@@ -271,6 +274,8 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.parameters = session.options.interpolate.parameters;
     stored.ran = last_stage(session);
     stored.steps_ran = steps_done(document) > 0;
+    if (const auto& steps = document.made_with.steps; steps && session.blank)
+        stored.blank_of_steps = steps->polish;
     stored.edge_restraint = document.edge_restraint;
     stored.rolling = document.rolling;
     stored.limits = document.limits;
@@ -301,6 +306,7 @@ Project open_project(const fs::path& file, const fs::path& materials)
             std::move(stored.picks),
             stored.ran,
             stored.steps_ran,
+            stored.blank_of_steps,
             stored.recovers};
 }
 

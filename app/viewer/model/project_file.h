@@ -19,6 +19,7 @@
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
 /// | `ran` | the last stage that had been run, or null |
 /// | `steps_ran` | whether steps of unfolding had been run |
+/// | `blank_of_steps_polished` | null where the blank is that of one step; else it is that of the steps, polished or not |
 /// | `edge_restraint`, `rolling` | as in the script action set_process |
 /// | `limits`, `limits_table` | as in the script action set_limits; the table given like the file of the part |
 /// | `display`, `view` | as in the script actions set_display and set_view |
@@ -40,6 +41,7 @@ struct Project {
     StoredPicks picks;
     std::optional<Stage> ran;
     bool steps_ran = false;
+    std::optional<bool> blank_of_steps = {}; ///< taken for the chain: whether it was polished
     std::filesystem::path recovers;
 };
 

@@ -252,20 +252,34 @@ std::string assumptions(const Session& session)
                                           ? "rolling direction " + vector(*options.process.rolling)
                                           : fmt::format("their mean {:.3g} is used", material.normal_anisotropy())));
     rows += row("Sheet thickness", significant(options.thickness) + " mm");
-    rows += row("Stamping direction", vector(session.blank->stamping.direction) +
-                                          (options.direction ? ", as given" : ", found automatically"));
+    rows += row("Stamping direction",
+                vector(session.blank->stamping.direction) + (session.options.steps && !session.options.steps->polish
+                                                                 ? ", square to the plane of the blank"
+                                                             : options.direction ? ", as given"
+                                                                                 : ", found automatically"));
     rows += process_rows(options.process);
     rows += row("Trusted up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
                                              fixed(session.blank->report.trusted_strain, 2)));
+    if (const auto& steps = session.options.steps)
+        rows +=
+            row("Blank", fmt::format("made step by step, in {} steps{}", steps->run->states.size(),
+                                     steps->polish ? ", then polished: the one-step solve was started from it" : ""));
+    if (session.options.steps && !session.options.steps->polish)
+        rows += row("Method",
+                    "region by region onto faces in space, the outermost first; strains from the flat sheet to the "
+                    "part by total deformation theory: the path of forming, bending and springback are not in it");
+    else
+        rows += row("Method",
+                    "one step from the part back to the flat sheet, total deformation theory: the path of forming, "
+                    "bending and springback are not in it");
     rows +=
-        row("Method", "one step from the part back to the flat sheet, total deformation theory: the path of forming, "
-                      "bending and springback are not in it");
-    rows += row("Equations", equations(session.blank->report));
+        row("Equations", session.options.steps && !session.options.steps->polish ? session.blank->report.reason
+                                                                                 : equations(session.blank->report));
     rows += row("Repairs of the mesh", repairs_in_words(session.part->doctor));
     return facts("Assumptions", rows);
 }
 
-std::string solving(const Session& session)
+static std::string solver_iterations(const Session& session)
 {
     const SolveReport& report = session.blank->report;
     return fmt::format(
@@ -274,6 +288,28 @@ std::string solving(const Session& session)
         "{} of the nodal forces at yield.</p>\n",
         residual_chart(report), hardening_chart(session), report.energy.size(), report.newton.size(),
         fixed(report.seconds, 1), escaped(report.reason), power_of_ten(report.residual));
+}
+
+/// What each step did.
+static std::string steps_of_blank(const UnfoldRun& run)
+{
+    std::string rows;
+    for (size_t k = 0; k < run.states.size(); ++k) {
+        const UnfoldState& state = run.states[k];
+        rows +=
+            row(fmt::format("{}  {}", k + 1, state.name),
+                fmt::format("{}, {}, {} s", state.plain,
+                            state.converged ? "converged" : "not converged: " + state.reason, fixed(state.seconds, 1)));
+    }
+    return facts("The steps of the blank", rows);
+}
+
+std::string solving(const Session& session)
+{
+    const auto& steps = session.options.steps;
+    if (steps && !steps->polish)
+        return steps_of_blank(*steps->run);
+    return (steps ? steps_of_blank(*steps->run) : "") + solver_iterations(session);
 }
 
 std::string repairs(const PartFile& part)

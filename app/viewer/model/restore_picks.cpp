@@ -156,6 +156,7 @@ public:
             step.tolerance = each.tolerance;
             step.most_energy_steps = each.most_energy_steps;
             step.most_newton_steps = each.most_newton_steps;
+            step.pick.target = face_of(each.target, part_.mesh, step.pick);
             if (step.pick.freed.empty())
                 missing.push_back(fmt::format(
                     "the step \"{}\" has nothing to move on the changed part any more; it was removed", each.name));

@@ -83,12 +83,21 @@ constexpr std::tuple forms{
     form_of_inner("set_limits", &SetLimits::limits),
     form<ProposeSteps>("propose_steps", member("keep", &ProposeSteps::keep, any_index)),
     form<RunSteps>("run_steps"),
+    form<UseBlankOfSteps>("use_blank_of_steps", member("polish", &UseBlankOfSteps::polish)),
+    form<OpenSteps>("open_steps", required("file", &OpenSteps::file, not_empty)),
+    form<SaveSteps>("save_steps", required("file", &SaveSteps::file, not_empty)),
     form<AddStep>("add_step", required("fixed", &AddStep::fixed, any_index),
-                  member("freed", &AddStep::freed, any_index), member("name", &AddStep::name)),
+                  member("freed", &AddStep::freed, any_index), member("name", &AddStep::name),
+                  member("target", &AddStep::target, one_target), member("plane_of", &AddStep::plane_of, any_index)),
     form<ChangeStep>("change_step", required("step", &ChangeStep::step, any_index), member("name", &ChangeStep::name),
                      member("offset_mm", &ChangeStep::offset_mm, Between{-most_mm, most_mm}),
                      member("within_mm", &ChangeStep::within_mm, Between{0, most_mm}),
-                     member("tolerance", &ChangeStep::tolerance, Between{1e-15, 1})),
+                     member("tolerance", &ChangeStep::tolerance, Between{1e-15, 1}),
+                     member("target", &ChangeStep::target, one_target_if_any)),
+    form<SetTargetPlane>("set_target_plane", required("step", &SetTargetPlane::step, any_index),
+                         member("region", &SetTargetPlane::region, any_index)),
+    form<SetCarrying>("set_carrying", required("step", &SetCarrying::step, any_index),
+                      member("region", &SetCarrying::region, any_index)),
     form<RemoveStep>("remove_step", required("step", &RemoveStep::step, any_index)),
     form<MoveStep>("move_step", required("step", &MoveStep::step, any_index), required("to", &MoveStep::to, any_index)),
     form<ShowStep>("show_step", member("step", &ShowStep::step, any_index),
@@ -211,7 +220,7 @@ template <> ChangeStep before(const Json& json, const ViewerState& state)
     if (number == json.end() || !number->is_number_unsigned() || number->get<size_t>() >= steps.size())
         return {}; // reading complains, or carrying it out
     const PlannedStep& step = *steps[number->get<size_t>()];
-    return {number->get<int>(), step.name, step.offset_mm, step.within_mm, step.tolerance};
+    return {number->get<int>(), step.name, step.offset_mm, step.within_mm, step.tolerance, {}};
 }
 
 template <class T> T read_action(const Json& json, const ViewerState& base, const Place& place)

@@ -39,6 +39,7 @@ Json options_json(const Document& document)
     const SessionOptions& options = document.session.options;
     return {{"material", document.material},
             {"thickness", options.flatten.thickness},
+            {"blank_from", name(options.steps)},
             {"skins", options.flatten.skins},
             {"seam", written(options.read.seam)},
             {"direction", written(options.flatten.direction)},
@@ -56,8 +57,10 @@ Json stages_json(const Session& session)
             {"fit", session.surface != nullptr}};
 }
 
-Json figures_json(const Session& session)
+Json figures_json(const Document& document)
 {
+    Session session = document.session;
+    session.options.steps = document.made_with.steps;
     Json figures = parse_json(report_json(session, {}, 0), "figures");
     figures.erase("files");
     return figures;
@@ -169,6 +172,7 @@ Json unfolding_json(const ViewerState& state)
                      {"offset_mm", step.offset_mm},
                      {"within_mm", step.within_mm},
                      {"tolerance", written(step.tolerance)},
+                     {"target", written(numbers_of(step))},
                      {"status", name(step_status(document, k))}};
         if (k < done) {
             const UnfoldState& after = document.unfolding->run.states[k];
@@ -177,6 +181,10 @@ Json unfolding_json(const ViewerState& state)
             json["thinning"] = figure.thinning;
             json["strain_equivalent"] = figure.strain_equivalent;
             json["reason"] = after.reason;
+            if (figure.hinge)
+                json["hinge"] = {{"distance_mm", figure.hinge->distance_mm},
+                                 {"angle_deg", figure.hinge->angle_deg},
+                                 {"bad", figure.hinge->bad}};
         }
         list.push_back(std::move(json));
     }
@@ -223,7 +231,7 @@ Json state_report(const ViewerState& state)
             {"part", part_json(document.session)},
             {"options", options_json(document)},
             {"stages", stages_json(document.session)},
-            {"figures", figures_json(document.session)},
+            {"figures", figures_json(document)},
             {"selection", faces_json(document.selected)},
             {"vertices", vertices_json(document)},
             {"distance", distance_json(document)},

@@ -68,7 +68,8 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
                                step->offset_mm,
                                step->tolerance,
                                step->most_energy_steps,
-                               step->most_newton_steps});
+                               step->most_newton_steps,
+                               numbers_of(*step)});
     for (const auto& [roles, faces] : alike) {
         const int patch = int(stored.patch.size());
         stored.patch.push_back(store_patch(part, faces));

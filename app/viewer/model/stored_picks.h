@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/viewer/model/document.h"
+#include "app/viewer/model/step_target.h"
 #include "engine/mesh/closest_point.h"
 
 /// What the user picked on a part, kept so that it is found again: on the same part exactly, by the numbers of the
@@ -56,6 +57,7 @@ struct StoredStep {
     double within_mm = 0, offset_mm = 0;
     std::optional<double> tolerance;
     std::optional<int> most_energy_steps, most_newton_steps;
+    StepTarget target;
 };
 
 /// The steps of unfolding. Faces that all steps treat alike are stored once.

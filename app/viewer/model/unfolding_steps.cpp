@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "app/viewer/model/document.h"
 #include "app/viewer/model/step_motion.h"
+#include "app/viewer/model/step_target.h"
 #include "engine/core/error.h"
+#include "engine/mesh/topology.h"
 
 namespace spia::viewer {
 namespace {
@@ -21,10 +24,11 @@ bool same_sheet(const FlattenOptions& a, const FlattenOptions& b)
 bool same_work(const PlannedStep& a, const PlannedStep& b)
 {
     return &a == &b ||
-           (!a.pick.target && !b.pick.target && a.kind == b.kind && a.within_mm == b.within_mm &&
+           (same_target(a.pick.target, b.pick.target) && a.kind == b.kind && a.within_mm == b.within_mm &&
             a.offset_mm == b.offset_mm && a.tolerance == b.tolerance && a.most_energy_steps == b.most_energy_steps &&
             a.most_newton_steps == b.most_newton_steps && a.pick.fixed == b.pick.fixed &&
-            a.pick.freed == b.pick.freed && a.pick.carrying == b.pick.carrying);
+            a.pick.freed == b.pick.freed && a.pick.carrying == b.pick.carrying &&
+            a.pick.friction == b.pick.friction);
 }
 
 /// Whether the last run was about this part in this sheet.
@@ -34,9 +38,19 @@ bool run_is_about(const Document& document)
            same_sheet(document.unfolding->sheet, document.session.options.flatten);
 }
 
-StepFigures figures_of(const UnfoldState& state, const PlannedStep& step)
+std::optional<StepFigures::Hinge> hinge_of(const UnfoldState& state, const PlannedStep& step, const TriMesh& part)
 {
-    StepFigures figures{{0, 0}, 0};
+    if (!state.on || step.pick.fixed.empty())
+        return std::nullopt;
+    constexpr double far = 2e-4, turned = 3; // of the part's diagonal; degrees: what a fillet's last facet still has
+    const double angle = state.on->angle * 180 / std::numbers::pi;
+    return StepFigures::Hinge{state.on->distance_mm, angle,
+                              state.on->distance_mm > far * bounding_diagonal(part) || angle > turned};
+}
+
+StepFigures figures_of(const UnfoldState& state, const PlannedStep& step, const TriMesh& part)
+{
+    StepFigures figures{{0, 0}, 0, hinge_of(state, step, part)};
     bool first = true;
     for (const int f : step.pick.freed) {
         const double thinning = state.face.thinning[f];
@@ -183,7 +197,7 @@ StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, con
     }
     result->run.states.resize(std::min(result->run.states.size(), steps.size()));
     for (size_t k = 0; k < result->run.states.size(); ++k)
-        result->figure.push_back(figures_of(result->run.states[k], *steps[k]));
+        result->figure.push_back(figures_of(result->run.states[k], *steps[k], part->mesh));
     outcome.run = std::move(result);
     return outcome;
 }

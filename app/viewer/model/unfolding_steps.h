@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,12 @@ struct PartBends {
 struct StepFigures {
     std::array<double, 2> thinning; ///< least and greatest, shares
     double strain_equivalent;       ///< greatest
+    /// Where faces were laid on a target and hang on others: how far these end beside it, and by how much it turns from them.
+    struct Hinge {
+        double distance_mm, angle_deg; ///< greatest
+        bool bad;                      ///< so far that the sheet has a step or a crease there
+    };
+    std::optional<Hinge> hinge;
 };
 
 /// What a run gave, and what it was made with.
@@ -62,7 +69,8 @@ const std::vector<int>& carrying_faces(const PlannedStep& step);
 /// What a job about steps left behind.
 struct StepsOutcome {
     std::optional<StepList> proposed;
-    std::vector<std::string> notes;         ///< of the proposal
+    std::vector<std::string> notes;         ///< of the proposal, or what of a file made no sense on the part
+    std::filesystem::path opened, saved;    ///< files; empty: none
     std::shared_ptr<const PartBends> bends; ///< null: not asked for
     std::shared_ptr<const StepsRun> run;    ///< null likewise; of a cancelled one with the steps that had ended
     bool cancelled = false;
@@ -73,6 +81,14 @@ struct StepsOutcome {
 /// @param keep a face whose region stays where it is; not given: the largest flat one
 StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                            std::optional<int> keep, const Progress& progress);
+
+/// Reads the steps of a file of the command line (engine/pipeline/unfold_file.h); never throws. @param bends as above
+StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
+                        const std::filesystem::path& file, const Progress& progress);
+
+/// Writes such a file; never throws. @param bends as above
+StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
+                        const StepList& steps, const std::filesystem::path& file, const Progress& progress);
 
 /// Runs the steps after the first `done` ones, whose states are taken from `before`; never throws.
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,

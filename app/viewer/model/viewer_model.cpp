@@ -62,6 +62,11 @@ void ViewerModel::start(Stage from, Stage to, std::string title)
     live_ = std::make_shared<Live>();
     depth_at_start_ = state_.history.depth();
     Session session = state_.document.session;
+    if (session.options.steps) { // the tools are not in them
+        const bool skins = session.options.flatten.skins;
+        session.options.flatten = sheet_of_steps(session.options.flatten);
+        session.options.flatten.skins = skins;
+    }
     session.options.flatten.watch = [live = live_](const Eigen::Matrix2Xd& X, const NewtonStep& step) {
         live->see(X, step);
     };
@@ -99,6 +104,13 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         return;
     }
     const std::optional<Stage> from = first_stale(state_.document);
+    std::optional<BlankOfSteps>& steps = state_.document.session.options.steps;
+    if (steps && from && *from <= Stage::solve && to >= Stage::solve && !holds(state_.document, *steps)) {
+        steps.reset();
+        say(Severity::hint,
+            "The steps, the part or its sheet have changed since their blank was taken: the part is unfolded in "
+            "one step again.");
+    }
     if (from && *from <= to)
         start(*from, to, title);
 }
@@ -211,6 +223,10 @@ void ViewerModel::forget_run_without_result(const ChainResult& result, const Ses
         return;
     state_.history.forget_last();
     state_.unsaved &= *unsaved_before;
+    if (now.blank)
+        state_.document.session.options.steps = state_.document.made_with.steps;
+    else
+        state_.document.session.options.steps.reset();
 }
 
 /// A run that has made another grid and went no further leaves the quad mesh and the surface of the last one to be looked at;
@@ -286,9 +302,10 @@ void ViewerModel::say_failed(const ChainResult& result)
     state_.refused = result.refused;
     if (!state_.refused || !reading) {
         say(Severity::error, fmt::format("{} {}", sentence(result.message),
-                                         reading                         ? "Choose another file."
-                                         : *result.failed == Stage::grid ? grid_advice(result.session)
-                                                                         : advice(*result.failed)));
+                                         reading ? "Choose another file."
+                                         : *result.failed == Stage::grid
+                                             ? grid_advice(result.session)
+                                             : advice(*result.failed, result.session.options.steps.has_value())));
         return;
     }
     const auto& findings = state_.refused->doctor.findings;
@@ -340,7 +357,9 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
     state_.view = project.view;
     steps_next_ = keep_step_ = project.steps_ran && !document.steps.empty();
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
-    if (keep_cameras_)
+    if (keep_cameras_ && project.blank_of_steps && steps_next_)
+        blank_next_ = BlankNext{*project.blank_of_steps, *project.ran};
+    else if (keep_cameras_)
         next_ = std::max(next_.value_or(*project.ran), *project.ran);
 }
 

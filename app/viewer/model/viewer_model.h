@@ -72,6 +72,12 @@ private:
     void say_failed(const ChainResult& result);
     void take_export_result();
     void start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work);
+    /// What the chain of a project goes on with when its steps are done.
+    struct BlankNext {
+        bool polish;
+        Stage to;
+    };
+    void take_blank_of_project(const BlankNext& next);
     void run_missing_steps(); ///< there must be some
     void take_steps_result();
     void show_step(std::optional<int> step, double position);
@@ -91,13 +97,14 @@ private:
     std::unique_ptr<Job<StepsOutcome>> steps_job_;
     std::vector<std::unique_ptr<Job<StepsOutcome>>> ending_steps_; ///< as ending_
     bool steps_next_ = false;                                      ///< run them when the running job has ended
-    bool keep_step_ = false;                                       ///< the one shown is that of a project
-    bool keep_cameras_ = false;                                    ///< those of a project
-    size_t depth_at_start_ = 0;                                    ///< of the history, when the running job began
-    bool dragging_ = false;                                        ///< a corner: the grid is coarse
-    std::optional<bool> unsaved_before_;                           ///< the running job, if it is a change of its own
-    std::optional<Stage> next_;                                    ///< run this far when the running job has ended
-    int said_ = 0;                                                 ///< messages so far
+    std::optional<BlankNext> blank_next_;
+    bool keep_step_ = false;             ///< the one shown is that of a project
+    bool keep_cameras_ = false;          ///< those of a project
+    size_t depth_at_start_ = 0;          ///< of the history, when the running job began
+    bool dragging_ = false;              ///< a corner: the grid is coarse
+    std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
+    std::optional<Stage> next_;          ///< run this far when the running job has ended
+    int said_ = 0;                       ///< messages so far
     int openings_ = 0;
     bool opening_ = false;           ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part

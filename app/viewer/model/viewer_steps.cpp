@@ -73,19 +73,25 @@ void ViewerModel::take_steps_result()
         state_.unsaved = true;
     };
     if (outcome.proposed && !outcome.proposed->empty()) {
-        change("Propose steps");
+        change(outcome.opened.empty() ? "Propose steps" : "Open steps");
         document.steps = std::move(*outcome.proposed);
         document.bends = outcome.bends;
         show_step(0, 0);
-        constexpr size_t most_notes = 2;
+        const size_t most_notes = outcome.opened.empty() ? 2 : 6;
         for (size_t k = 0; k < std::min(most_notes, outcome.notes.size()); ++k)
-            say(Severity::hint, sentence(outcome.notes[k]));
+            say(outcome.opened.empty() ? Severity::hint : Severity::warning, sentence(outcome.notes[k]));
         if (outcome.notes.size() > most_notes)
             say(Severity::hint,
                 fmt::format("Likewise {} elsewhere.", counted(outcome.notes.size() - most_notes, "place")));
-        say(Severity::done,
-            fmt::format("The part has {} and {}; proposed {}.", counted(outcome.bends->map.regions.size(), "region"),
-                        counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));
+        if (!outcome.opened.empty())
+            say(Severity::done,
+                fmt::format("Opened {} from {}{}", counted(document.steps.size(), "step"), outcome.opened.string(),
+                            outcome.notes.empty() ? "" : "; not all of it makes sense on this part"));
+        else
+            say(Severity::done,
+                fmt::format("The part has {} and {}; proposed {}.",
+                            counted(outcome.bends->map.regions.size(), "region"),
+                            counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));
     } else if (outcome.proposed)
         say(Severity::hint, "The part is flat already; there is nothing to unfold.");
     const auto& run = outcome.run;
@@ -102,6 +108,10 @@ void ViewerModel::take_steps_result()
                 show_step(int(done) - 1, double(done));
         }
     }
+    if (!outcome.saved.empty()) {
+        document.bends = outcome.bends;
+        say(Severity::done, fmt::format("Saved the steps to {}", outcome.saved.string()));
+    }
     if (outcome.cancelled)
         say(Severity::hint, run ? fmt::format("{}: cancelled. {} of {} are done.", title, run->run.states.size(),
                                               counted(run->steps.size(), "step"))
@@ -110,6 +120,22 @@ void ViewerModel::take_steps_result()
         say(Severity::error, sentence(outcome.failure));
     else if (run)
         say_steps_run(outcome);
+    if (const auto next = std::exchange(blank_next_, std::nullopt); next && !outcome.cancelled)
+        take_blank_of_project(*next);
+}
+
+/// The chain of a project whose blank was that of its steps.
+void ViewerModel::take_blank_of_project(const BlankNext& next)
+{
+    Document& document = state_.document;
+    const auto& last = document.unfolding;
+    if (!all_steps_done(document) || !last->run.blank || last->run.flipped > 0) {
+        say(Severity::warning, "The blank of the steps, which the project went on with, could not be made again; mend "
+                               "the steps, or unfold the part in one step.");
+        return;
+    }
+    document.session.options.steps = {{last, &last->run}, next.polish};
+    run_to(next.to, "Running the chain");
 }
 
 void ViewerModel::say_steps_run(const StepsOutcome& outcome)

@@ -151,6 +151,8 @@ void dialogs(Frame& frame)
         frame.actions.push(SetLimits{choice});
         break;
     }
+    case FileDialog::Purpose::open_steps: frame.actions.push(OpenSteps{*path}); break;
+    case FileDialog::Purpose::save_steps: frame.actions.push(SaveSteps{*path}); break;
     case FileDialog::Purpose::open_material: frame.actions.push(SetMaterial{path->string()}); break;
     case FileDialog::Purpose::open_tensile_test:
         frame.ui.fitting.table = path->string();

@@ -35,6 +35,8 @@ const Wording& wording(FileDialog::Purpose purpose)
     static const Wording save{"Save the project", "Save", {".spia"}, true, false};
     static const Wording folder{"Choose a folder", "Choose this folder", {}, false, true};
     static const Wording report{"Save the report", "Save", {".html"}, true, false};
+    static const Wording steps{"Open the steps", "Open", {".json"}, false, false};
+    static const Wording save_steps{"Save the steps", "Save", {".json"}, true, false};
     static const Wording picture{"Save a picture", "Save", {".png"}, true, false};
     switch (purpose) {
     case P::open_part: return part;
@@ -47,6 +49,8 @@ const Wording& wording(FileDialog::Purpose purpose)
     case P::export_folder: return folder;
     case P::save_report: return report;
     case P::save_picture: return picture;
+    case P::open_steps: return steps;
+    case P::save_steps: return save_steps;
     }
     return part;
 }

@@ -22,7 +22,9 @@ public:
         open_material,
         open_tensile_test,
         save_material,
-        open_limit_curve
+        open_limit_curve,
+        open_steps,
+        save_steps
     };
 
     /// @param suggestion file or folder to begin with; may be empty

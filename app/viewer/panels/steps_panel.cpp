@@ -3,6 +3,7 @@
 
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -142,11 +143,15 @@ void unfold_step(Frame& frame)
         solved = Status::poor;
     step_heading(frame, 3, "Unfold", solved);
     const auto stale = first_stale(frame.state.document);
-    ImGui::BeginDisabled(!session.part || !stale || *stale > Stage::solve || frame.state.job.running);
+    const auto& steps = frame.state.document.made_with.steps;
+    const bool of_steps = session.blank && steps;
+    ImGui::BeginDisabled(!session.part || frame.state.job.running || (!of_steps && (!stale || *stale > Stage::solve)));
     if (ImGui::Button("Unfold"))
         frame.actions.push(RunTo{Stage::solve});
     ImGui::EndDisabled();
-    tooltip("Finds the flat blank that one forming step turns into the part  (F6)");
+    tooltip(of_steps
+                ? "Finds the flat blank that one forming step turns into the part, in place of that of the steps  (F6)"
+                : "Finds the flat blank that one forming step turns into the part  (F6)");
     if (!session.blank) {
         direction_control(frame);
         skins_control(frame);
@@ -160,12 +165,15 @@ void unfold_step(Frame& frame)
     ImGui::TextColored(old    ? p.muted
                        : fine ? p.good
                               : p.warning,
-                       fine ? "converged"
+                       of_steps && !steps->polish ? fmt::format("from {} steps", steps->run->states.size()).c_str()
+                       : of_steps && fine         ? "from steps, polished"
+                       : fine                     ? "converged"
                        : flat.report.converged
                            ? flat.report.relaxed_vertices > 0 ? "converged, relaxed" : "converged, with a note"
                            : "not converged");
     if (!fine)
-        coloured(p.warning, as_sentence(flat.report.reason) + ". " + advice(flat.report));
+        coloured(p.warning,
+                 as_sentence(flat.report.reason) + "." + (of_steps && !steps->polish ? "" : " " + advice(flat.report)));
     direction_control(frame);
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
@@ -178,9 +186,10 @@ void unfold_step(Frame& frame)
         figure(frame, "Beyond trusted strain", fmt::format("{} triangles", flat.necking_triangles));
         ImGui::PopStyleColor();
     }
-    figure(
-        frame, "Steps",
-        fmt::format("{} + {} in {:.2g} s", flat.report.energy.size(), flat.report.newton.size(), flat.report.seconds));
+    if (!of_steps || steps->polish)
+        figure(frame, "Steps",
+               fmt::format("{} + {} in {:.2g} s", flat.report.energy.size(), flat.report.newton.size(),
+                           flat.report.seconds));
 }
 
 /// Of a cell that isogeometric analysis can still live with; below it the map is nearly singular.
@@ -328,9 +337,12 @@ void steps_panel(Frame& frame)
         if (primary_button(frame, "Open a part..."))
             choose_part(frame);
     } else if (first_stale(document)) {
-        if (primary_button(frame, document.session.surface ? "Update all"
-                                  : document.session.blank ? "Make grid and surface"
-                                                           : "Unfold and fit a surface"))
+        const char* label = document.session.surface ? "Update all"
+                            : document.session.blank ? "Make grid and surface"
+                                                     : "Unfold and fit a surface";
+        // While steps wait to go on, the next step is there.
+        const bool steps_wait = frame.ui.steps_listed && (!all_steps_done(document) || blank_of_steps_waits(document));
+        if (steps_wait ? ImGui::Button(label, {-1, ImGui::GetFrameHeight() * 1.15f}) : primary_button(frame, label))
             frame.actions.push(RunTo{Stage::fit});
         tooltip("Runs every step that is missing or out of date  (F5)");
     } else if (primary_button(frame, "Export..."))

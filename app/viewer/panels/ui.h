@@ -91,7 +91,10 @@ struct Ui {
     std::string region_name;
     RegionKind region_kind = RegionKind::fixed;
     std::optional<EditedRegion> edited_region;
-    int step_fixed = 0, step_freed = -1; ///< regions of the step to be added; -1: the selection
+    int step_fixed = 0, step_freed = -1;                ///< regions of the step to be added; -1: the selection
+    int step_onto = -1;                                 ///< region whose plane is its target; -1: fitted to what stays
+    bool polish_steps = false;                          ///< their blank, when it is taken for the chain
+    std::map<std::string, std::array<ImVec2, 2>> items; ///< of the steps, from and to: where a mouse finds them
     std::vector<StepPicture> step_pictures;
     bool steps_listed = false;          ///< in the last frame
     std::optional<float> playing;       ///< the unfolding, at this position

@@ -122,6 +122,7 @@ struct StepsCache {
     Memo<LineList, Mesh, Step> borders;
     Memo<std::vector<SceneLabel>, Mesh, Step, bool> labels;
     Memo<Mesh, Run, size_t> target;
+    Memo<Mesh, Mesh, Run, Step, size_t> target_to_be;
     Memo<FieldValues, Run, size_t, Field, bool> values;
     Memo<std::shared_ptr<const SceneField>, Mesh, Run, size_t, Field, bool> field;
     Memo<LineList, Mesh, std::vector<int>> selection;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/viewer/model/step_target.h"
+#include "app/viewer/views/best_view.h"
 #include "app/viewer/views/fault_scene.h"
 #include "app/viewer/views/isolines.h"
 #include "app/viewer/views/marking.h"
@@ -10,6 +12,7 @@
 #include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
+#include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -75,27 +78,59 @@ std::vector<FaceRegion> picks_of(const PlannedStep& step)
     return picks;
 }
 
-/// The face on which the chosen step has laid its faces; null: it is not run, or has none.
+std::vector<int> vertices_of(const Eigen::Matrix3Xi& triangle, const std::vector<int>& faces)
+{
+    std::vector<char> used(size_t(triangle.maxCoeff()) + 1, 0);
+    for (const int f : faces)
+        for (const int v : triangle.col(f))
+            used[size_t(v)] = 1;
+    std::vector<int> vertex;
+    for (size_t v = 0; v < used.size(); ++v)
+        if (used[v])
+            vertex.push_back(int(v));
+    return vertex;
+}
+
+/// The face on which a step will lay its faces, as far as that is known before; null: it is fitted to a smooth one, or there is none.
+std::shared_ptr<const SceneMesh> target_to_be(const TriMesh& before, const PlannedStep& step)
+{
+    if (!step.pick.target && step.kind != UnfoldKind::lay)
+        return nullptr;
+    try {
+        const std::optional<BinderFace> face = planned_target(before, step);
+        if (!face)
+            return nullptr;
+        const Eigen::Matrix3Xd freed = before.position(Eigen::all, vertices_of(before.triangle, step.pick.freed));
+        double height = 0; // so far it may come to lie from where it stands now
+        for (const auto x : freed.colwise())
+            height = std::max(height, (x - placed(*face, developed(*face, x))).norm());
+        return std::make_shared<SceneMesh>(scene_mesh(target_patch(*face, freed, height)));
+    } catch (const InputError&) { // running the step says what is wrong with it
+        return nullptr;
+    }
+}
+
+/// The face on which the chosen step has laid its faces or will; null: it has none.
 std::shared_ptr<const SceneMesh> target_of(const ViewerState& state, const PlannedStep& step, SceneCache& cache)
 {
     const auto number = size_t(*state.view.step);
-    if (number >= steps_done(state.document))
-        return nullptr;
+    const size_t done = steps_done(state.document);
     const auto& run = state.document.unfolding;
+    if (number >= done) {
+        if (number > done && !step.pick.target) // what carries it may still move
+            return nullptr;
+        return cache.steps.target_to_be.of(
+            {part_shape(state, cache).mesh, run, state.document.steps[number], done}, [&] {
+                return target_to_be(
+                    {unfolded_places(state.document, double(done)), state.document.session.part->mesh.triangle}, step);
+            });
+    }
     return cache.steps.target.of({run, number}, [&]() -> std::shared_ptr<const SceneMesh> {
         const UnfoldState& after = run->run.states[number];
         if (!after.on)
             return nullptr;
-        std::vector<char> used(size_t(after.position.cols()), 0);
-        for (const int f : step.pick.freed)
-            for (const int v : run->part->mesh.triangle.col(f))
-                used[size_t(v)] = 1;
-        std::vector<int> vertex;
-        for (size_t v = 0; v < used.size(); ++v)
-            if (used[v])
-                vertex.push_back(int(v));
-        return std::make_shared<SceneMesh>(
-            scene_mesh(target_patch(after.on->face, after.position(Eigen::all, vertex))));
+        return std::make_shared<SceneMesh>(scene_mesh(target_patch(
+            after.on->face, after.position(Eigen::all, vertices_of(run->part->mesh.triangle, step.pick.freed)))));
     });
 }
 
@@ -153,17 +188,22 @@ void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, s
     picture.scene.layers.push_back(std::move(sheet));
     picture.scene.box = Eigen::AlignedBox3d(place.rowwise().minCoeff(), place.rowwise().maxCoeff());
     constexpr double around = 2; // pixels
-    picture.camera = fit(look(Camera{}, StandardView::isometric), place, size, {around, around, around, around});
+    std::vector<Eigen::Matrix3Xd> states{place};
+    if (after == number + 1)
+        states.push_back(unfolded_places(document, double(number)));
+    Camera camera;
+    camera.turn = best_turn(document.session.part->mesh.triangle, states, step->pick.freed);
+    picture.camera = fit(camera, place, size, {around, around, around, around});
 }
 
-TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places)
+TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm)
 {
     constexpr double margin = 0.08; // of the diagonal of what lies on it
     constexpr int cells = 40;
     Eigen::AlignedBox2d box;
     for (const auto place : places.colwise())
         box.extend(developed(face, place));
-    const double around = margin * box.diagonal().norm();
+    const double around = beyond_mm + margin * (box.diagonal().norm() + beyond_mm);
     const Eigen::Vector2d from = box.min().array() - around, step = (box.sizes().array() + 2 * around) / double(cells);
     TriMesh patch{Eigen::Matrix3Xd(3, (cells + 1) * (cells + 1)), Eigen::Matrix3Xi(3, 2 * cells * cells)};
     int next = 0;

@@ -7,12 +7,12 @@ namespace spia::viewer {
 bool shows_steps(const ViewerState& state);
 
 /// The part as far as the slider has unfolded it: of the chosen step the faces that carry yellow, those it moves green, its target
-/// a translucent patch around where they come to lie; or the field of the state.
+/// (also before it is run) a translucent patch around where they come to lie; or the field of the state.
 /// @param state  with a part
 Scene step_scene(const ViewerState& state, SceneCache& cache);
 
 /// A small picture of a step: the part after it, or if it is not run after the last one before that is; what carries it yellow, what
-/// it moves green.
+/// it moves green, from where that is best seen before and after (best_turn()).
 struct StepPicture {
     std::shared_ptr<const PartFile> part; ///< with the next three: what it is of
     std::shared_ptr<const StepsRun> run;
@@ -25,6 +25,7 @@ struct StepPicture {
 void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, size_t number, glm::dvec2 size);
 
 /// A patch of a face in space around some places of it, with a margin. mm
-TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places);
+/// @param beyond_mm so much farther to all sides
+TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm = 0);
 
 } // namespace spia::viewer

@@ -142,6 +142,7 @@ TEST(Report, HasTheKeysOfTheContractAndTheFiguresOfTheResult)
                             "/part/triangles",
                             "/part/boundary_loops",
                             "/part/area_mm2",
+                            "/source/from",
                             "/solve/converged",
                             "/solve/reason",
                             "/solve/energy_iterations",

@@ -48,6 +48,11 @@ std::vector<Action> every_action()
                         "mine.json",
                         {{TensileOptions::Kind::truly, true, 2e5}, "voce", "mine", 0.29, 7900, 1.1, 1.2, 1.3}});
         set(SetSkins{false});
+        set(UseBlankOfSteps{true});
+        set(OpenSteps{"steps.json"});
+        set(SaveSteps{"steps.json"});
+        set(SetTargetPlane{1, 2});
+        set(SetCarrying{3, 4});
         set(ShowFault{2, 7});
         set(SetMaterial{"dp600"});
         set(SetThickness{0.8});

@@ -1,0 +1,54 @@
+#include "app/cli/surface_of_steps.h"
+
+#include <chrono>
+
+#include "app/cli/terminal.h"
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
+#include "engine/pipeline/outputs.h"
+
+namespace spia::cli {
+
+SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
+                                const FlattenOptions& options)
+{
+    SurfaceOfSteps made;
+    Session& session = made.session;
+    session.file = arguments.part;
+    session.part = std::make_shared<PartFile>(part);
+    session.options.flatten = options;
+    session.options.steps = {std::make_shared<UnfoldRun>(run), arguments.surface == "polished"};
+    for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit}) {
+        JobDisplay display{std::string(name(stage))};
+        try {
+            session = run_stage(stage, session, display.progress());
+            display.done(session.seconds.at(stage));
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::exception& reason) { // what the steps gave is worth writing all the same
+            made.failure = {stage, reason.what()};
+            break;
+        }
+    }
+    return made;
+}
+
+std::vector<std::filesystem::path> write_surface(const UnfoldArguments& arguments, const SurfaceOfSteps& made)
+{
+    if (!made.session.blank || arguments.folder.empty())
+        return {};
+    OutputOptions wanted;
+    wanted.name = arguments.name;
+    const auto clock = std::chrono::steady_clock::now();
+    JobDisplay display{"write"};
+    auto files = write_outputs(made.session, arguments.folder, arguments.surface_formats, wanted, display.progress());
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    display.done(seconds);
+    const std::string stem = arguments.name.empty() ? arguments.part.stem().string() : arguments.name;
+    const auto report = arguments.folder / (stem + ".json");
+    write_atomically(report, report_json(made.session, files, seconds, made.failure));
+    files.push_back(report);
+    return files;
+}
+
+} // namespace spia::cli

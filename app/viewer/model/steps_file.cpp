@@ -1,0 +1,70 @@
+// The steps as a file of the command line.
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/unfolding_steps.h"
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
+#include "engine/pipeline/unfold_file.h"
+
+namespace spia::viewer {
+namespace {
+
+/// Names of regions in a file are those of the part's map.
+std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known)
+{
+    return known && known->part == part ? known : std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
+}
+
+} // namespace
+
+StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
+                        const std::filesystem::path& file, const Progress& progress)
+{
+    StepsOutcome outcome;
+    try {
+        progress.checkpoint(0, "finding the bends");
+        outcome.bends = bends_of(part, std::move(bends));
+        progress.checkpoint(0.7, "reading the steps");
+        ReadScript read = read_unfold_script(file, *part, outcome.bends->map);
+        progress.checkpoint(1, "reading the steps");
+        if (read.steps.empty())
+            throw InputError(fmt::format("No step of {} makes sense on this part: {}", file.filename().string(),
+                                         read.findings.front()));
+        outcome.opened = file;
+        outcome.notes = std::move(read.findings);
+        std::stable_partition(outcome.notes.begin(), outcome.notes.end(), // what became of the steps counts most
+                              [](const std::string& note) { return note.starts_with("step "); });
+        outcome.proposed.emplace();
+        for (PlannedStep& step : read.steps)
+            outcome.proposed->push_back(std::make_shared<PlannedStep>(std::move(step)));
+    } catch (const Cancelled&) {
+        outcome.cancelled = true;
+    } catch (const std::exception& error) {
+        outcome.failure = error.what();
+    }
+    return outcome;
+}
+
+StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
+                        const StepList& steps, const std::filesystem::path& file, const Progress& progress)
+{
+    StepsOutcome outcome;
+    try {
+        progress.checkpoint(0, "finding the bends");
+        outcome.bends = bends_of(part, std::move(bends));
+        progress.checkpoint(0.9, "writing the steps");
+        UnfoldScript script;
+        for (const auto& step : steps)
+            script.push_back(*step);
+        write_atomically(file, unfold_script_json(*part, outcome.bends->map, script));
+        outcome.saved = file;
+    } catch (const Cancelled&) {
+        outcome.cancelled = true;
+    } catch (const std::exception& error) {
+        outcome.failure = error.what();
+    }
+    return outcome;
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/panels/step_parts.h"
+
+namespace spia::viewer {
+namespace {
+
+/// A row of three numbers with its name.
+bool place_row(Frame& frame, const char* label, Eigen::Vector3d& v)
+{
+    ImGui::SetNextItemWidth(190 * frame.ui.scale);
+    return typed_numbers(frame, label, v.data(), 3, "%.4g");
+}
+
+/// The numbers of a target of one's own.
+bool target_numbers(Frame& frame, StepTarget& target)
+{
+    const float width = 86 * frame.ui.scale;
+    bool changed = false;
+    if (target.plane) {
+        changed |= place_row(frame, "Through", target.plane->origin);
+        Eigen::Vector3d normal = target.plane->normal;
+        if (place_row(frame, "Normal", normal) && normal.norm() > 0) {
+            target.plane->normal = normal;
+            changed = true;
+        }
+    } else if (target.cylinder) {
+        changed |= place_row(frame, "On axis", target.cylinder->origin);
+        Eigen::Vector3d axis = target.cylinder->axis;
+        if (place_row(frame, "Axis", axis) && axis.norm() > 0) {
+            target.cylinder->axis = axis;
+            changed = true;
+        }
+        ImGui::SetNextItemWidth(width);
+        changed |= typed_number(frame, "Radius, mm", target.cylinder->radius, "%.5g");
+        target.cylinder->radius = std::max(1e-6, target.cylinder->radius);
+    } else if (target.cone) {
+        changed |= place_row(frame, "Apex", target.cone->apex);
+        Eigen::Vector3d axis = target.cone->axis;
+        if (place_row(frame, "Axis", axis) && axis.norm() > 0) {
+            target.cone->axis = axis;
+            changed = true;
+        }
+        ImGui::SetNextItemWidth(width);
+        changed |= typed_number(frame, "Half angle, \u00b0", target.cone->half_angle_deg, "%.5g");
+        target.cone->half_angle_deg = std::clamp(target.cone->half_angle_deg, 1e-3, 89.999);
+    }
+    return changed;
+}
+
+/// The face onto which a step lays: fitted, or by numbers, or from what is selected. @returns whether `edited` has changed
+bool target_editor(Frame& frame, int number, ChangeStep& edited)
+{
+    const Document& document = frame.state.document;
+    const PlannedStep& step = *document.steps[size_t(number)];
+    StepTarget target = numbers_of(step);
+    static constexpr const char* names[] = {"fitted to what stays", "plane", "cylinder", "cone"};
+    const int now = int(kind_of(target));
+    int wanted = now;
+    bool changed = false;
+    ImGui::SetNextItemWidth(190 * frame.ui.scale);
+    if (ImGui::Combo("Target", &wanted, names, 4) && wanted != now) {
+        const double before = double(std::min(size_t(number), steps_done(document)));
+        target = suggested_target(TargetKind(wanted),
+                                  {unfolded_places(document, before), document.session.part->mesh.triangle}, step);
+        changed = true;
+    }
+    note_place(frame, "target");
+    tooltip("The face onto which it unfolds, translucent in the view");
+    changed |= target_numbers(frame, target);
+    if (changed)
+        edited.target = target;
+    const bool nothing = document.selected.empty();
+    ImGui::BeginDisabled(nothing);
+    if (small_button(frame, "Plane of selection"))
+        frame.actions.push(SetTargetPlane{number, {}});
+    ImGui::EndDisabled();
+    tooltip(nothing ? "Select faces first: the target becomes the plane through them"
+                    : "The target becomes the plane through the selected faces");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(nothing);
+    if (small_button(frame, "Fit to selection"))
+        frame.actions.push(SetCarrying{number, {}});
+    ImGui::EndDisabled();
+    tooltip(nothing ? "Select faces that stay first: the target is fitted to them"
+                    : "The target is fitted to the selected faces, which stay");
+    return changed;
+}
+
+std::string own_name(const std::string& name) { return name; }
+
+/// A region to choose, or something else (-1) that has a name of its own.
+void region_combo(Frame& frame, const char* label, int& chosen, const std::string& other,
+                  std::string (*words)(const std::string&))
+{
+    const Document& document = frame.state.document;
+    const int first = other.empty() ? 0 : -1;
+    const auto text = [&](int k) { return k < 0 ? other : words(document.regions[size_t(k)].name); };
+    chosen = std::clamp(chosen, first, int(document.regions.size()) - 1);
+    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    if (!ImGui::BeginCombo(label, text(chosen).c_str()))
+        return;
+    for (int k = first; k < int(document.regions.size()); ++k) {
+        ImGui::PushID(k);
+        if (ImGui::Selectable(text(k).c_str(), k == chosen))
+            chosen = k;
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+} // namespace
+
+void step_editor(Frame& frame, int number)
+{
+    const PlannedStep& step = *frame.state.document.steps[size_t(number)];
+    ChangeStep edited{number, step.name, step.offset_mm, step.within_mm, step.tolerance, {}};
+    ImGui::SetNextItemWidth(-1);
+    bool changed = typed_text(frame, "##name", edited.name, "name");
+    const float width = 86 * frame.ui.scale;
+    if (step.kind == UnfoldKind::lay) {
+        changed |= target_editor(frame, number, edited);
+        ImGui::SetNextItemWidth(width);
+        changed |= typed_number(frame, "Offset, mm", edited.offset_mm, "%.4g");
+        tooltip("Moves the target to its outer side");
+        if (!step.pick.target) {
+            ImGui::SetNextItemWidth(width);
+            changed |= typed_number(frame, "Within, mm", edited.within_mm, "%.4g");
+            edited.within_mm = std::max(0., edited.within_mm);
+            tooltip(
+                "How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is "
+                "none, a smooth face through them.");
+        }
+    }
+    if (step.kind != UnfoldKind::unroll) {
+        double tolerance = edited.tolerance.value_or(FlattenOptions{}.tolerance);
+        ImGui::SetNextItemWidth(width);
+        if (typed_number(frame, "Tolerance", tolerance, "%.1e")) {
+            edited.tolerance = std::clamp(tolerance, 1e-14, 0.1);
+            changed = true;
+        }
+        tooltip("Of the solver: a larger one lets a step end that nearly converges");
+    }
+    if (changed)
+        frame.actions.push(edited);
+    const int last = int(frame.state.document.steps.size()) - 1;
+    ImGui::BeginDisabled(number == 0);
+    if (small_button(frame, "Up"))
+        frame.actions.push(MoveStep{number, number - 1});
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::BeginDisabled(number == last);
+    if (small_button(frame, "Down"))
+        frame.actions.push(MoveStep{number, number + 1});
+    note_place(frame, "down");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (small_button(frame, "Remove"))
+        frame.actions.push(RemoveStep{number});
+    ImGui::SameLine();
+    if (small_button(frame, "Select faces"))
+        frame.actions.push(SelectFaces{step.pick.freed});
+    tooltip("Selects the faces that it moves");
+}
+
+void new_step(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (!ImGui::TreeNodeEx("Add a step", ImGuiTreeNodeFlags_NoTreePushOnOpen))
+        return;
+    if (document.regions.empty())
+        return muted(frame, "Make a region of the faces that stay, below, and select those to unfold onto their face.");
+    Ui& ui = frame.ui;
+    region_combo(frame, "stays", ui.step_fixed, "", own_name);
+    tooltip("The region on whose plane, cylinder, cone or smooth face the others are laid");
+    region_combo(frame, "unfolds", ui.step_freed, fmt::format("{} selected", document.selected.size()), own_name);
+    tooltip("What moves: with the bend between them");
+    region_combo(frame, "onto", ui.step_onto, "the face of what stays",
+                 [](const std::string& name) { return fmt::format("plane of {}", name); });
+    tooltip(
+        "Its target: fitted to what stays, or the plane through a region. Numbers can be given once it is in the list.");
+    const bool nothing = ui.step_freed < 0 && document.selected.empty();
+    ImGui::BeginDisabled(nothing || ui.step_fixed == ui.step_freed);
+    if (ImGui::Button("Add step", {-1, 0}))
+        frame.actions.push(AddStep{ui.step_fixed,
+                                   ui.step_freed < 0 ? std::nullopt : std::optional(ui.step_freed),
+                                   {},
+                                   {},
+                                   ui.step_onto < 0 ? std::nullopt : std::optional(ui.step_onto)});
+    ImGui::EndDisabled();
+    if (nothing)
+        muted(frame, "Select the faces to unfold.");
+}
+
+} // namespace spia::viewer

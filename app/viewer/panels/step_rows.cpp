@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/panels/step_parts.h"
+
+namespace spia::viewer {
+namespace {
+
+const char* status_words(StepStatus status)
+{
+    switch (status) {
+    case StepStatus::missing: return "not run yet";
+    case StepStatus::done: return "";
+    case StepStatus::poor: return "not converged";
+    case StepStatus::stale: return "out of date";
+    case StepStatus::failed: return "no result";
+    }
+    return "";
+}
+
+ImVec4 status_colour(const Palette& p, StepStatus status)
+{
+    return status == StepStatus::done                                  ? p.good
+           : status == StepStatus::poor || status == StepStatus::stale ? p.warning
+           : status == StepStatus::failed                              ? p.error
+                                                                       : p.muted;
+}
+
+/// With a sign, but for what is nothing when rounded.
+std::string percent(double share)
+{
+    const double tenths = std::round(1000 * share) / 10;
+    return tenths == 0 ? "0" : fmt::format("{:+.1f}", tenths);
+}
+
+/// How well the target goes on from what stays.
+std::string hinge_words(const StepFigures::Hinge& hinge)
+{
+    return fmt::format("hinge {} mm off, turned {:.1f}\u00b0",
+                       hinge.distance_mm < 5e-4 ? "0" : fmt::format("{:.2g}", hinge.distance_mm), hinge.angle_deg);
+}
+
+/// The figures of a step, or why there are none, in one line below its name.
+void figures_line(Frame& frame, size_t number, StepStatus status)
+{
+    const Document& document = frame.state.document;
+    const Palette p = palette_of(frame.state.view.dark);
+    ImGui::PushFont(frame.ui.fonts.small);
+    if (status == StepStatus::done || status == StepStatus::poor) {
+        const StepFigures& figures = document.unfolding->figure[number];
+        const UnfoldState& after = document.unfolding->run.states[number];
+        std::string text =
+            fmt::format("{}, strain to {:.3f}\nthinning {} to {} %", after.plain, figures.strain_equivalent,
+                        percent(figures.thinning[0]), percent(figures.thinning[1]));
+        const bool bad = figures.hinge && figures.hinge->bad;
+        if (figures.hinge && !bad)
+            text.append("\n").append(hinge_words(*figures.hinge));
+        muted(frame, text);
+        tooltip(
+            "What it was laid on; equivalent strain and thinning per face of the faces that it moves; where these hang on what "
+            "stays, how far the target lies beside it, and by how much it turns from it.");
+        if (bad) {
+            coloured(p.warning, hinge_words(*figures.hinge));
+            tooltip(
+                "Where what moves hangs on what stays the target lies beside it or turns from it: the sheet has a step or a "
+                "crease there. Fit the target to other faces, or give it other numbers.");
+        }
+        if (status == StepStatus::poor)
+            coloured(p.warning, "Not converged: " + after.reason);
+    } else if (status == StepStatus::failed)
+        coloured(p.error, as_sentence(in_viewer_words(document.unfolding->run.failure)));
+    else
+        coloured(status_colour(p, status), status_words(status));
+    ImGui::PopFont();
+}
+
+/// The beginning of a text that has a width, with dots where it goes on.
+std::string cut_to(const std::string& text, float width)
+{
+    if (ImGui::CalcTextSize(text.c_str()).x <= width)
+        return text;
+    std::string cut = text;
+    while (!cut.empty() && ImGui::CalcTextSize((cut + "...").c_str()).x > width) {
+        while (!cut.empty() && (cut.back() & 0xc0) == 0x80) // a letter of several bytes
+            cut.pop_back();
+        if (!cut.empty())
+            cut.pop_back();
+    }
+    return cut + "...";
+}
+
+/// A small picture of the step where there is room for it. @returns its width with what is beside it, pixels
+float thumbnail(Frame& frame, size_t number, const ImVec4& border)
+{
+    constexpr int most_triangles = 200'000; // of a part: each picture has a mesh of its own
+    const Document& document = frame.state.document;
+    const float s = frame.ui.scale;
+    const ImVec2 size{64 * s, 48 * s}, at = ImGui::GetCursorScreenPos();
+    if (document.session.part->mesh.triangles() > most_triangles || !frame.draw_step)
+        return 0;
+    auto& pictures = frame.ui.step_pictures;
+    pictures.resize(document.steps.size());
+    follow(pictures[number], frame.state, frame.cache, number, {double(size.x), double(size.y)});
+    const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const ImVec2 to{at.x + size.x, at.y + size.y};
+    if (ImGui::IsRectVisible(at, to))
+        if (const ImTextureID texture =
+                frame.draw_step(pictures[number], number, int(size.x * dots.x), int(size.y * dots.y)))
+            draw->AddImage(texture, at, to, {0, 1}, {1, 0});
+    draw->AddRect(at, to, ink(border));
+    return size.x + 8 * s;
+}
+
+} // namespace
+
+void step_row(Frame& frame, int number)
+{
+    const PlannedStep& step = *frame.state.document.steps[size_t(number)];
+    const StepStatus status = step_status(frame.state.document, size_t(number));
+    const Palette p = palette_of(frame.state.view.dark);
+    const bool chosen = frame.state.view.step == number;
+    const float top = ImGui::GetCursorPosY(), s = frame.ui.scale;
+    const float beside = thumbnail(frame, size_t(number), chosen ? p.accent : p.line);
+    ImGui::Indent(std::max(beside, 1.f));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float r = 4 * s, room = ImGui::GetContentRegionAvail().x;
+    const float text_from = 2 * r + 6 * s;
+    if (ImGui::Selectable("##row", chosen, 0, {0, ImGui::GetTextLineHeight()})) {
+        frame.ui.playing.reset();
+        frame.actions.push(chosen ? ShowStep{} : ShowStep{number, {}});
+    }
+    note_place(frame, fmt::format("step {}", number + 1));
+    tooltip(fmt::format("{}: {} faces. A click shows it and lets change it, another one shows the part again.",
+                        step.name, step.pick.freed.size()));
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddCircleFilled({at.x + r, at.y + ImGui::GetTextLineHeight() / 2}, r, ink(status_colour(p, status)), 16);
+    draw->AddText({at.x + text_from, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
+                  cut_to(fmt::format("{}  {}", number + 1, step.name), room - text_from).c_str());
+    figures_line(frame, size_t(number), status);
+    ImGui::Unindent(std::max(beside, 1.f));
+    if (beside > 0)
+        ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + 52 * s));
+    if (chosen)
+        step_editor(frame, number);
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,25 @@
+#include "engine/forming/volume_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/forming/membrane.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+
+double volume_error(const TriMesh& part, const Blank& blank, const SheetFields& face, const Eigen::VectorXd& thickness)
+{
+    const Eigen::VectorXd formed = area_vectors(part).colwise().norm();
+    double largest = 0;
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto x = corners(blank.position, part.triangle.col(f));
+        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
+        const double flat = 0.5 * (p[0] * q[1] - p[1] * q[0]);
+        const double h0 = thickness[f];
+        largest = std::max(largest, std::abs(face.thickness[f] * formed[f] - h0 * flat) / (h0 * flat));
+    }
+    return largest;
+}
+
+} // namespace spia

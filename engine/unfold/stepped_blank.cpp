@@ -1,0 +1,73 @@
+#include "engine/unfold/stepped_blank.h"
+
+#include <Eigen/Dense>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+#include "engine/forming/process.h"
+#include "engine/forming/seen_along.h"
+#include "engine/forming/sheet_fields.h"
+#include "engine/forming/skin_strain.h"
+#include "engine/forming/volume_error.h"
+
+namespace spia {
+namespace {
+
+/// Where the axes of the blank's coordinates point in the plane in which the last state lies.
+Eigen::Matrix<double, 3, 2> axes_of(const Eigen::Matrix3Xd& state, const Eigen::Matrix2Xd& blank)
+{
+    const Eigen::Matrix3Xd X = state.colwise() - state.rowwise().mean();
+    const Eigen::Matrix2Xd B = blank.colwise() - blank.rowwise().mean();
+    Eigen::Matrix<double, 3, 2> axes = X * B.transpose() * (B * B.transpose()).inverse();
+    axes.col(0).normalize();
+    axes.col(1) = (axes.col(1) - axes.col(0).dot(axes.col(1)) * axes.col(0)).normalized();
+    return axes;
+}
+
+/// How the steps ended.
+SolveReport report_of(const UnfoldRun& run, const FlattenOptions& options)
+{
+    SolveReport report;
+    report.converged = true;
+    report.trusted_strain = options.curve.trusted_strain;
+    for (size_t k = 0; k < run.states.size(); ++k) {
+        const UnfoldState& state = run.states[k];
+        report.seconds += state.seconds;
+        if (!state.converged && report.converged)
+            report.reason = fmt::format("step {} \"{}\" did not converge: {}", k + 1, state.name, state.reason);
+        report.converged &= state.converged;
+    }
+    report.system = report.converged ? SolvedSystem::strict : SolvedSystem::energy;
+    if (report.converged)
+        report.reason = fmt::format("made in {} step{}, each of which converged", run.states.size(),
+                                    run.states.size() == 1 ? "" : "s");
+    return report;
+}
+
+} // namespace
+
+FlattenResult stepped_blank(const TriMesh& part, const UnfoldRun& run, const FlattenOptions& options)
+{
+    if (!run.blank)
+        throw InputError("the steps gave no blank; mend them until the part lies in a plane");
+    if (run.flipped > 0)
+        throw InputError(fmt::format("the blank of the steps has {} flipped triangle{}; unfold there in smaller steps",
+                                     run.flipped, run.flipped == 1 ? "" : "s"));
+    const std::vector<Element> element = elements(part);
+    const Eigen::Matrix<double, 3, 2> axes = axes_of(run.states.back().position, run.blank->position);
+    const Sheet sheet = sheet_of(options.material, options.thickness, options.curve, options.process, part, axes);
+    FlattenResult result{};
+    result.blank = *run.blank;
+    result.face = run.states.back().face;
+    result.node = node_fields(part, element, result.face);
+    if (options.skins)
+        result.skins = skin_strains(part, element, result.blank, sheet);
+    result.stamping = seen_along(part, axes.col(0).cross(axes.col(1)));
+    result.report = report_of(run, options);
+    result.necking_triangles = result.face.necking.sum();
+    result.overlap = overlap(part, result.blank.position);
+    result.volume_error = volume_error(part, result.blank, result.face, sheet.thickness);
+    return result;
+}
+
+} // namespace spia

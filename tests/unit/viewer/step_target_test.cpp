@@ -1,0 +1,203 @@
+// Targets of one's own for steps.
+#include "app/viewer/model/step_target.h"
+
+#include <cmath>
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include "app/viewer/model/script.h"
+#include "app/viewer/model/state_report.h"
+#include "engine/mesh/region.h"
+#include "tests/unit/viewer/steps_fixture.h"
+
+namespace spia::viewer {
+namespace {
+
+using testing::HasSubstr;
+using Target = UnfoldingSteps;
+
+/// The plane of the upright middle of the channel.
+Eigen::Vector2d web_of(const Document& document) { return {document.session.part->mesh.position.row(0).maxCoeff(), 0}; }
+
+FaceSet web_faces(const Document& document)
+{
+    const TriMesh& part = document.session.part->mesh;
+    const double right = web_of(document)[0];
+    FaceSet web;
+    for (int f = 0; f < part.triangles(); ++f)
+        if (part.position(0, part.triangle.col(f)).minCoeff() > right - 1e-4)
+            web.push_back(f);
+    return web;
+}
+
+} // namespace
+
+TEST(PlaneThrough, IsThatOfLeastSquaresHoweverTheFacesAreSplit)
+{
+    // A coarse and a fine half of one slightly bent sheet: the plane must not lean to the fine one.
+    const auto sheet = [](int coarse, int fine) {
+        const std::vector<shapes::Patch> halves{{{Eigen::Vector3d(-1, 0, 0.1), Eigen::Vector3d(0, 0, 0),
+                                                  Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(-1, 2, 0.1)},
+                                                 coarse,
+                                                 coarse},
+                                                {{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0.1),
+                                                  Eigen::Vector3d(1, 2, 0.1), Eigen::Vector3d(0, 2, 0)},
+                                                 fine,
+                                                 fine}};
+        return shapes::patchwork(halves);
+    };
+    const TriMesh mesh = sheet(2, 2), uneven = sheet(2, 32);
+    const auto all = [](const TriMesh& m) { return inverted({}, m.triangles()); };
+    for (const TriMesh& each : {mesh, uneven}) {
+        const PlaneThrough through = plane_through(each, all(each));
+        EXPECT_NEAR(through.plane.normal[2], 1, 1e-12);
+        EXPECT_NEAR(through.plane.origin[2], 0.05, 1e-12);
+        EXPECT_NEAR(through.distance_mm, 0.05, 1e-12);
+    }
+}
+
+TEST_F(Target, NumbersThatAreTheFittedPlaneGiveTheSameBlank)
+{
+    open_channel();
+    model.apply(SelectFaces{web_faces(document)});
+    model.apply(MakeRegion{"web", RegionKind::fixed});
+    model.apply(InvertSelection{});
+    model.apply(AddStep{0, {}, "fitted", {}});
+    run();
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    const Eigen::Matrix3Xd fitted = after(0).position;
+    const double right = web_of(document)[0];
+    model.apply(RemoveStep{0});
+    model.apply(AddStep{0, {}, "own", {.plane = TargetPlane{{right, 7, -30}, {2, 0, 0}}}});
+    ASSERT_EQ(document.steps.size(), 1u) << last(Severity::error);
+    run();
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    EXPECT_LT((after(0).position - fitted).cwiseAbs().maxCoeff(), 1e-6);
+    ASSERT_TRUE(document.unfolding->figure[0].hinge);
+    EXPECT_LT(document.unfolding->figure[0].hinge->distance_mm, 1e-6);
+    EXPECT_LT(document.unfolding->figure[0].hinge->angle_deg, 1e-3);
+    EXPECT_FALSE(document.unfolding->figure[0].hinge->bad);
+}
+
+TEST_F(Target, APlaneThatTurnsFromTheFixedFacesIsToldAsBad)
+{
+    open_channel();
+    model.apply(SelectFaces{web_faces(document)});
+    model.apply(MakeRegion{"web", RegionKind::fixed});
+    const double right = web_of(document)[0], top = document.session.part->mesh.position.row(2).maxCoeff() - 5;
+    FaceSet upper;
+    const TriMesh& part = document.session.part->mesh;
+    for (int f = 0; f < part.triangles(); ++f)
+        if (part.position(2, part.triangle.col(f)).minCoeff() > top - 1e-4)
+            upper.push_back(f);
+    model.apply(SelectFaces{upper});
+    const double lean = 20. / 180 * std::numbers::pi; // through the edge of the web, but not on from it
+    model.apply(AddStep{0, {}, "", {.plane = TargetPlane{{right, 0, top}, {std::cos(lean), 0, std::sin(lean)}}}});
+    run();
+    ASSERT_EQ(status(), std::vector{StepStatus::done}) << last(Severity::error);
+    const auto hinge = document.unfolding->figure[0].hinge;
+    ASSERT_TRUE(hinge);
+    EXPECT_NEAR(hinge->angle_deg, 20, 1e-3);
+    EXPECT_TRUE(hinge->bad);
+    EXPECT_EQ(state_report(state)["unfolding"]["steps"][0]["hinge"]["bad"], true);
+}
+
+TEST_F(Target, ThePlaneOfPickedFacesIsThatWhereTheyLieBeforeTheStep)
+{
+    open_box();
+    propose();
+    // Lips go onto the walls first: the plane of a lip is known before, and then only after a run.
+    const std::vector<int> lip = document.steps[0]->pick.freed;
+    model.apply(SelectFaces{lip});
+    model.apply(SetTargetPlane{4, {}});
+    EXPECT_THAT(last(Severity::error), HasSubstr("Step 1 moves some of these faces"));
+    run();
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    model.apply(SetTargetPlane{4, {}});
+    EXPECT_EQ(state.history.undo_name(), "Set target plane") << last(Severity::error);
+    const StepTarget target = numbers_of(*document.steps[4]);
+    ASSERT_TRUE(target.plane);
+    const Eigen::Matrix3Xd& before = after(3).position;
+    for (const int f : lip)
+        for (const int v : document.session.part->mesh.triangle.col(f))
+            EXPECT_LT(std::abs(target.plane->normal.dot(before.col(v) - target.plane->origin)), 1e-6);
+    EXPECT_EQ(steps_done(document), 4u) << "another target is another step";
+    model.apply(Undo{});
+    EXPECT_EQ(steps_done(document), 5u);
+}
+
+TEST_F(Target, TheFacesThatCarryItAreThosePicked)
+{
+    open_box();
+    propose();
+    const PlannedStep& last_step = *document.steps[4];
+    model.apply(SelectFaces{last_step.pick.freed});
+    model.apply(SetCarrying{4, {}});
+    EXPECT_THAT(last(Severity::error), HasSubstr("cannot carry its target"));
+    const std::vector<int> some(last_step.pick.fixed.begin(), last_step.pick.fixed.begin() + 20);
+    model.apply(SelectFaces{some});
+    model.apply(SetCarrying{4, {}});
+    EXPECT_EQ(document.steps[4]->pick.carrying, some) << last(Severity::error);
+    EXPECT_EQ(document.steps[4]->pick.fixed.size(), last_step.pick.fixed.size());
+    run();
+    EXPECT_TRUE(all_steps_done(document)) << last(Severity::error);
+    model.apply(ClearSelection{});
+    model.apply(SetCarrying{4, {}});
+    EXPECT_THAT(last(Severity::error), HasSubstr("Select the faces"));
+}
+
+TEST_F(Target, ProjectsAndScriptsKeepIt)
+{
+    open_channel();
+    model.apply(SelectFaces{web_faces(document)});
+    model.apply(MakeRegion{"web", RegionKind::fixed});
+    model.apply(InvertSelection{});
+    const double right = web_of(document)[0];
+    model.apply(action_from_json(
+        parse_json(
+            fmt::format(
+                R"({{"do": "add_step", "fixed": 0, "target": {{"plane": {{"origin": [{}, 0, 0], "normal": [1, 0, 0]}}}}}})",
+                right),
+            "test"),
+        state));
+    ASSERT_EQ(document.steps.size(), 1u) << last(Severity::error);
+    run();
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    const Eigen::Matrix3Xd flat = after(0).position;
+    model.apply(SaveProject{folder / "own.spia"});
+    model.apply(OpenProject{folder / "own.spia"});
+    wait();
+    ASSERT_TRUE(numbers_of(*document.steps[0]).plane);
+    EXPECT_NEAR(numbers_of(*document.steps[0]).plane->origin[0], right, 1e-9);
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    EXPECT_LT((after(0).position - flat).cwiseAbs().maxCoeff(), 1e-9);
+    const auto perform = [&](const char* text) {
+        model.apply(action_from_json(parse_json(text, "test"), state));
+        wait();
+    };
+    const auto before = document.steps[0]->pick.target;
+    perform(R"({"do": "change_step", "step": 0, "name": "named"})");
+    EXPECT_TRUE(same_target(document.steps[0]->pick.target, before)) << "what is not given stays";
+    EXPECT_EQ(steps_done(document), 1u);
+    perform(
+        R"({"do": "change_step", "step": 0, "target": {"cylinder": {"origin": [0, 0, 0], "axis": [0, 2, 0], "radius": 40}}})");
+    ASSERT_TRUE(numbers_of(*document.steps[0]).cylinder);
+    EXPECT_EQ(numbers_of(*document.steps[0]).cylinder->radius, 40);
+    EXPECT_EQ(steps_done(document), 0u);
+    perform(R"({"do": "change_step", "step": 0, "target": {}})");
+    EXPECT_TRUE(numbers_of(*document.steps[0]).fitted());
+    EXPECT_THROW(
+        action_from_json(
+            parse_json(
+                R"({"do": "change_step", "step": 0, "target": {"plane": {"origin": [0, 0, 0], "normal": [0, 0, 0]}}})",
+                "test"),
+            state),
+        InputError);
+    for (const Action& action :
+         {Action(ChangeStep{1, "b", 0, 0, {}, StepTarget{.cone = TargetCone{{1, 2, 3}, {0, 1, 0}, 12}}}),
+          Action(AddStep{1, 2, "c", {.plane = TargetPlane{{1, 2, 3}, {0, 1, 0}}}}), Action(SetTargetPlane{2, 1}),
+          Action(SetCarrying{3, {}}), Action(OpenSteps{"a.json"}), Action(SaveSteps{"b.json"})})
+        EXPECT_EQ(to_json(action_from_json(to_json(action), state)), to_json(action)) << to_json(action);
+}
+
+} // namespace spia::viewer
