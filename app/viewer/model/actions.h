@@ -9,6 +9,7 @@
 
 #include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
+#include "app/viewer/model/step_friction.h"
 #include "app/viewer/model/step_target.h"
 #include "engine/forming/material_fit.h"
 #include "engine/pipeline/outputs.h"
@@ -106,7 +107,8 @@ struct AddStep {
     std::optional<int> plane_of = {};
 };
 /// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0: automatic), tolerance (null: that
-/// of the solver), target (as of add_step; with none of the three it is fitted again; not given: stays)
+/// of the solver), target (as of add_step; with none of the three it is fitted again; not given: stays), friction of the target
+/// (force_N or pressure_MPa, friction, sides 1 or 2; null: none)
 struct ChangeStep {
     int step = 0;
     std::string name = {};
@@ -114,6 +116,7 @@ struct ChangeStep {
     double within_mm = 0;
     std::optional<double> tolerance = {};
     std::optional<StepTarget> target = {};
+    std::optional<StepFriction> friction = {};
 };
 /// "set_target_plane": the target of a step becomes the plane through the faces of a region (not given: the selected faces), as
 /// they lie before it

@@ -160,6 +160,12 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
         if (changed.pick.target && before.kind != UnfoldKind::lay)
             throw InputError("Only a step that lays faces on a face can have a target of its own.");
     }
+    if (action.friction != numbers_of(before.pick.friction)) {
+        if (action.friction && before.kind != UnfoldKind::lay)
+            throw InputError("Only a step that lays faces on a face can have friction on it.");
+        const std::vector<int> faces = before.pick.friction ? before.pick.friction->faces : std::vector<int>();
+        changed.pick.friction = action.friction ? std::optional(friction_of(*action.friction, faces)) : std::nullopt;
+    }
     replace_step("Change step", number, std::move(changed), true);
 }
 

@@ -138,6 +138,17 @@ inline constexpr auto members_of<ToolContact> =
     std::tuple{member("force_N", &ToolContact::force_N, Between{1e-9, 1e9}),
                member("pressure_MPa", &ToolContact::pressure_MPa, Between{1e-9, 1e5}),
                member("friction", &ToolContact::friction, Between{0, 10})};
+/// Likewise of a step's target.
+inline constexpr auto one_pressure = [](const std::optional<StepFriction>& friction, const Place& place) {
+    if (friction && friction->force_N.has_value() == friction->pressure_MPa.has_value())
+        place.fail("needs either the member \"force_N\" or \"pressure_MPa\"");
+};
+template <>
+inline constexpr auto members_of<StepFriction> =
+    std::tuple{member("force_N", &StepFriction::force_N, Between{1e-9, 1e9}),
+               member("pressure_MPa", &StepFriction::pressure_MPa, Between{1e-9, 1e5}),
+               member("friction", &StepFriction::friction, Between{0, 10}),
+               member("sides", &StepFriction::sides, Between{1, 2})};
 template <>
 inline constexpr auto members_of<OwnSheet> = std::tuple{
     required("material", &OwnSheet::material), required("thickness", &OwnSheet::thickness, Between{1e-6, 1e3})};

@@ -91,12 +91,14 @@ inline constexpr auto members_of<StoredStep> =
                member("fixed", &StoredStep::fixed, any_index),
                required("freed", &StoredStep::freed, any_index),
                member("carrying", &StoredStep::carrying, any_index),
+               member("rubbing", &StoredStep::rubbing, any_index),
                member("within_mm", &StoredStep::within_mm, Between{0, most_mm}),
                member("offset_mm", &StoredStep::offset_mm, Between{-most_mm, most_mm}),
                member("tolerance", &StoredStep::tolerance, Between{1e-15, 1}),
                member("most_energy_steps", &StoredStep::most_energy_steps, Between{0, 1e6}),
                member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6}),
-               member("target", &StoredStep::target, one_target)};
+               member("target", &StoredStep::target, one_target),
+               member("friction", &StoredStep::friction, one_pressure)};
 template <>
 inline constexpr auto members_of<StoredSteps> =
     std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step)};

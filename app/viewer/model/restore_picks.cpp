@@ -157,6 +157,15 @@ public:
             step.most_energy_steps = each.most_energy_steps;
             step.most_newton_steps = each.most_newton_steps;
             step.pick.target = face_of(each.target, part_.mesh, step.pick);
+            if (each.friction) {
+                std::vector<int> faces = all_of(each.rubbing, each.name);
+                if (faces.empty() && !each.rubbing.empty())
+                    missing.push_back(
+                        fmt::format("the faces on which the target of the step \"{}\" rubs are not on the "
+                                    "changed part any more; it rubs on all that the step moves",
+                                    each.name));
+                step.pick.friction = friction_of(*each.friction, std::move(faces));
+            }
             if (step.pick.freed.empty())
                 missing.push_back(fmt::format(
                     "the step \"{}\" has nothing to move on the changed part any more; it was removed", each.name));

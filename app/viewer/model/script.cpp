@@ -93,7 +93,8 @@ constexpr std::tuple forms{
                      member("offset_mm", &ChangeStep::offset_mm, Between{-most_mm, most_mm}),
                      member("within_mm", &ChangeStep::within_mm, Between{0, most_mm}),
                      member("tolerance", &ChangeStep::tolerance, Between{1e-15, 1}),
-                     member("target", &ChangeStep::target, one_target_if_any)),
+                     member("target", &ChangeStep::target, one_target_if_any),
+                     member("friction", &ChangeStep::friction, one_pressure)),
     form<SetTargetPlane>("set_target_plane", required("step", &SetTargetPlane::step, any_index),
                          member("region", &SetTargetPlane::region, any_index)),
     form<SetCarrying>("set_carrying", required("step", &SetCarrying::step, any_index),
@@ -220,7 +221,8 @@ template <> ChangeStep before(const Json& json, const ViewerState& state)
     if (number == json.end() || !number->is_number_unsigned() || number->get<size_t>() >= steps.size())
         return {}; // reading complains, or carrying it out
     const PlannedStep& step = *steps[number->get<size_t>()];
-    return {number->get<int>(), step.name, step.offset_mm, step.within_mm, step.tolerance, {}};
+    return {number->get<int>(), step.name, step.offset_mm, step.within_mm, step.tolerance, {},
+            numbers_of(step.pick.friction)};
 }
 
 template <class T> T read_action(const Json& json, const ViewerState& base, const Place& place)

@@ -173,6 +173,7 @@ Json unfolding_json(const ViewerState& state)
                      {"within_mm", step.within_mm},
                      {"tolerance", written(step.tolerance)},
                      {"target", written(numbers_of(step))},
+                     {"friction", written(numbers_of(step.pick.friction))},
                      {"status", name(step_status(document, k))}};
         if (k < done) {
             const UnfoldState& after = document.unfolding->run.states[k];

@@ -42,12 +42,16 @@ std::vector<StoredVertex> store_vertices(const PartFile& part, const std::vector
 /// Faces that all steps treat alike become one patch.
 StoredSteps store_steps(const PartFile& part, const StepList& steps)
 {
-    constexpr char is_fixed = 1, is_freed = 2, is_carrying = 4;
+    constexpr char is_fixed = 1, is_freed = 2, is_carrying = 4, is_rubbing = 8;
+    const std::vector<int> nowhere;
+    const auto rubbing = [&](const PlannedStep& step) {
+        return step.pick.friction ? &step.pick.friction->faces : &nowhere;
+    };
     std::vector<std::string> treated(size_t(part.mesh.triangles()), std::string(steps.size(), '\0')); // by step
     for (size_t k = 0; k < steps.size(); ++k)
         for (const auto& [faces, role] :
              {std::pair(&steps[k]->pick.fixed, is_fixed), std::pair(&steps[k]->pick.freed, is_freed),
-              std::pair(&steps[k]->pick.carrying, is_carrying)})
+              std::pair(&steps[k]->pick.carrying, is_carrying), std::pair(rubbing(*steps[k]), is_rubbing)})
             for (const int f : *faces) {
                 require_triangle(part.mesh, f);
                 treated[size_t(f)][k] = char(treated[size_t(f)][k] | role);
@@ -64,19 +68,21 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
                                {},
                                {},
                                {},
+                               {},
                                step->within_mm,
                                step->offset_mm,
                                step->tolerance,
                                step->most_energy_steps,
                                step->most_newton_steps,
-                               numbers_of(*step)});
+                               numbers_of(*step),
+                               numbers_of(step->pick.friction)});
     for (const auto& [roles, faces] : alike) {
         const int patch = int(stored.patch.size());
         stored.patch.push_back(store_patch(part, faces));
         for (size_t k = 0; k < steps.size(); ++k)
             for (const auto& [list, role] :
                  {std::pair(&stored.step[k].fixed, is_fixed), std::pair(&stored.step[k].freed, is_freed),
-                  std::pair(&stored.step[k].carrying, is_carrying)})
+                  std::pair(&stored.step[k].carrying, is_carrying), std::pair(&stored.step[k].rubbing, is_rubbing)})
                 if (roles[k] & role)
                     list->push_back(patch);
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/viewer/model/document.h"
+#include "app/viewer/model/step_friction.h"
 #include "app/viewer/model/step_target.h"
 #include "engine/mesh/closest_point.h"
 
@@ -53,11 +54,12 @@ struct StoredVertex {
 struct StoredStep {
     UnfoldKind kind = UnfoldKind::lay;
     std::string name;
-    std::vector<int> fixed, freed, carrying; ///< into StoredSteps::patch
+    std::vector<int> fixed, freed, carrying, rubbing; ///< into StoredSteps::patch
     double within_mm = 0, offset_mm = 0;
     std::optional<double> tolerance;
     std::optional<int> most_energy_steps, most_newton_steps;
     StepTarget target;
+    std::optional<StepFriction> friction; ///< on the rubbing patches, on all that it moves if there are none
 };
 
 /// The steps of unfolding. Faces that all steps treat alike are stored once.

@@ -88,6 +88,40 @@ bool target_editor(Frame& frame, int number, ChangeStep& edited)
     return changed;
 }
 
+/// What the target rubs. @returns whether it has changed
+bool friction_editor(Frame& frame, std::optional<StepFriction>& friction)
+{
+    bool rubs = friction.has_value(), changed = false;
+    if (ImGui::Checkbox("Friction on the target", &rubs)) {
+        friction = rubs ? std::optional(StepFriction{.pressure_MPa = 1}) : std::nullopt;
+        changed = true;
+    }
+    tooltip("The target holds back the sheet that slips on it when it is formed");
+    if (!friction)
+        return changed;
+    const float width = 86 * frame.ui.scale;
+    int by_pressure = friction->pressure_MPa.has_value();
+    double amount = by_pressure ? *friction->pressure_MPa : *friction->force_N / 1000;
+    ImGui::SetNextItemWidth(width);
+    changed |= typed_number(frame, "##amount", amount, "%.4g");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    changed |= ImGui::Combo("##unit", &by_pressure, "kN\0MPa\0");
+    tooltip("kN: the whole force square to the target. MPa: pressure on the sheet.");
+    ImGui::SetNextItemWidth(width);
+    changed |= typed_number(frame, "Coefficient", friction->friction, "%.3g");
+    tooltip("Of Coulomb friction of each side");
+    bool both = friction->sides == 2;
+    changed |= ImGui::Checkbox("On both sides", &both);
+    tooltip("A pad presses from above and rubs as well");
+    friction->sides = both ? 2 : 1;
+    amount = std::clamp(amount, 1e-6, 1e5);
+    friction->friction = std::clamp(friction->friction, 0., 10.);
+    friction->force_N = by_pressure ? std::nullopt : std::optional(1000 * amount);
+    friction->pressure_MPa = by_pressure ? std::optional(amount) : std::nullopt;
+    return changed;
+}
+
 std::string own_name(const std::string& name) { return name; }
 
 /// A region to choose, or something else (-1) that has a name of its own.
@@ -115,7 +149,8 @@ void region_combo(Frame& frame, const char* label, int& chosen, const std::strin
 void step_editor(Frame& frame, int number)
 {
     const PlannedStep& step = *frame.state.document.steps[size_t(number)];
-    ChangeStep edited{number, step.name, step.offset_mm, step.within_mm, step.tolerance, {}};
+    ChangeStep edited{
+        number, step.name, step.offset_mm, step.within_mm, step.tolerance, {}, numbers_of(step.pick.friction)};
     ImGui::SetNextItemWidth(-1);
     bool changed = typed_text(frame, "##name", edited.name, "name");
     const float width = 86 * frame.ui.scale;
@@ -132,6 +167,7 @@ void step_editor(Frame& frame, int number)
                 "How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is "
                 "none, a smooth face through them.");
         }
+        changed |= friction_editor(frame, edited.friction);
     }
     if (step.kind != UnfoldKind::unroll) {
         double tolerance = edited.tolerance.value_or(FlattenOptions{}.tolerance);

@@ -7,6 +7,7 @@
 
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/state_report.h"
+#include "app/viewer/model/stored_picks.h"
 #include "engine/mesh/region.h"
 #include "tests/unit/viewer/steps_fixture.h"
 
@@ -54,6 +55,44 @@ TEST(PlaneThrough, IsThatOfLeastSquaresHoweverTheFacesAreSplit)
         EXPECT_NEAR(through.plane.origin[2], 0.05, 1e-12);
         EXPECT_NEAR(through.distance_mm, 0.05, 1e-12);
     }
+}
+
+TEST_F(Target, RubsAgainstWhatIsLaidOnIt)
+{
+    open_mesh(shapes::round_cup({.triangles = 1500}));
+    propose();
+    ASSERT_EQ(document.steps.at(0)->kind, UnfoldKind::lay);
+    run();
+    ASSERT_EQ(status().at(0), StepStatus::done) << last(Severity::error);
+    const Eigen::Matrix3Xd free = after(0).position;
+    model.apply(action_from_json(
+        parse_json(R"({"do": "change_step", "step": 0, "friction": {"pressure_MPa": 20, "sides": 1}})", "test"),
+        state));
+    ASSERT_TRUE(document.steps[0]->pick.friction);
+    EXPECT_EQ(*document.steps[0]->pick.friction, (ContactRegion{"the target", {}, 20., {}, 0.12, 1}));
+    EXPECT_EQ(status()[0], StepStatus::stale);
+    run();
+    ASSERT_EQ(status()[0], StepStatus::done) << last(Severity::error);
+    EXPECT_GT((after(0).position - free).colwise().norm().maxCoeff(), 1e-3) << "it holds the sheet back";
+    // A project keeps it, also on which faces it rubs.
+    auto some = std::make_shared<PlannedStep>(*document.steps[0]);
+    some->pick.friction->faces = {some->pick.freed[3], some->pick.freed[7]};
+    StepList list = document.steps;
+    list[0] = some;
+    Document with = document;
+    with.steps = list;
+    StoredPicks stored = store_picks(with);
+    ASSERT_TRUE(restore_picks(with, stored).empty());
+    EXPECT_EQ(with.steps[0]->pick.friction, some->pick.friction);
+    ChangeStep change = change_of(0);
+    change.friction = StepFriction{};
+    model.apply(change);
+    EXPECT_THAT(last(Severity::error), HasSubstr("a force or a pressure above 0"));
+    change.friction.reset();
+    model.apply(change);
+    EXPECT_FALSE(document.steps[0]->pick.friction);
+    model.apply(Undo{});
+    EXPECT_TRUE(document.steps[0]->pick.friction);
 }
 
 TEST_F(Target, NumbersThatAreTheFittedPlaneGiveTheSameBlank)
