@@ -98,12 +98,12 @@ void list_buttons(Frame& frame)
     }
     if (!empty && document.selected.empty())
         ImGui::NewLine();
-    if (small_button(frame, empty ? "Open steps..." : "Open..."))
+    if (small_button(frame, "Open steps..."))
         frame.ui.files.open(FileDialog::Purpose::open_steps, suggested_file(frame, ".json").parent_path());
     tooltip("Steps of a file as the command line has it: spia unfold PART --script FILE");
     if (!empty) {
         ImGui::SameLine();
-        if (small_button(frame, "Save..."))
+        if (small_button(frame, "Save steps..."))
             frame.ui.files.open(FileDialog::Purpose::save_steps, suggested_file(frame, "-steps.json"));
         tooltip("As a file for the command line: spia unfold PART --script FILE");
     }

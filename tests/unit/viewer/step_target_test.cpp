@@ -165,6 +165,28 @@ TEST_F(Target, ThePlaneOfPickedFacesIsThatWhereTheyLieBeforeTheStep)
     EXPECT_EQ(steps_done(document), 5u);
 }
 
+TEST_F(Target, AStepMayBeAddedOntoThePlaneOfARegion)
+{
+    open_channel();
+    const FaceSet web = web_faces(document);
+    const double right = web_of(document)[0], top = document.session.part->mesh.position.row(2).maxCoeff();
+    model.apply(SelectFaces{web});
+    model.apply(MakeRegion{"web", RegionKind::fixed});
+    model.apply(SelectFaces{with_height(top - 1e-6, top)});
+    model.apply(MakeRegion{"leg", RegionKind::other});
+    model.apply(AddStep{0, 1, "", {}, 1});
+    ASSERT_EQ(document.steps.size(), 1u) << last(Severity::error);
+    const StepTarget of_leg = numbers_of(*document.steps[0]);
+    ASSERT_TRUE(of_leg.plane);
+    EXPECT_NEAR(std::abs(of_leg.plane->normal[2]), 1, 1e-6);
+    EXPECT_NEAR(of_leg.plane->origin[2], top, 1e-6);
+    model.apply(AddStep{0, 1, "", {}, 0});
+    EXPECT_NEAR(numbers_of(*document.steps[1]).plane->origin[0], right, 1e-4);
+    model.apply(AddStep{0, 1, "", {}, 7});
+    EXPECT_THAT(last(Severity::error), HasSubstr("no region 8"));
+    EXPECT_EQ(document.steps.size(), 2u);
+}
+
 TEST_F(Target, TheFacesThatCarryItAreThosePicked)
 {
     open_box();
