@@ -33,7 +33,7 @@ Json numbers(const std::vector<int>& values)
 /// What is not as write_unfold_states() writes it.
 [[noreturn]] void damaged(std::string_view what)
 {
-    throw InputError(fmt::format("{} is missing or damaged; unfold without --redo", what));
+    throw InputError(fmt::format("{} is missing or damaged; run all steps again", what));
 }
 
 const Json& member(const Json& object, const char* name)
@@ -283,7 +283,7 @@ Json read_cbor(const std::filesystem::path& file)
 {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
-        throw InputError("is not there; run the steps with --out into this folder first");
+        throw InputError("is not there; run the steps into this folder first");
     std::ifstream stream(file, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
     Shallow shallow;
