@@ -29,6 +29,11 @@ std::string upper_case(std::string_view text)
     return result;
 }
 
+std::string_view without_quotes(std::string_view text)
+{
+    return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
 AbaqusKeyword::AbaqusKeyword(std::string_view line)
 {
     line.remove_prefix(1);
@@ -41,9 +46,8 @@ AbaqusKeyword::AbaqusKeyword(std::string_view line)
     while (!line.empty()) {
         const std::string_view piece = next_piece(line);
         const size_t equals = piece.find('=');
-        std::string_view value = equals == piece.npos ? std::string_view() : trimmed(piece.substr(equals + 1));
-        if (value.size() > 1 && value.front() == '"' && value.back() == '"')
-            value = value.substr(1, value.size() - 2);
+        const std::string_view value =
+            equals == piece.npos ? std::string_view() : without_quotes(trimmed(piece.substr(equals + 1)));
         if (const std::string_view parameter = trimmed(piece.substr(0, equals)); !parameter.empty())
             values[upper_case(parameter)] = std::string(value);
     }

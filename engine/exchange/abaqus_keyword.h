@@ -21,6 +21,7 @@ struct AbaqusKeyword {
     }
 };
 
-std::string upper_case(std::string_view text); ///< ASCII letters
+std::string upper_case(std::string_view text);          ///< ASCII letters
+std::string_view without_quotes(std::string_view text); ///< of a name that stands between them
 
 } // namespace spia

@@ -11,6 +11,12 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
+/// The readers of the library take a minus only. "+-1" is left as it is, and is no number.
+std::string_view without_plus(std::string_view field)
+{
+    return field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
+}
+
 /// Too small is zero, too large is nothing.
 std::optional<double> from_text(const char* begin, const char* end)
 {
@@ -44,9 +50,7 @@ bool same_letters(std::string_view a, std::string_view b)
 
 std::optional<double> deck_number(std::string_view field)
 {
-    field = trimmed(field);
-    if (!field.empty() && field.front() == '+')
-        field.remove_prefix(1);
+    field = without_plus(trimmed(field));
     const size_t first = field.empty() || field.front() != '-' ? 0 : 1;
     if (first >= field.size() || !(is_digit(field[first]) || field[first] == '.'))
         return std::nullopt; // "inf" and "nan" as well
@@ -67,9 +71,7 @@ std::optional<double> deck_number(std::string_view field)
 
 std::optional<std::int64_t> deck_whole(std::string_view field)
 {
-    field = trimmed(field);
-    if (!field.empty() && field.front() == '+')
-        field.remove_prefix(1);
+    field = without_plus(trimmed(field));
     const char *begin = field.data(), *end = begin + field.size();
     std::int64_t value = 0;
     const auto [rest, problem] = std::from_chars(begin, end, value);

@@ -168,7 +168,7 @@ private:
             if (const auto id = deck_whole(fields_[k]))
                 sets_.add(set_, *id, *id, 1);
             else if (!fields_[k].empty())
-                sets_.add_set(set_, fields_[k]);
+                sets_.add_set(set_, without_quotes(fields_[k]));
     }
 
     void generated()
