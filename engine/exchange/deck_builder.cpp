@@ -12,7 +12,7 @@ namespace spia {
 namespace {
 
 /// "*CONTACT (3), *END"; the first dozen.
-std::string listed(const std::map<std::string, int>& counts)
+std::string listed(const std::map<std::string, int, std::less<>>& counts)
 {
     constexpr int most = 12;
     std::string text;
@@ -109,6 +109,16 @@ void DeckBuilder::add_set(std::string name, std::vector<int> shells)
     deck_.sets.push_back({std::move(name), std::move(shells)});
 }
 
+/// Names beyond any real deck's are counted together.
+void DeckBuilder::count(std::map<std::string, int, std::less<>>& counts, std::string_view name)
+{
+    constexpr size_t most = 1000;
+    if (const auto found = counts.find(name); found != counts.end())
+        ++found->second;
+    else
+        ++counts[counts.size() < most ? std::string(name) : "others"];
+}
+
 void DeckBuilder::thickness_from_elements()
 {
     if (thickness_.empty())
@@ -195,8 +205,9 @@ Deck DeckBuilder::finish(std::string format, const std::vector<std::string>& not
         text = readable(text);
     if (deck_.corner.empty()) {
         std::string message = "there is no shell element with all its nodes in this deck";
-        for (const std::string& text : deck_.notes)
-            message += "; " + text;
+        constexpr size_t most = 5;
+        for (size_t k = 0; k < std::min(most, deck_.notes.size()); ++k)
+            message += "; " + deck_.notes[k];
         throw InputError(message);
     }
     return std::move(deck_);

@@ -35,8 +35,8 @@ public:
     void add_set(std::string name, std::vector<int> shells); ///< by their numbers as they were added
 
     void note(std::string text) { deck_.notes.push_back(std::move(text)); }
-    void count_skipped(std::string_view keyword) { ++skipped_[std::string(keyword)]; } ///< not read
-    void count_other_elements(std::string_view type) { ++others_[std::string(type)]; } ///< no shell
+    void count_skipped(std::string_view keyword) { count(skipped_, keyword); } ///< not read
+    void count_other_elements(std::string_view type) { count(others_, type); } ///< no shell
 
     /// @throws InputError if a node is given twice at different places, or there is no shell
     /// @param notes  of the lines, put before those of the builder
@@ -50,6 +50,7 @@ private:
         int part;
         bool triangle;
     };
+    static void count(std::map<std::string, int, std::less<>>& counts, std::string_view name);
     void thickness_from_elements();
     void write_notes();
 
@@ -58,7 +59,7 @@ private:
     std::vector<double> thickness_; ///< per shell, or empty if none has its own
     std::unordered_map<std::int64_t, int> part_of_id_;
     std::map<std::string, int, std::less<>> part_of_name_;
-    std::map<std::string, int> skipped_, others_;
+    std::map<std::string, int, std::less<>> skipped_, others_;
     size_t first_node_ = 0, first_shell_ = 0;
 };
 

@@ -114,6 +114,18 @@ std::string title(const DeckPart& part)
     return part.name.empty() ? fmt::format("{}", *part.id) : fmt::format("{} {}", *part.id, part.name);
 }
 
+std::string in_words(const DeckPart& part)
+{
+    std::string text = fmt::format("{:<28} {:>8} shells", title(part), part.elements + part.broken);
+    if (part.thickness)
+        text += fmt::format(", {:.4g} thick", *part.thickness);
+    if (!part.material.empty())
+        text += fmt::format(", {}", part.material);
+    if (part.broken > 0)
+        text += fmt::format(", {} without their nodes", part.broken);
+    return text;
+}
+
 std::string part_list(std::span<const DeckPart> parts)
 {
     constexpr int most = 40;
@@ -122,17 +134,10 @@ std::string part_list(std::span<const DeckPart> parts)
     for (const DeckPart& part : parts) {
         if (part.elements + part.broken == 0 || shown++ >= most)
             continue;
-        text += fmt::format("  {:<28} {:>8} shells", title(part), part.elements + part.broken);
-        if (part.thickness)
-            text += fmt::format(", {:.4g} thick", *part.thickness);
-        if (!part.material.empty())
-            text += fmt::format(", {}", part.material);
-        if (part.broken > 0)
-            text += fmt::format(", {} without their nodes", part.broken);
-        text += '\n';
+        text += "  " + in_words(part) + '\n';
     }
     if (shown > most)
-        text += fmt::format("  and {} more (spia info lists them all with --json)\n", shown - most);
+        text += fmt::format("  and {} more (`spia info` lists them all)\n", shown - most);
     if (text.ends_with('\n'))
         text.pop_back();
     return text;

@@ -26,6 +26,9 @@ DeckChoice choose_parts(const Deck& deck, std::span<const std::string> wanted);
 /// One line for each part with shells, as messages show it; of many the first ones.
 std::string part_list(std::span<const DeckPart> parts);
 
+/// "3 Hood   240 shells, 1.2 thick, DC04"
+std::string in_words(const DeckPart& part);
+
 /// "3 Hood": what a part is called.
 std::string title(const DeckPart& part);
 

@@ -101,8 +101,7 @@ void DeckLines::include(std::string_view name)
             if (fs::file_size(file, problem) == 0)
                 return;
             if (seen_.contains(unique)) {
-                notes.push_back(fmt::format("the file {} is included more than once; it was taken once", name));
-                return;
+                return note(fmt::format("the file {} is included more than once; it was taken once", name));
             }
             if (open_.size() >= deepest)
                 fail(fmt::format("files are included {} deep", deepest));
@@ -113,8 +112,16 @@ void DeckLines::include(std::string_view name)
             }
             return;
         }
-    notes.push_back(
-        fmt::format("the included file {} is not there, and what it holds is missing", name.substr(0, 200)));
+    note(fmt::format("the included file {} is not there, and what it holds is missing", name.substr(0, 200)));
+}
+
+void DeckLines::note(std::string text)
+{
+    constexpr size_t most = 20;
+    if (notes.size() < most)
+        notes.push_back(std::move(text));
+    else if (notes.size() == most)
+        notes.emplace_back("and so for more files");
 }
 
 std::int64_t DeckLines::whole(std::string_view field) const

@@ -38,7 +38,7 @@ public:
     std::int64_t whole_or_zero(std::string_view field) const;
     [[noreturn]] void fail(std::string_view what) const; ///< @throws InputError "line 12: what"
 
-    std::vector<std::string> notes;
+    std::vector<std::string> notes; ///< what was wrong with included files; the first ones
 
 private:
     struct File {
@@ -48,6 +48,7 @@ private:
     };
     void open(const std::filesystem::path& path, std::string content);
     void checkpoint() const;
+    void note(std::string text);
 
     std::vector<std::unique_ptr<const std::string>> content_; // of all files, for lines that are still looked at
     std::vector<File> open_;

@@ -12,6 +12,8 @@ namespace spia {
 namespace {
 
 constexpr size_t column = 8;
+constexpr size_t longest_line = 200;  // more is damage; tabs are replaced in these
+constexpr size_t most_fields = 10000; // of one entry
 
 std::string with_blanks_for_tabs(std::string_view line)
 {
@@ -118,8 +120,11 @@ void NastranEntries::take(std::string_view line)
     const bool first_line = name_.empty();
     if (first_line)
         expanded_.clear();
+    too_long_ = field_.size() > most_fields;
+    if (too_long_)
+        return;
     if (line.find('\t') != line.npos && line.find(',') == line.npos)
-        line = expanded_.emplace_back(with_blanks_for_tabs(line));
+        line = expanded_.emplace_back(with_blanks_for_tabs(line.substr(0, longest_line)));
     const bool free = line.find(',') != line.npos;
     std::string_view head = trimmed(free ? line.substr(0, line.find(',')) : line.substr(0, column));
     const bool large = first_line ? head.ends_with('*') : head.starts_with('*');
@@ -150,8 +155,10 @@ void NastranEntries::take(std::string_view line)
     mark_ = cut_[per_line + 1];
 }
 
-void NastranEntries::require_in_order() const
+void NastranEntries::require_whole() const
 {
+    if (too_long_)
+        lines_.fail(fmt::format("the {} before this line has more than {} fields", name_, most_fields));
     if (!in_order_)
         lines_.fail(
             fmt::format("the continuations of the {} before this line are not in their order; sort the deck", name_));

@@ -21,8 +21,8 @@ public:
     const std::string& name() const { return name_; } ///< upper case, without the star of a large field
     /// Data field i, counted from 0 behind the name over all lines; without blanks around it, empty if there is none.
     std::string_view operator[](size_t i) const { return i < field_.size() ? field_[i] : std::string_view(); }
-    /// @throws InputError if its continuations are not in their order, so that what was read is not all of it
-    void require_in_order() const;
+    /// @throws InputError if its continuations are not in their order, or too many, so that what was read is not all of it
+    void require_whole() const;
 
     /// Names that comments give to properties (HyperMesh, Femap).
     const std::map<std::int64_t, std::string>& property_names() const { return property_name_; }
@@ -40,7 +40,7 @@ private:
     std::string name_, mark_;          // mark: at the end of the last line
     std::vector<std::string_view> field_;
     DeckFields cut_;
-    bool in_bulk_, ahead_ = false, in_order_ = true;
+    bool in_bulk_, ahead_ = false, in_order_ = true, too_long_ = false;
     std::map<std::int64_t, std::string> property_name_;
 };
 

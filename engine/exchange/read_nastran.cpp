@@ -61,7 +61,7 @@ private:
 
     void node()
     {
-        entry_.require_in_order();
+        entry_.require_whole();
         Node node{lines_.whole(entry_[0]), entry_[1].empty() ? -1 : lines_.whole(entry_[1]), Eigen::Vector3d::Zero()};
         for (int k = 0; k < 3; ++k)
             if (const std::string_view x = entry_[size_t(2 + k)]; !x.empty())
@@ -71,7 +71,7 @@ private:
 
     void shell(size_t corners)
     {
-        entry_.require_in_order();
+        entry_.require_whole();
         const std::int64_t id = lines_.whole(entry_[0]);
         std::array<std::int64_t, 4> corner = {};
         for (size_t k = 0; k < corners; ++k)
@@ -99,7 +99,7 @@ private:
 
     void property()
     {
-        entry_.require_in_order();
+        entry_.require_whole();
         DeckPart& part = deck_.at(deck_.part(lines_.whole(entry_[0])));
         if (!entry_[1].empty())
             part.material_id = lines_.whole(entry_[1]);
@@ -110,7 +110,7 @@ private:
     /// The thickness of a laminate is that of its layers: material, thickness, angle, output from the ninth field on.
     void composite()
     {
-        entry_.require_in_order();
+        entry_.require_whole();
         double sum = 0, last = 0;
         for (size_t k = 8; !entry_[k].empty() || !entry_[k + 1].empty() || !entry_[k + 2].empty(); k += 4) {
             if (!entry_[k + 1].empty())
@@ -126,7 +126,7 @@ private:
 
     void system(char kind)
     {
-        entry_.require_in_order();
+        entry_.require_whole();
         NastranSystems::System system{kind == 'R'   ? NastranSystems::Kind::rectangular
                                       : kind == 'C' ? NastranSystems::Kind::cylindrical
                                                     : NastranSystems::Kind::spherical,
