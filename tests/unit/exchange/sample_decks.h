@@ -59,7 +59,7 @@ inline std::string dyna(const char* options = "", int w = 8, int number_width = 
             text += fmt::format("{:>{}}", s.node[std::min(k, s.node.size() - 1)], w);
         text += "\n";
     }
-    return text + "*END\nnothing of this is read\n";
+    return text + "*END\n*NODE\nnothing of this is read\n";
 }
 
 inline std::string dyna_commas()
@@ -195,7 +195,7 @@ inline std::string radioss()
             text += fmt::format("{:>10}", v);
         text += "\n";
     }
-    return text + "/END\n";
+    return text + "/END\n/NODE\nnothing of this is read\n";
 }
 
 /// The strip in every spelling, by a name whose ending says the format.
