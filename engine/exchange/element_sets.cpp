@@ -23,7 +23,9 @@ bool ElementSets::has(std::string_view name) const { return set_.contains(upper_
 void ElementSets::add(std::string_view name, std::int64_t first, std::int64_t last, std::int64_t step)
 {
     std::vector<Range>& ranges = at(name).ranges;
-    if (!ranges.empty() && first == last && ranges.back().step == 1 && ranges.back().last == first - 1)
+    const bool follows = !ranges.empty() && ranges.back().step == 1 && ranges.back().last < first &&
+                         std::uint64_t(first) - std::uint64_t(ranges.back().last) == 1;
+    if (follows && first == last)
         ranges.back().last = first; // elements of a block mostly follow each other
     else
         ranges.push_back({first, last, step});

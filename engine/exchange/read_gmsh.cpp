@@ -24,6 +24,9 @@ size_t corners_of(std::int64_t type)
 
 bool is_point_or_line(std::int64_t type) { return type == 15 || type == 1 || type == 8 || (type >= 26 && type <= 28); }
 
+/// A negative tag means that the surface is turned over in its group.
+std::int64_t group_of(std::int64_t tag) { return tag < 0 && tag != INT64_MIN ? -tag : tag; }
+
 class GmshReader {
 public:
     explicit GmshReader(DeckLines& lines) : lines_(lines) {}
@@ -169,7 +172,7 @@ private:
                 const std::int64_t tags = whole(2);
                 if (tags < 0 || tags > 30)
                     lines_.fail(fmt::format("the element has {} tags", tags));
-                const std::int64_t group = tags > 0 ? std::abs(whole(3)) : 0, surface = tags > 1 ? whole(4) : 0;
+                const std::int64_t group = tags > 0 ? group_of(whole(3)) : 0, surface = tags > 1 ? whole(4) : 0;
                 element(whole(0), whole(1), group, surface, 3 + size_t(tags));
             }
             return;
@@ -181,7 +184,7 @@ private:
             const auto group = group_of_surface_.find(surface);
             for (std::int64_t n = whole(3); n > 0; --n) {
                 next();
-                element(whole(0), type, group == group_of_surface_.end() ? 0 : std::abs(group->second), surface, 1);
+                element(whole(0), type, group == group_of_surface_.end() ? 0 : group_of(group->second), surface, 1);
             }
         }
     }

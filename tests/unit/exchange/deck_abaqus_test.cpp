@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "tests/unit/exchange/sample_decks.h"
@@ -62,6 +63,16 @@ TEST(AbaqusDeck, SectionsTakeTheElementsOfTheirSets)
     EXPECT_EQ(deck.sets[3].elements, (std::vector<int>{1}));
 }
 
+TEST(AbaqusDeck, NamesBetweenQuotesMayHaveCommas)
+{
+    const Deck deck = read(
+        nodes +
+        "*ELEMENT, ELSET=\"a, type=S4\", TYPE=S3\n1,1,2,3\n*SHELL SECTION, MATERIAL=\"b, c\", ELSET=\"a, type=S4\"\n2.\n");
+    EXPECT_EQ(part(deck, 0).name, "a, type=S4");
+    EXPECT_EQ(part(deck, 0).material, "b, c");
+    EXPECT_EQ(part(deck, 0).thickness, 2);
+}
+
 TEST(AbaqusDeck, ElementsWithoutASectionGoByTheirSet)
 {
     const Deck deck = read(five + "*ELEMENT, TYPE=S3\n20,1,2,3\n");
@@ -78,7 +89,7 @@ TEST(AbaqusDeck, PartsHaveNumbersAndSetsOfTheirOwn)
         two =
             "*NODE\n1,5,0\n2,6,0\n3,5,1\n*ELEMENT, TYPE=S3, ELSET=Skin\n1,3,2,1\n*SHELL SECTION, ELSET=Skin, MATERIAL=B\n2.\n";
     const Deck deck = read(
-        "*PART, NAME=Left\n" + one + "*END PART\n*Part, name=Right\n" + two +
+        "*PART, NAME=Left\n" + one + "*ELSET, ELSET=Extra\n1\n*END PART\n*Part, name=Right\n" + two +
         "*End Part\n*Assembly, name=Assembly\n*Instance, name=Left-1, part=Left\n0.,0.,7.\n*End Instance\n"
         "*Instance, name=Right-1, part=Right\n*End Instance\n*Elset, elset=Skin, instance=Right-1, generate\n1,9,1\n*End Assembly\n");
     ASSERT_EQ(deck.elements(), 2);
@@ -89,6 +100,11 @@ TEST(AbaqusDeck, PartsHaveNumbersAndSetsOfTheirOwn)
     EXPECT_EQ(part(deck, 1).thickness, 2);
     EXPECT_EQ(part(deck, 1).material, "B");
     EXPECT_TRUE(has_note(deck, "1 instances are moved"));
+    const auto sets_called = [&](const std::string& name) {
+        return std::count_if(deck.sets.begin(), deck.sets.end(), [&](const DeckSet& set) { return set.name == name; });
+    };
+    EXPECT_EQ(sets_called("Skin"), 2);
+    EXPECT_EQ(sets_called("Extra"), 1);
     // Meshed in the assembly: nodes and elements lie in the instance.
     EXPECT_EQ(read("*Assembly, name=A\n*Instance, name=I, part=P\n 1.,0.,0.\n" + one + "*End Instance\n*End Assembly\n")
                   .elements(),
@@ -122,6 +138,14 @@ TEST(AbaqusDeck, SetsThatAskForTooMuchAreRefused)
     for (const DeckSet& set : deck.sets)
         total += set.elements.size();
     EXPECT_LE(total, 64u * 2905u);
+    const std::string ends = "-9223372036854775808, 9223372036854775807\n";
+    EXPECT_EQ(
+        read(
+            five +
+            "*ELSET, ELSET=A\n1,-9223372036854775808,9223372036854775807,-9223372036854775808\n*ELSET, ELSET=B, GENERATE\n" +
+            ends + "*SHELL SECTION, ELSET=B\n1.\n")
+            .sets.size(),
+        3u);
     std::string circle = "*ELSET, ELSET=A\nB\n*ELSET, ELSET=B\nA, 1\n*SHELL SECTION, ELSET=A, MATERIAL=M\n1.\n";
     EXPECT_EQ(part(read(five + circle), 0).name, "A");
 }

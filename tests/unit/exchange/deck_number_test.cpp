@@ -67,7 +67,8 @@ TEST(Readable, TextIsUtf8WhateverItWas)
     EXPECT_EQ(readable("T\xfcr"), "T\xc3\xbcr"); // Latin-1
     EXPECT_EQ(readable("\xe2\x82\xac"), "\xe2\x82\xac");
     EXPECT_EQ(readable("a\tb\x01"), "a b ");
-    EXPECT_EQ(readable("\xe2\x82"), "\xc3\xa2\xc2\x82");             // cut off
+    EXPECT_EQ(readable("\xe2\x82"), "\xc3\xa2\xc2\x82"); // cut off
+    EXPECT_EQ(readable("\xe0\x80\x80"), "\xc3\xa0\xc2\x80\xc2\x80");
     EXPECT_EQ(readable("\xc0\xaf"), "\xc3\x80\xc2\xaf");             // overlong
     EXPECT_EQ(readable("\xed\xa0\x80"), "\xc3\xad\xc2\xa0\xc2\x80"); // half a surrogate pair
     EXPECT_EQ(readable("\xf0\x9f\x9a\x97"), "\xf0\x9f\x9a\x97");

@@ -134,10 +134,10 @@ inline std::string abaqus()
 inline std::string gmsh(const std::string& version)
 {
     const Strip strip;
-    std::string text =
-        fmt::format("$MeshFormat\n{} 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"edge\"\n2 7 \"Hood\"\n2 9 \"Rail\"\n"
-                    "$EndPhysicalNames\n",
-                    version);
+    std::string text = fmt::format(
+        "$MeshFormat\n{} 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 9 \"edge of nine\"\n2 7 \"Hood\"\n2 9 \"Rail\"\n1 7 \"edge\"\n"
+        "$EndPhysicalNames\n",
+        version);
     const size_t nodes = strip.node.size(), shells = strip.shell.size();
     if (version[0] == '2') {
         text += fmt::format("$Nodes\n{}\n", nodes);
