@@ -27,7 +27,7 @@ TEST(NastranDeck, FieldsAreCutAsTheirLineSays)
                            "grid, 4, , 1.+2, -.5\n"      // free, lower case, a field left out
                            "GRID*,5,,1.5,2.5,+\n*,3.5\n" // free and large
                            "GRID\t6\t\t1.0\t2.0\t3.0\n"  // tabs
-                           "GRID    7               4.      5.      6.      $ a comment\n"
+                           "GRID    7               4.      5.      6.$ a comment\n"
                            "$ another\n\n"
                            "CTRIA3  1       9       1       2       3\n"
                            "CQUAD4  2       9       4       5       6       7       0.5     +\n"
