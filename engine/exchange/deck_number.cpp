@@ -82,4 +82,12 @@ std::optional<std::int64_t> deck_whole(std::string_view field)
     return std::nullopt;
 }
 
+double mean(std::span<const double> values)
+{
+    double beyond = 0;
+    for (const double value : values)
+        beyond += value - values[0];
+    return values[0] + beyond / double(values.size());
+}
+
 } // namespace spia

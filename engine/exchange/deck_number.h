@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace spia {
@@ -14,5 +15,8 @@ std::optional<double> deck_number(std::string_view field);
 
 /// A whole number; "12." and "12.0" are whole as well. Nothing if it is none or does not fit.
 std::optional<std::int64_t> deck_whole(std::string_view field);
+
+/// Exactly the first if all are the same, which a sum divided by their number is not. @param values  at least one
+double mean(std::span<const double> values);
 
 } // namespace spia

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "engine/exchange/deck_builder.h"
+#include "engine/exchange/deck_number.h"
 #include "engine/exchange/nastran_entries.h"
 #include "engine/exchange/nastran_systems.h"
 #include "engine/exchange/read_deck.h"
@@ -87,14 +88,15 @@ private:
     {
         if (entry_.name().back() != '4' && entry_.name().back() != '3')
             return 0;
-        double sum = 0;
+        std::array<double, 4> thick = {};
         for (size_t k = 0; k < corners; ++k) {
             const std::string_view t = entry_[10 + k];
             if (t.empty())
                 return 0;
-            sum += lines_.number(t);
+            thick[k] = lines_.number(t);
         }
-        return lines_.whole_or_zero(entry_[9]) == 0 ? sum / double(corners) : 0;
+        const bool relative = lines_.whole_or_zero(entry_[9]) != 0;
+        return relative ? 0 : mean(std::span(thick).first(corners));
     }
 
     void property()

@@ -72,6 +72,9 @@ TEST(NastranDeck, PropertiesGiveThicknessMaterialAndName)
         read(square + "CQUAD4,12,,1,2,3,4,,,+\n+,,1,.5,.5,.5,.5\n"); // relative thickness, property as its id
     EXPECT_EQ(deck.parts.at(1).id, 12);
     EXPECT_FALSE(deck.parts.at(1).thickness);
+    const Deck own = read(square.substr(0, square.find("CQUAD4")) +
+                          "CQUAD4,1,7,1,2,3,4,,,+\n+,,,.8,.8,.8,.8\nCTRIA3,2,7,1,2,3,,,,+\n+,,,.8,.8,.8\n");
+    EXPECT_EQ(own.parts.at(0).thickness, 0.8); // of the elements, and exactly the same in both
 }
 
 TEST(NastranDeck, ShellsOfHigherOrderGiveTheirCornersAndOthersAreTold)
