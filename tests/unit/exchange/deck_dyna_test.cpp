@@ -49,6 +49,11 @@ TEST(DynaDeck, EveryOptionOfShellsHasItsCards)
     EXPECT_TRUE(has_note(deck, "from 1 to 3"));
 }
 
+TEST(DynaDeck, ACardThatIsNotThereDoesNotCostAnElementOfTheNextBlock)
+{
+    EXPECT_EQ(read(four_nodes + "*ELEMENT_SHELL_OFFSET\n1,5,1,2,3,4\n*ELEMENT_SHELL\n2,5,1,2,3,4\n").elements(), 2);
+}
+
 TEST(DynaDeck, ShellsWithNodesOnTheirEdgesGiveTheirCorners)
 {
     const Deck deck = read(
