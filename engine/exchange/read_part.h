@@ -51,8 +51,9 @@ struct PartFile {
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
 };
 
-/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file or the shells of a solver deck (read_deck()) as a sheet part: one piece with a boundary and no handles. What is closed,
-/// has handles or is a tube is cut open along a seam (cut_open()); the report says so and where.
+/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file or the shells of a solver deck (read_deck()) as a sheet part: one piece with
+/// a boundary and no handles. What is closed, has handles or is a tube is cut open along a seam (cut_open()); the report
+/// says so and where.
 /// Coordinates keep their full precision (STL and glTF hold single precision).
 /// @throws InputError  the file cannot be read, or the doctor found a fault that cannot be repaired
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
