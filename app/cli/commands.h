@@ -11,8 +11,9 @@ namespace spia::cli {
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, process;
     std::string material = "mild_steel", unit;
-    double thickness = 1;
-    std::string grid; ///< NxM; empty: automatic
+    std::vector<std::string> parts;  ///< of a solver deck, ids or names
+    std::optional<double> thickness; ///< mm; not given: that of the deck, else 1
+    std::string grid;                ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction;
     std::string grid_method = "automatic", ends = "averaged";
@@ -35,6 +36,7 @@ int run(const RunArguments& arguments);
 struct InfoArguments {
     std::filesystem::path part, json;
     std::string unit, seam = "auto";
+    std::vector<std::string> parts; ///< of a solver deck, ids or names
     bool weld = false, keep_largest = false;
 };
 
@@ -44,7 +46,8 @@ int info(const InfoArguments& arguments);
 struct CompareArguments {
     std::filesystem::path part, json;
     std::string material = "mild_steel", unit, seam = "auto";
-    double thickness = 1;
+    std::vector<std::string> parts;  ///< of a solver deck, ids or names
+    std::optional<double> thickness; ///< mm; not given: that of the deck, else 1
     std::vector<double> direction;
     std::vector<std::string> methods;
     bool markdown = false, weld = false, keep_largest = false;
@@ -60,7 +63,8 @@ struct UnfoldArguments {
     std::vector<std::string> formats;
     bool automatic = false;
     std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
-    double thickness = 1;
+    std::vector<std::string> parts;                                 ///< of a solver deck, ids or names
+    std::optional<double> thickness;                                ///< mm; not given: that of the deck, else 1
     int root = 0;        ///< of --auto: the region that stays, from 1; 0: the largest flat one
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
@@ -87,6 +91,11 @@ struct FitArguments {
 
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
+
+/// The thickness of the flat sheet in mm: as asked for, else that of the deck, else 1.
+double sheet_thickness(const std::optional<double>& asked, const PartFile& part);
+/// Where it is from; empty if that needs no word.
+std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part);
 
 /// Where the materials and sample parts lie: SPIA_ASSETS, or the folder the program was built from.
 std::filesystem::path assets();

@@ -24,14 +24,14 @@ int compare(const CompareArguments& arguments)
         read.unit = length_unit(arguments.unit);
     if (arguments.weld)
         read.weld = true;
+    read.parts = arguments.parts;
     read.doctor.keep_largest = arguments.keep_largest;
     read.seam = seam_options(arguments.seam);
     CompareOptions options;
     options.flatten.material = find_material(arguments.material, assets() / "materials");
-    options.flatten.thickness = arguments.thickness;
-    if (!(arguments.thickness > 0) ||
-        !std::isfinite(arguments.thickness)) // here, or it is a failure of one method only
-        throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", arguments.thickness));
+    if (const double t = arguments.thickness.value_or(1);
+        !(t > 0) || !std::isfinite(t)) // here, or it is a failure of one method only
+        throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", t));
     if (const std::vector<double>& d = arguments.direction; !d.empty()) {
         options.flatten.direction = Eigen::Vector3d(d[0], d[1], d[2]);
         if (!options.flatten.direction->allFinite() || !(options.flatten.direction->norm() > 0))
@@ -43,6 +43,7 @@ int compare(const CompareArguments& arguments)
 
     JobDisplay reading{"read"};
     const PartFile part = read_part(arguments.part, read, reading.progress());
+    options.flatten.thickness = sheet_thickness(arguments.thickness, part);
     std::vector<ComparisonRow> rows;
     for (const FlatMethod method : options.methods) {
         CompareOptions one = options;
@@ -58,6 +59,8 @@ int compare(const CompareArguments& arguments)
                    part.mesh.vertices());
     for (const std::string& line : reading_notes(part))
         fmt::print("{}{}\n", arguments.markdown ? "- " : "  ", line);
+    if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
+        fmt::print("{}note: {}\n", arguments.markdown ? "- " : "  ", text);
     fmt::print("\n");
     fmt::print("{}", comparison_table(rows, arguments.markdown ? TableStyle::markdown : TableStyle::text));
     const bool none = std::all_of(rows.begin(), rows.end(), [](const auto& row) { return !row.failure.empty(); });

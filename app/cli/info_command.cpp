@@ -1,13 +1,32 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
 #include "engine/exchange/atomic_file.h"
+#include "engine/exchange/deck_choice.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 
 namespace spia::cli {
+namespace {
+
+/// All parts of a deck, and what else can be chosen.
+void print_parts(const DeckOrigin& deck)
+{
+    for (const DeckPart& part : deck.parts)
+        if (part.elements + part.broken > 0)
+            fmt::print("part            {}\n", in_words(part));
+    constexpr size_t most = 20;
+    for (size_t k = 0; k < std::min(most, deck.sets.size()); ++k)
+        fmt::print("element set     {}\n", deck.sets[k]);
+    if (deck.sets.size() > most)
+        fmt::print("element sets    and {} more\n", deck.sets.size() - most);
+}
+
+} // namespace
 
 int info(const InfoArguments& arguments)
 {
@@ -16,6 +35,7 @@ int info(const InfoArguments& arguments)
         options.unit = length_unit(arguments.unit);
     if (arguments.weld)
         options.weld = true;
+    options.parts = arguments.parts;
     options.doctor.keep_largest = arguments.keep_largest;
     options.seam = seam_options(arguments.seam);
     JobDisplay display{"read"};
@@ -29,7 +49,10 @@ int info(const InfoArguments& arguments)
     };
     fmt::print("file            {} ({}, 1 unit = {} mm)\n", arguments.part.string(), part.format,
                millimetres(part.unit));
-    fmt::print("in the file     {} vertices, {} faces\n", part.file_vertices, part.file_faces);
+    fmt::print("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices,
+               part.file_faces);
+    if (part.deck)
+        print_parts(*part.deck);
     fmt::print("components      {}\n", doctor.components);
     fmt::print("boundary loops  {}\n", number(doctor.boundary_loops));
     fmt::print("genus           {}\n", number(doctor.genus));

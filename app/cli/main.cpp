@@ -14,6 +14,25 @@
 
 namespace {
 
+constexpr const char* part_files =
+    "STL, OBJ, PLY, OFF, glTF or GLB file, or solver deck (LS-DYNA .k .key .dyn, Nastran .bdf .nas .dat, Abaqus and CalculiX "
+    ".inp, Gmsh .msh, Radioss .rad)";
+
+void add_parts(CLI::App* command, std::vector<std::string>& parts)
+{
+    command
+        ->add_option("--part", parts,
+                     "of a solver deck: the part, property or element set to take, by id or name (default: all shells)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("ID|NAME");
+}
+
+void add_thickness(CLI::App* command, std::optional<double>& thickness, const char* text)
+{
+    command->add_option("--thickness", thickness, text)->type_name("MM");
+}
+
 enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
 
 int failed(ExitCode code, const char* what)
@@ -45,8 +64,9 @@ int main(int count, char** values)
     cli::RunArguments run;
     run.formats = output_formats();
     CLI::App* run_command = app.add_subcommand("run", "Unfold a part and write blank, strains and surface");
-    run_command->add_option("part", run.part, "STL, OBJ, PLY, OFF, glTF or GLB file")->required()->type_name("PART");
+    run_command->add_option("part", run.part, part_files)->required()->type_name("PART");
     run_command->add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
+    add_parts(run_command, run.parts);
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
@@ -61,7 +81,7 @@ int main(int count, char** values)
     run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    run_command->add_option("--thickness", run.thickness, "of the flat sheet")->type_name("MM")->capture_default_str();
+    add_thickness(run_command, run.thickness, "of the flat sheet (default: that of the deck, else 1)");
     run_command->add_flag("--skins", run.skins,
                           "also the strains of both skins: bending over radii added to those of the middle surface");
     run_command
@@ -134,7 +154,8 @@ int main(int count, char** values)
     cli::InfoArguments info;
     CLI::App* info_command =
         app.add_subcommand("info", "Examine a part: what it is, what is wrong with it, what to do");
-    info_command->add_option("part", info.part, "STL, OBJ, PLY, OFF, glTF or GLB file")->required()->type_name("PART");
+    info_command->add_option("part", info.part, part_files)->required()->type_name("PART");
+    add_parts(info_command, info.parts);
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
@@ -153,9 +174,7 @@ int main(int count, char** values)
         comparison.methods.emplace_back(name(method));
     CLI::App* compare_command = app.add_subcommand(
         "compare", "Unfold a part by this solver, ABF++, ARAP, LSCM and SLIM; compare time, memory and distortion");
-    compare_command->add_option("part", comparison.part, "STL, OBJ, PLY, OFF, glTF or GLB file")
-        ->required()
-        ->type_name("PART");
+    compare_command->add_option("part", comparison.part, part_files)->required()->type_name("PART");
     compare_command->add_option("--methods", comparison.methods, "which, in this order")
         ->delimiter(',')
         ->check(CLI::IsMember(comparison.methods))
@@ -167,9 +186,8 @@ int main(int count, char** values)
     compare_command->add_option("--material", comparison.material, "for this solver: a grade, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    compare_command->add_option("--thickness", comparison.thickness, "for this solver: of the flat sheet")
-        ->type_name("MM")
-        ->capture_default_str();
+    add_thickness(compare_command, comparison.thickness,
+                  "for this solver: of the flat sheet (default: that of the deck, else 1)");
     compare_command
         ->add_option("--direction", comparison.direction,
                      "for this solver: stamping direction x,y,z (default: automatic)")
@@ -182,6 +200,7 @@ int main(int count, char** values)
             "seam), none, or a file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
         ->type_name("auto|none|FILE")
         ->capture_default_str();
+    add_parts(compare_command, comparison.parts);
     compare_command->add_option("--unit", comparison.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     compare_command->add_flag("--weld", comparison.weld, "join vertices at one place (always done for STL and glTF)");
@@ -194,9 +213,7 @@ int main(int count, char** values)
     cli::UnfoldArguments unfolding;
     CLI::App* unfold_command = app.add_subcommand(
         "unfold", "Unfold a part step by step: outer flanges first, each onto the face of its neighbour");
-    unfold_command->add_option("part", unfolding.part, "STL, OBJ, PLY, OFF, glTF or GLB file")
-        ->required()
-        ->type_name("PART");
+    unfold_command->add_option("part", unfolding.part, part_files)->required()->type_name("PART");
     CLI::Option* by_script =
         unfold_command->add_option("--script", unfolding.script, "the steps (JSON, engine/pipeline/README.md)")
             ->type_name("FILE");
@@ -239,9 +256,8 @@ int main(int count, char** values)
     unfold_command->add_option("--material", unfolding.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    unfold_command->add_option("--thickness", unfolding.thickness, "of the flat sheet")
-        ->type_name("MM")
-        ->capture_default_str();
+    add_thickness(unfold_command, unfolding.thickness, "of the flat sheet (default: that of the deck, else 1)");
+    add_parts(unfold_command, unfolding.parts);
     unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     unfold_command->add_flag("--weld", unfolding.weld, "join vertices at one place (always done for STL and glTF)");

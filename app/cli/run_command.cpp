@@ -45,10 +45,12 @@ SessionOptions options(const RunArguments& arguments)
         result.read.unit = length_unit(arguments.unit);
     if (arguments.weld)
         result.read.weld = true;
+    result.read.parts = arguments.parts;
     result.read.doctor.keep_largest = arguments.keep_largest;
     result.read.seam = seam_options(arguments.seam);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
-    result.flatten.thickness = arguments.thickness;
+    if (arguments.thickness) // else that of the deck, once it is read
+        result.flatten.thickness = *arguments.thickness;
     result.flatten.skins = arguments.skins;
     if (!arguments.direction.empty())
         result.flatten.direction =
@@ -113,6 +115,8 @@ int run(const RunArguments& arguments)
             break;
         }
         display.done(session.seconds.at(stage));
+        if (stage == Stage::read)
+            session.options.flatten.thickness = sheet_thickness(arguments.thickness, *session.part);
         if (stage == Stage::read && !arguments.process.empty())
             session.options.flatten.process =
                 read_process(arguments.process, *session.part, session.options.flatten.material,
@@ -120,6 +124,8 @@ int run(const RunArguments& arguments)
         if (stage == Stage::read) {
             for (const std::string& line : reading_notes(*session.part))
                 fmt::print("  {}\n", line);
+            if (const std::string text = thickness_in_words(arguments.thickness, *session.part); !text.empty())
+                fmt::print("  note: {}\n", text);
             require_possible(session);
             require_place(session, arguments.folder, arguments.formats, arguments.json, wanted);
         }

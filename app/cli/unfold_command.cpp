@@ -29,11 +29,13 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
+/// All but the thickness, if the deck has to say it.
 FlattenOptions flatten_options(const UnfoldArguments& arguments)
 {
     FlattenOptions options;
     options.material = find_material(arguments.material, assets() / "materials");
-    options.thickness = arguments.thickness;
+    if (arguments.thickness)
+        options.thickness = *arguments.thickness;
     return options;
 }
 
@@ -44,6 +46,7 @@ PartFile part_of(const UnfoldArguments& arguments)
         read.unit = length_unit(arguments.unit);
     if (arguments.weld)
         read.weld = true;
+    read.parts = arguments.parts;
     read.doctor.keep_largest = arguments.keep_largest;
     read.seam = seam_options(arguments.seam);
     JobDisplay display{"read"};
@@ -253,8 +256,11 @@ int unfold(const UnfoldArguments& arguments)
             read_line_file(file); // before the work
     if (!arguments.json.empty())
         require_writable(arguments.json);
-    const FlattenOptions options = flatten_options(arguments);
+    FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
+    options.thickness = sheet_thickness(arguments.thickness, part);
+    if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
+        fmt::print("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
     print_map(map);
     UnfoldScript steps;

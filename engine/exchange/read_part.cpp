@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/core.h>
-#include <fstream>
 
 #include "engine/core/error.h"
 #include "engine/exchange/checked_file.h"
+#include "engine/exchange/deck_choice.h"
+#include "engine/exchange/file_content.h"
+#include "engine/exchange/read_deck.h"
 #include "engine/exchange/read_gltf.h"
 #include "engine/exchange/read_openmesh.h"
 #include "engine/mesh/topology.h"
@@ -16,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One of stl, obj, ply, off, gltf, glb.
+/// One of stl, obj, ply, off, gltf, glb, or of a deck.
 std::string extension_of(const fs::path& path)
 {
     std::string extension = path.extension().string();
@@ -25,32 +27,12 @@ std::string extension_of(const fs::path& path)
     for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
         if (extension == known)
             return extension.substr(1);
-    throw InputError(
-        fmt::format("the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files",
-                    extension));
-}
-
-std::string content_of(const fs::path& path)
-{
-    constexpr uintmax_t most_bytes = uintmax_t(3) << 30;
-    std::error_code problem;
-    const fs::file_status status = fs::status(path, problem);
-    if (!fs::exists(status))
-        throw InputError("there is no such file");
-    if (!fs::is_regular_file(status))
-        throw InputError("this is not a file but a folder or a device");
-    const uintmax_t size = fs::file_size(path, problem);
-    if (problem)
-        throw InputError("its size cannot be found out: " + problem.message());
-    if (size == 0)
-        throw InputError("the file is empty");
-    if (size > most_bytes)
-        throw InputError(fmt::format("{} bytes are more than the {} that are read", size, most_bytes));
-    std::string content(size_t(size), '\0');
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(content.data(), std::streamsize(size)))
-        throw InputError("the file cannot be read; look at its permissions");
-    return content;
+    if (is_deck(extension))
+        return extension.substr(1);
+    throw InputError(fmt::format(
+        "the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files, "
+        "and from solver decks .k, .key, .dyn, .bdf, .nas, .dat, .inp, .msh and .rad",
+        extension));
 }
 
 CheckedFile check(const std::string& extension, std::string_view content)
@@ -67,7 +49,7 @@ CheckedFile check(const std::string& extension, std::string_view content)
 /// Fills format and notes of the part.
 PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile& part, const Progress& progress)
 {
-    const std::string content = content_of(path);
+    const std::string content = file_content(path);
     progress.checkpoint(0.2, "reading the file");
     if (extension == "gltf" || extension == "glb") {
         GltfContent gltf = read_gltf(path, content, progress.part(0.2, 1));
@@ -80,6 +62,38 @@ PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile
     part.format = checked.format;
     part.notes = checked.notes;
     return read_openmesh(checked);
+}
+
+/// Fills all of the part that the deck says, in mm.
+PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartFile& part, const Progress& progress)
+{
+    const Deck deck = read_deck(path, file_content(path), progress);
+    DeckChoice choice = choose_parts(deck, options.parts);
+    part.format = deck.format;
+    part.unit = options.unit.value_or(deck.unit.value_or(LengthUnit::mm));
+    part.notes = deck.notes;
+    part.notes.insert(part.notes.end(), choice.notes.begin(), choice.notes.end());
+    for (Eigen::Vector3d& p : choice.soup.position)
+        p *= millimetres(part.unit);
+    if (choice.thickness)
+        part.thickness_mm = *choice.thickness * millimetres(part.unit);
+    part.material = choice.material;
+    if (part.thickness_mm || !part.material.empty())
+        part.notes.push_back(
+            fmt::format("the deck gives{}{}{}",
+                        part.thickness_mm ? fmt::format(" a thickness of {:.6g} mm", *part.thickness_mm) : "",
+                        part.thickness_mm && !part.material.empty() ? " and" : "",
+                        part.material.empty() ? "" : " the material " + part.material));
+    DeckOrigin& origin = part.deck.emplace();
+    for (const int e : choice.element)
+        origin.element_id.push_back(deck.element[size_t(e)]);
+    for (const int v : choice.node)
+        origin.node_id.push_back(deck.node[size_t(v)]);
+    origin.element = std::move(choice.element);
+    origin.parts = deck.parts;
+    for (const DeckSet& set : deck.sets)
+        origin.sets.push_back(set.name);
+    return std::move(choice.soup);
 }
 
 /// What the doctor found that a cut cannot mend.
@@ -201,8 +215,15 @@ void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, b
 PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
     const std::string extension = extension_of(path);
-    const bool gltf = extension == "gltf" || extension == "glb";
     PartFile part;
+    if (is_deck("." + extension)) {
+        const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
+        fill(part, soup, options, false, progress.part(0.5, 1));
+        return part;
+    }
+    if (!options.parts.empty())
+        throw InputError("parts can be chosen from solver decks only; this file is taken whole");
+    const bool gltf = extension == "gltf" || extension == "glb";
     part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
     PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
     for (Eigen::Vector3d& p : soup.position)
@@ -240,7 +261,14 @@ PartFile read_part(const std::filesystem::path& path, const ReadOptions& options
 {
     return named(path, [&] {
         PartFile part = examine_file(path, options, progress);
-        require_healthy(part.doctor);
+        try {
+            require_healthy(part.doctor);
+        } catch (const InputError& error) {
+            if (!part.deck || !options.parts.empty() || part.deck->parts.size() < 2)
+                throw;
+            throw InputError(fmt::format("{}\nThe deck has several parts; choose by id or name (--part):\n{}",
+                                         error.what(), part_list(part.deck->parts)));
+        }
         return part;
     });
 }

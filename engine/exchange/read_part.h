@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/deck.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
@@ -13,10 +14,22 @@
 namespace spia {
 
 struct ReadOptions {
-    std::optional<LengthUnit> unit = {}; ///< of the file; not given: m for glTF (its specification), else mm
+    std::optional<LengthUnit> unit = {}; ///< of the file; not given: m for glTF (its specification), what a Radioss
+                                         ///< deck says, else mm
     std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
     DoctorOptions doctor = {};           ///< its `weld` is ignored
+    std::vector<std::string> parts = {}; ///< of a solver deck, by id or name; empty: all its shells
     SeamOptions seam = {};               ///< where a part is cut open that is no sheet; vertices of the file
+};
+
+/// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
+/// nodes, both counted from 0 in the order of the deck: `source_face` and `source_vertex` lead to them.
+struct DeckOrigin {
+    std::vector<int> element;             ///< per face of the file: its index among all shells of the deck
+    std::vector<std::int64_t> element_id; ///< per face of the file
+    std::vector<std::int64_t> node_id;    ///< per vertex of the file
+    std::vector<DeckPart> parts;          ///< all of the deck; thicknesses in its unit
+    std::vector<std::string> sets;        ///< names of element sets that can be chosen as well
 };
 
 /// What a file holds, and what was done to it.
@@ -33,10 +46,14 @@ struct PartFile {
     std::vector<std::string> notes;          ///< what was left out, or deserves a word
     std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part was cut open
     double seam_length = 0;                  ///< mm
+    std::optional<double> thickness_mm = {}; ///< of the sheet, if the file says it: only decks do
+    std::string material = {};               ///< what the file calls it; empty: nothing
+    std::optional<DeckOrigin> deck = {};     ///< of solver decks
 };
 
-/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file as a sheet part: one piece with a boundary and no handles. What is closed,
-/// has handles or is a tube is cut open along a seam (cut_open()); the report says so and where.
+/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file or the shells of a solver deck (read_deck()) as a sheet part: one piece with
+/// a boundary and no handles. What is closed, has handles or is a tube is cut open along a seam (cut_open()); the report
+/// says so and where.
 /// Coordinates keep their full precision (STL and glTF hold single precision).
 /// @throws InputError  the file cannot be read, or the doctor found a fault that cannot be repaired
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});

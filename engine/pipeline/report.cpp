@@ -517,6 +517,19 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
     optional("boundary_loops", part.doctor.boundary_loops);
     optional("genus", part.doctor.genus);
     optional("euler_characteristic", part.doctor.euler_characteristic);
+    if (part.deck) {
+        const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+        json["thickness_mm"] = or_null(part.thickness_mm);
+        json["material"] = part.material;
+        for (const DeckPart& each : part.deck->parts)
+            json["parts"].push_back({{"id", or_null(each.id)},
+                                     {"name", each.name},
+                                     {"shells", each.elements},
+                                     {"shells_without_nodes", each.broken},
+                                     {"thickness", or_null(each.thickness)},
+                                     {"material", each.material}});
+        json["sets"] = part.deck->sets;
+    }
     if (part.doctor.healthy()) {
         const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(),
                               high = part.mesh.position.rowwise().maxCoeff();

@@ -1,0 +1,216 @@
+#include "engine/exchange/deck_builder.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+#include "engine/exchange/checked_file.h"
+#include "engine/exchange/node_numbers.h"
+#include "engine/exchange/text_encoding.h"
+
+namespace spia {
+namespace {
+
+/// "*CONTACT (3), *END"; the first dozen.
+std::string listed(const std::map<std::string, int, std::less<>>& counts)
+{
+    constexpr int most = 12;
+    std::string text;
+    int shown = 0;
+    for (const auto& [name, count] : counts)
+        if (shown++ < most)
+            text += fmt::format("{}{}{}", shown > 1 ? ", " : "", name.substr(0, 60),
+                                count > 1 ? fmt::format(" ({})", count) : "");
+    return shown > most ? text + fmt::format(" and {} more", shown - most) : text;
+}
+
+/// @throws InputError if a node comes twice, at different places
+void require_one_place(std::span<const std::int64_t> id, const Eigen::Vector3d* place, const NodeNumbers& number,
+                       int first)
+{
+    for (size_t i = 0; i < id.size(); ++i)
+        if (const int other = number[id[i]] - first; other != int(i) && place[other] != place[i])
+            throw InputError(fmt::format("node {} is given twice: at {}, {}, {} and at {}, {}, {}", id[i],
+                                         place[other].x(), place[other].y(), place[other].z(), place[i].x(),
+                                         place[i].y(), place[i].z()));
+}
+
+} // namespace
+
+void DeckBuilder::add_node(std::int64_t id, const Eigen::Vector3d& position)
+{
+    if (deck_.node.size() >= size_t(most_elements))
+        throw InputError(fmt::format("there are more than {} nodes", most_elements));
+    deck_.node.push_back(id);
+    deck_.position.push_back(position);
+}
+
+void DeckBuilder::add_shell(int part, std::int64_t id, std::span<const std::int64_t> corners, double thickness)
+{
+    if (shell_.size() >= size_t(most_elements))
+        throw InputError(fmt::format("there are more than {} shell elements", most_elements));
+    const bool triangle = corners.size() < 4 || corners[3] == 0 || corners[3] == corners[2];
+    shell_.push_back({id, {corners[0], corners[1], corners[2], triangle ? 0 : corners[3]}, part, triangle});
+    if (thickness > 0 && thickness_.empty())
+        thickness_.resize(shell_.size() - 1, 0);
+    if (thickness > 0 || !thickness_.empty())
+        thickness_.push_back(thickness);
+}
+
+int DeckBuilder::part(std::int64_t id)
+{
+    const auto [found, is_new] = part_of_id_.try_emplace(id, int(deck_.parts.size()));
+    if (is_new)
+        deck_.parts.push_back({.id = id});
+    return found->second;
+}
+
+int DeckBuilder::part_named(std::string_view name)
+{
+    if (const auto found = part_of_name_.find(name); found != part_of_name_.end())
+        return found->second;
+    part_of_name_.emplace(name, int(deck_.parts.size()));
+    deck_.parts.push_back({.name = std::string(name)});
+    return int(deck_.parts.size()) - 1;
+}
+
+void DeckBuilder::close_scope()
+{
+    const std::span<const std::int64_t> ids = std::span(deck_.node).subspan(first_node_);
+    const NodeNumbers number(ids, int(first_node_));
+    require_one_place(ids, deck_.position.data() + first_node_, number, int(first_node_));
+    for (size_t e = first_shell_; e < shell_.size(); ++e) {
+        Shell& shell = shell_[e];
+        std::int64_t missing = 0;
+        bool broken = false;
+        for (size_t k = 0; k < (shell.triangle ? 3 : 4); ++k) {
+            const int v = number[shell.corner[k]];
+            if (v < 0 && !broken) {
+                missing = shell.corner[k];
+                broken = true;
+            }
+            shell.corner[k] = v;
+        }
+        if (!broken)
+            continue;
+        DeckPart& part = at(shell.part);
+        if (part.broken++ == 0) {
+            part.broken_element = shell.id;
+            part.missing_node = missing;
+        }
+        shell.corner[0] = -1;
+    }
+    first_node_ = deck_.node.size();
+    first_shell_ = shell_.size();
+}
+
+void DeckBuilder::add_set(std::string name, std::vector<int> shells)
+{
+    deck_.sets.push_back({std::move(name), std::move(shells)});
+}
+
+/// Names beyond any real deck's are counted together.
+void DeckBuilder::count(std::map<std::string, int, std::less<>>& counts, std::string_view name)
+{
+    constexpr size_t most = 1000;
+    if (const auto found = counts.find(name); found != counts.end())
+        ++found->second;
+    else
+        ++counts[counts.size() < most ? std::string(name) : "others"];
+}
+
+void DeckBuilder::thickness_from_elements()
+{
+    if (thickness_.empty())
+        return;
+    struct Range {
+        double low = 1e300, high = 0;
+    };
+    std::vector<Range> range(deck_.parts.size());
+    for (size_t e = 0; e < shell_.size(); ++e) {
+        Range& of_part = range[size_t(shell_[e].part)];
+        const double t = thickness_[e] > 0 ? thickness_[e] : at(shell_[e].part).thickness.value_or(0);
+        of_part = {std::min(of_part.low, t), std::max(of_part.high, t)};
+    }
+    for (size_t p = 0; p < range.size(); ++p) {
+        DeckPart& part = deck_.parts[p];
+        const auto [low, high] = range[p];
+        if (!(high > 0))
+            continue;
+        if (low == high)
+            part.thickness = low;
+        else
+            deck_.notes.push_back(fmt::format(
+                "part {} {}: its elements have thicknesses of their own, from {:.4g} to {:.4g}; that of its "
+                "section is taken",
+                part.id.value_or(0), part.name, low, high));
+    }
+}
+
+void DeckBuilder::write_notes()
+{
+    int broken = 0;
+    const DeckPart* first = nullptr;
+    for (const DeckPart& part : deck_.parts) {
+        broken += part.broken;
+        first = !first && part.broken ? &part : first;
+    }
+    if (first)
+        note(fmt::format(
+            "{} shell elements name nodes that are not in the deck and are left out (first: element {}, node {})",
+            broken, first->broken_element, first->missing_node));
+    if (!others_.empty())
+        note("elements that are no shells are left out: " + listed(others_));
+    if (!skipped_.empty())
+        note("keywords that are not read: " + listed(skipped_));
+    std::vector<std::int64_t> ids = deck_.element;
+    std::sort(ids.begin(), ids.end());
+    if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
+        note(fmt::format("element ids are used more than once (first: {})", *twice));
+}
+
+Deck DeckBuilder::finish(std::string format, const std::vector<std::string>& notes)
+{
+    deck_.notes.insert(deck_.notes.begin(), notes.begin(), notes.end());
+    close_scope();
+    deck_.format = std::move(format);
+    thickness_from_elements();
+    std::vector<int> number(shell_.size(), -1);
+    for (size_t e = 0; e < shell_.size(); ++e) {
+        const Shell& shell = shell_[e];
+        if (shell.corner[0] < 0)
+            continue;
+        number[e] = deck_.elements();
+        deck_.corner.push_back({int(shell.corner[0]), int(shell.corner[1]), int(shell.corner[2]),
+                                shell.triangle ? -1 : int(shell.corner[3])});
+        deck_.element.push_back(shell.id);
+        deck_.part_of.push_back(shell.part);
+        ++at(shell.part).elements;
+    }
+    for (DeckSet& set : deck_.sets) {
+        std::vector<int> kept;
+        for (const int e : set.elements)
+            if (number[size_t(e)] >= 0)
+                kept.push_back(number[size_t(e)]);
+        set.elements = std::move(kept);
+    }
+    write_notes();
+    for (DeckPart& part : deck_.parts) {
+        part.name = readable(part.name);
+        part.material = readable(part.material);
+    }
+    for (DeckSet& set : deck_.sets)
+        set.name = readable(set.name);
+    for (std::string& text : deck_.notes)
+        text = readable(text);
+    if (deck_.corner.empty()) {
+        std::string message = "there is no shell element with all its nodes in this deck";
+        constexpr size_t most = 5;
+        for (size_t k = 0; k < std::min(most, deck_.notes.size()); ++k)
+            message += "; " + deck_.notes[k];
+        throw InputError(message);
+    }
+    return std::move(deck_);
+}
+
+} // namespace spia

@@ -1,0 +1,66 @@
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/exchange/deck.h"
+
+namespace spia {
+
+/// Collects what a reader finds, in any order, and joins shells with their nodes at the end.
+class DeckBuilder {
+public:
+    /// @throws InputError if there are more nodes than are read
+    void add_node(std::int64_t id, const Eigen::Vector3d& position);
+
+    /// @param part       number of a part
+    /// @param corners    ids of three or four nodes; a fourth that is 0 or repeats the third makes a triangle
+    /// @param thickness  of this element; 0: that of its part
+    void add_shell(int part, std::int64_t id, std::span<const std::int64_t> corners, double thickness = 0);
+
+    int part(std::int64_t id);             ///< its number; a new one if there is none of this id
+    int part_named(std::string_view name); ///< the same for parts that have no id
+    DeckPart& at(int part) { return deck_.parts[size_t(part)]; }
+    int parts() const { return int(deck_.parts.size()); }
+
+    /// Shells so far look for their nodes among the nodes so far, and what follows has ids of its own (Abaqus: *PART).
+    void close_scope();
+    size_t first_of_scope() const { return first_shell_; } ///< number of the first shell since, as they were added
+    size_t shells() const { return shell_.size(); }
+    std::int64_t shell_id(size_t shell) const { return shell_[shell].id; }
+    void move_shell(size_t shell, int part) { shell_[shell].part = part; }
+    void add_set(std::string name, std::vector<int> shells); ///< by their numbers as they were added
+
+    void note(std::string text) { deck_.notes.push_back(std::move(text)); }
+    void count_skipped(std::string_view keyword) { count(skipped_, keyword); } ///< not read
+    void count_other_elements(std::string_view type) { count(others_, type); } ///< no shell
+
+    /// @throws InputError if a node is given twice at different places, or there is no shell
+    /// @param notes  of the lines, put before those of the builder
+    Deck finish(std::string format, const std::vector<std::string>& notes);
+    void set_unit(LengthUnit unit) { deck_.unit = unit; }
+
+private:
+    struct Shell {
+        std::int64_t id;
+        std::array<std::int64_t, 4> corner; ///< ids of nodes; their numbers once the scope is closed, -1: not there
+        int part;
+        bool triangle;
+    };
+    static void count(std::map<std::string, int, std::less<>>& counts, std::string_view name);
+    void thickness_from_elements();
+    void write_notes();
+
+    Deck deck_;
+    std::vector<Shell> shell_;
+    std::vector<double> thickness_; ///< per shell, or empty if none has its own
+    std::unordered_map<std::int64_t, int> part_of_id_;
+    std::map<std::string, int, std::less<>> part_of_name_;
+    std::map<std::string, int, std::less<>> skipped_, others_;
+    size_t first_node_ = 0, first_shell_ = 0;
+};
+
+} // namespace spia

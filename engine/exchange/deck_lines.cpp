@@ -1,0 +1,163 @@
+#include "engine/exchange/deck_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fmt/core.h>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/exchange/deck_number.h"
+#include "engine/exchange/file_content.h"
+#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text_lines.h"
+
+namespace spia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t deepest = 20; ///< files that include files; LS-DYNA stops at 10
+
+fs::path unique_name(const fs::path& path)
+{
+    std::error_code problem;
+    fs::path canonical = fs::canonical(path, problem);
+    return problem ? path.lexically_normal() : canonical;
+}
+
+std::string_view without_mark(std::string_view content)
+{
+    return content.starts_with("\xef\xbb\xbf") ? content.substr(3) : content;
+}
+
+} // namespace
+
+DeckLines::DeckLines(fs::path file, std::string content, Progress progress) : progress_(std::move(progress))
+{
+    open(file, std::move(content));
+}
+
+void DeckLines::open(const fs::path& path, std::string content)
+{
+    seen_.insert(unique_name(path));
+    content_.push_back(std::make_unique<const std::string>(std::move(content)));
+    open_.push_back({path, without_mark(*content_.back()), 0});
+}
+
+bool DeckLines::next()
+{
+    if (std::exchange(again_, false))
+        return true;
+    while (open_.back().rest.empty()) {
+        if (open_.size() == 1)
+            return false;
+        open_.pop_back();
+    }
+    File& file = open_.back();
+    const void* found = std::memchr(file.rest.data(), '\n', file.rest.size());
+    const size_t length = found ? size_t(static_cast<const char*>(found) - file.rest.data()) : file.rest.size();
+    line_ = file.rest.substr(0, length);
+    file.rest.remove_prefix(std::min(length + 1, file.rest.size()));
+    ++file.line;
+    if (line_.ends_with('\r'))
+        line_.remove_suffix(1);
+    constexpr long between_checkpoints = 1 << 14;
+    if (++lines_ % between_checkpoints == 0)
+        checkpoint();
+    return true;
+}
+
+void DeckLines::checkpoint() const
+{
+    const double whole = double(content_.front()->size());
+    progress_.checkpoint(1 - double(open_.front().rest.size()) / whole, "reading the deck");
+}
+
+void DeckLines::leave_file() { open_.back().rest = {}; }
+
+void DeckLines::add_folder(std::string_view name, bool relative)
+{
+    folders_.push_back(relative ? open_.front().path.parent_path() / fs::path(name) : fs::path(name));
+}
+
+void DeckLines::include(std::string_view name)
+{
+    if (name.empty() || name.find('\0') != name.npos)
+        fail("an included file has no name");
+    std::string slashes(name);
+    std::replace(slashes.begin(), slashes.end(), '\\', '/');
+    std::vector<fs::path> folders = {open_.back().path.parent_path(), open_.front().path.parent_path()};
+    folders.insert(folders.end(), folders_.begin(), folders_.end());
+    std::error_code problem;
+    for (const fs::path& folder : folders)
+        for (const fs::path& file : {folder / fs::path(name), folder / fs::path(slashes)}) {
+            if (!fs::is_regular_file(file, problem))
+                continue;
+            const fs::path unique = unique_name(file);
+            for (const File& other : open_)
+                if (unique_name(other.path) == unique)
+                    fail(fmt::format("the file {} includes itself", file.string()));
+            if (fs::file_size(file, problem) == 0)
+                return;
+            if (seen_.contains(unique)) {
+                return note(fmt::format("the file {} is included more than once; it was taken once", name));
+            }
+            if (open_.size() >= deepest)
+                fail(fmt::format("files are included {} deep", deepest));
+            try {
+                open(file, file_content(file));
+            } catch (const InputError& error) {
+                fail(fmt::format("the included file {}: {}", file.string(), error.what()));
+            }
+            return;
+        }
+    note(fmt::format("the included file {} is not there, and what it holds is missing", name.substr(0, 200)));
+}
+
+void DeckLines::note(std::string text)
+{
+    constexpr size_t most = 20;
+    if (notes.size() < most)
+        notes.push_back(std::move(text));
+    else if (notes.size() == most)
+        notes.emplace_back("and so for more files");
+}
+
+std::int64_t DeckLines::whole(std::string_view field) const
+{
+    if (const auto value = deck_whole(field))
+        return *value;
+    fail(trimmed(field).empty() ? std::string("a number is missing")
+                                : fmt::format("'{}' is not a whole number", trimmed(field).substr(0, 40)));
+}
+
+std::int64_t DeckLines::whole_or_zero(std::string_view field) const
+{
+    return trimmed(field).empty() ? 0 : whole(field);
+}
+
+double DeckLines::number(std::string_view field) const
+{
+    if (const auto value = deck_number(field))
+        return *value;
+    fail(trimmed(field).empty() ? std::string("a number is missing")
+                                : fmt::format("'{}' is not a number", trimmed(field).substr(0, 40)));
+}
+
+double DeckLines::coordinate(std::string_view field) const
+{
+    const double value = number(field);
+    if (!(std::abs(value) <= largest_coordinate))
+        fail(fmt::format("the coordinate '{}' is not a usable number", trimmed(field).substr(0, 40)));
+    return value;
+}
+
+void DeckLines::fail(std::string_view what) const
+{
+    const File& file = open_.back();
+    const std::string where = open_.size() > 1 ? fmt::format("in the included file {}, ", file.path.string()) : "";
+    throw InputError(fmt::format("{}line {}: {}", where, file.line, readable(what)));
+}
+
+} // namespace spia

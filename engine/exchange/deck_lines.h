@@ -1,0 +1,63 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/progress.h"
+
+namespace spia {
+
+/// The lines of a deck, through the files that it includes; says where it is when something is wrong. Lines stay
+/// valid as long as this does. A file is taken once: what is included again holds nothing new.
+class DeckLines {
+public:
+    DeckLines(std::filesystem::path file, std::string content, Progress progress = {});
+
+    bool next(); ///< goes to the next line, empty or not; false at the end of the deck
+    std::string_view line() const { return line_; }             ///< without its end (LF or CR LF)
+    std::string_view text() const { return *content_.front(); } ///< all of the deck, without the files it includes
+    void back() { again_ = true; }                              ///< next() gives this line once more
+    void leave_file();                                          ///< skips the rest of the current file
+    int depth() const { return int(open_.size()); }             ///< 1: the deck itself
+
+    /// Goes on with the first line of another file, and comes back at its end. It is looked for beside the current file,
+    /// beside the deck and in the folders added; if it is not there a note says so and nothing happens.
+    /// @throws InputError if the file includes itself, or files are nested too deep
+    void include(std::string_view name);
+    void add_folder(std::string_view name, bool relative); ///< where to look for included files
+
+    std::int64_t whole(std::string_view field) const; ///< @throws InputError if it is no whole number
+    double number(std::string_view field) const;      ///< @throws InputError if it is no number
+    double coordinate(std::string_view field) const;  ///< @throws InputError if it is no length
+    /// A whole number, or 0 for a field of blanks.
+    std::int64_t whole_or_zero(std::string_view field) const;
+    [[noreturn]] void fail(std::string_view what) const; ///< @throws InputError "line 12: what"
+
+    std::vector<std::string> notes; ///< what was wrong with included files; the first ones
+
+private:
+    struct File {
+        std::filesystem::path path;
+        std::string_view rest;
+        long line = 0;
+    };
+    void open(const std::filesystem::path& path, std::string content);
+    void checkpoint() const;
+    void note(std::string text);
+
+    std::vector<std::unique_ptr<const std::string>> content_; // of all files, for lines that are still looked at
+    std::vector<File> open_;
+    std::set<std::filesystem::path> seen_;
+    std::vector<std::filesystem::path> folders_;
+    std::string_view line_;
+    bool again_ = false;
+    Progress progress_;
+    long lines_ = 0;
+};
+
+} // namespace spia

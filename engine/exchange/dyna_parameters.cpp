@@ -1,0 +1,59 @@
+#include "engine/exchange/dyna_parameters.h"
+
+#include <cctype>
+
+#include "engine/exchange/deck_number.h"
+
+namespace spia {
+namespace {
+
+std::string small_letters(std::string_view text)
+{
+    std::string result(text);
+    for (char& c : result)
+        c = char(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+} // namespace
+
+/// @param name  after its type: "R thood" or "Rthood"
+void DynaParameters::set(std::string_view name, std::string_view value)
+{
+    if (name.size() > 1)
+        value_[small_letters(trimmed(name.substr(1)))] = std::string(trimmed(value));
+}
+
+void DynaParameters::define(const DeckFields& card)
+{
+    for (size_t i = 0; i + 1 < card.count(); i += 2)
+        set(trimmed(card[i]), card[i + 1]);
+}
+
+void DynaParameters::define_expression(std::string_view line, int width)
+{
+    const size_t comma = line.find(',');
+    const size_t cut = comma != line.npos ? comma : std::min(line.size(), size_t(width));
+    const std::string_view value = trimmed(line.substr(std::min(line.size(), comma != line.npos ? cut + 1 : cut)));
+    if (deck_number(value))
+        set(trimmed(line.substr(0, cut)), value);
+}
+
+const std::string* DynaParameters::find(std::string_view field)
+{
+    const auto found = value_.find(small_letters(trimmed(field.substr(1))));
+    if (found != value_.end())
+        return &found->second;
+    undefined_.insert(std::string(field));
+    return nullptr;
+}
+
+std::string DynaParameters::undefined() const
+{
+    std::string text;
+    for (const std::string& name : undefined_)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+} // namespace spia

@@ -1,0 +1,28 @@
+#include "engine/exchange/dyna_values.h"
+
+#include <fmt/core.h>
+
+namespace spia {
+
+std::string_view DynaValues::meant(std::string_view field)
+{
+    if (!DynaParameters::is_name(field))
+        return field;
+    const std::string* value = parameters.find(field);
+    if (!value)
+        lines_.fail(fmt::format("the parameter {} is not defined", field.substr(0, 40)));
+    return *value;
+}
+
+std::optional<double> DynaValues::thickness(size_t i)
+{
+    const std::string_view field = fields_[i];
+    if (field.empty())
+        return 0;
+    if (!DynaParameters::is_name(field))
+        return lines_.number(field);
+    const std::string* value = parameters.find(field);
+    return value ? std::optional(lines_.number(*value)) : std::nullopt;
+}
+
+} // namespace spia

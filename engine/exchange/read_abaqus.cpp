@@ -1,0 +1,282 @@
+#include <algorithm>
+#include <fmt/core.h>
+#include <set>
+
+#include "engine/exchange/abaqus_keyword.h"
+#include "engine/exchange/deck_builder.h"
+#include "engine/exchange/deck_fields.h"
+#include "engine/exchange/deck_number.h"
+#include "engine/exchange/element_sets.h"
+#include "engine/exchange/read_deck.h"
+
+// Layouts: Abaqus Keywords Reference Guide and the CalculiX manual (*NODE, *ELEMENT, *ELSET, *SHELL SECTION, *INCLUDE).
+namespace spia {
+namespace {
+
+/// Nodes of a shell or membrane element by its type, the digit of "S4R", "STRI65", "M3D4"; 0: it is none.
+int nodes_of(const std::string& type)
+{
+    for (const std::string_view start : {"STRI", "SFM3D", "M3D", "DS", "S"})
+        if (type.size() > start.size() && type.starts_with(start)) {
+            const char digit = type[start.size()];
+            return std::string_view("34689").find(digit) != std::string_view::npos ? digit - '0' : 0;
+        }
+    return 0;
+}
+
+class AbaqusReader {
+public:
+    explicit AbaqusReader(DeckLines& lines) : lines_(lines) {}
+
+    Deck read()
+    {
+        while (lines_.next()) {
+            const std::string_view line = trimmed(lines_.line());
+            if (line.empty() || line.starts_with("**"))
+                continue;
+            if (line.starts_with('*'))
+                begin_block(AbaqusKeyword(whole_keyword(line)));
+            else if (card_) {
+                fields_.cut_commas(line);
+                if (fields_.count() > DeckFields::most)
+                    lines_.fail(fmt::format("there are {} entries on this line", fields_.count()));
+                (this->*card_)();
+            }
+        }
+        close_scope();
+        if (moved_ > 0)
+            deck_.note(fmt::format(
+                "{} instances are moved or turned in the assembly; their parts are taken as they were drawn", moved_));
+        if (middle_nodes_ > 0)
+            deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
+        return deck_.finish("Abaqus input", lines_.notes);
+    }
+
+private:
+    using Card = void (AbaqusReader::*)();
+
+    /// A keyword line that ends with a comma goes on in the next one.
+    std::string whole_keyword(std::string_view line)
+    {
+        std::string text(line);
+        while (text.ends_with(',') && lines_.next())
+            text += trimmed(lines_.line());
+        return text;
+    }
+
+    void begin_block(const AbaqusKeyword& keyword)
+    {
+        if (keyword.name == "INCLUDE")
+            return lines_.include(keyword["INPUT"]); // in the middle of the block, if there is one
+        require_whole_shell();
+        card_ = nullptr;
+        if (keyword.name == "NODE")
+            begin_nodes(keyword);
+        else if (keyword.name == "ELEMENT")
+            begin_elements(keyword);
+        else if (keyword.name == "ELSET")
+            begin_set(keyword);
+        else if (keyword.name == "SHELL SECTION" || keyword.name == "SHELL GENERAL SECTION" ||
+                 keyword.name == "MEMBRANE SECTION")
+            begin_section(keyword);
+        else if (keyword.name == "PART" || keyword.name == "INSTANCE") {
+            close_scope();
+            scope_ = keyword["NAME"];
+            if (keyword.name == "INSTANCE")
+                card_ = &AbaqusReader::placement;
+        } else if (keyword.name == "END PART" || keyword.name == "END INSTANCE" || keyword.name == "ASSEMBLY")
+            close_scope();
+        else if (keyword.name == "SYSTEM")
+            card_ = &AbaqusReader::system;
+        else if (keyword.name != "HEADING")
+            deck_.count_skipped("*" + keyword.name);
+        if (card_ && keyword.has("INPUT"))
+            lines_.include(keyword["INPUT"]);
+    }
+
+    void begin_nodes(const AbaqusKeyword& keyword)
+    {
+        if (const std::string system = upper_case(keyword["SYSTEM"]); !system.empty() && system != "R")
+            lines_.fail("nodes in cylindrical or spherical coordinates are not read; write them in rectangular ones");
+        card_ = &AbaqusReader::node;
+    }
+
+    void node()
+    {
+        Eigen::Vector3d x = Eigen::Vector3d::Zero();
+        for (int k = 0; k < 3; ++k)
+            if (const std::string_view field = fields_[size_t(1 + k)]; !field.empty())
+                x[k] = lines_.coordinate(field);
+        deck_.add_node(lines_.whole(fields_[0]), x);
+    }
+
+    void system() { lines_.fail("nodes in a coordinate system of their own (*SYSTEM) are not read"); }
+
+    void begin_elements(const AbaqusKeyword& keyword)
+    {
+        type_ = upper_case(keyword["TYPE"]);
+        if (type_.empty())
+            lines_.fail("*ELEMENT does not say which TYPE");
+        wanted_ = size_t(nodes_of(type_));
+        element_set_ = keyword["ELSET"];
+        part_ = part_of(!element_set_.empty() ? element_set_
+                        : scope_.empty()      ? std::string("elements without a set")
+                                              : scope_);
+        card_ = wanted_ > 0 ? &AbaqusReader::shell : &AbaqusReader::other_element;
+    }
+
+    void other_element() { deck_.count_other_elements(type_ + " lines"); }
+
+    /// Nodes may go on in the next line.
+    void shell()
+    {
+        for (size_t k = 0; k < fields_.count(); ++k)
+            if (!fields_[k].empty())
+                numbers_.push_back(lines_.whole(fields_[k]));
+        if (numbers_.size() < wanted_ + 1)
+            return;
+        if (numbers_.size() > wanted_ + 1)
+            lines_.fail(fmt::format("an element of type {} has {} nodes, not {}", type_, wanted_, numbers_.size() - 1));
+        const size_t corners = wanted_ == 3 || wanted_ == 6 ? 3 : 4;
+        middle_nodes_ += wanted_ > 4;
+        deck_.add_shell(part_, numbers_[0], std::span(numbers_).subspan(1, corners));
+        if (!element_set_.empty())
+            sets_.add(element_set_, numbers_[0], numbers_[0], 1);
+        numbers_.clear();
+    }
+
+    void require_whole_shell()
+    {
+        if (!numbers_.empty())
+            lines_.fail(fmt::format("element {} of type {} has {} nodes, not {}", numbers_[0], type_, wanted_,
+                                    numbers_.size() - 1));
+    }
+
+    void begin_set(const AbaqusKeyword& keyword)
+    {
+        if (keyword.has("INSTANCE")) // of the assembly; the part has the same faces
+            return;
+        set_ = keyword["ELSET"];
+        if (set_.empty())
+            lines_.fail("*ELSET does not say which ELSET");
+        card_ = keyword.has("GENERATE") ? &AbaqusReader::generated : &AbaqusReader::listed;
+    }
+
+    void listed()
+    {
+        for (size_t k = 0; k < fields_.count(); ++k)
+            if (const auto id = deck_whole(fields_[k]))
+                sets_.add(set_, *id, *id, 1);
+            else if (!fields_[k].empty())
+                sets_.add_set(set_, without_quotes(fields_[k]));
+    }
+
+    void generated()
+    {
+        const std::int64_t step = fields_[2].empty() ? 1 : lines_.whole(fields_[2]);
+        if (step < 1)
+            lines_.fail(fmt::format("the step is {}; it must be above 0", step));
+        sets_.add(set_, lines_.whole(fields_[0]), lines_.whole(fields_[1]), step);
+    }
+
+    void begin_section(const AbaqusKeyword& keyword)
+    {
+        sections_.push_back(
+            {std::string(keyword["ELSET"]), std::string(keyword["MATERIAL"]), 0, keyword.has("COMPOSITE")});
+        card_ = &AbaqusReader::section;
+    }
+
+    void section()
+    {
+        Section& section = sections_.back();
+        if (fields_[0].empty() || (section.thickness > 0 && !section.layers))
+            return;
+        section.thickness += lines_.number(fields_[0]);
+        if (section.layers && section.material.empty())
+            section.material = fields_[2];
+    }
+
+    void placement()
+    {
+        bool moved = false;
+        for (size_t k = 0; k < fields_.count(); ++k)
+            moved = moved || (!fields_[k].empty() && lines_.number(fields_[k]) != 0);
+        moved_ += moved;
+        card_ = nullptr; // a second line would turn it as well
+    }
+
+    /// A part of this scope; one of the same name elsewhere is another one.
+    int part_of(const std::string& name)
+    {
+        const std::string key = upper_case(name);
+        if (const auto found = part_of_name_.find(key); found != part_of_name_.end())
+            return found->second;
+        const bool taken = !taken_names_.insert(key).second;
+        return part_of_name_[key] = deck_.part_named(taken ? fmt::format("{}.{}", scope_, name) : name);
+    }
+
+    /// Element ids, sets and sections of a part hold for this part alone.
+    void close_scope()
+    {
+        require_whole_shell();
+        std::vector<std::pair<std::int64_t, int>> by_id;
+        for (size_t e = deck_.first_of_scope(); e < deck_.shells(); ++e)
+            by_id.emplace_back(deck_.shell_id(e), int(e));
+        std::sort(by_id.begin(), by_id.end());
+        for (const Section& section : sections_) {
+            if (section.set.empty())
+                continue;
+            const int part = part_of(section.set);
+            for (const int e : sets_.members(section.set, by_id, steps_))
+                deck_.move_shell(size_t(e), part);
+            if (section.thickness > 0)
+                deck_.at(part).thickness = section.thickness;
+            deck_.at(part).material = section.material;
+        }
+        keep_sets(by_id);
+        deck_.close_scope();
+        sets_.clear();
+        sections_.clear();
+        part_of_name_.clear();
+        scope_.clear();
+    }
+
+    /// For the user to choose from, as long as they take no more room than a deck of this size may.
+    void keep_sets(const std::vector<std::pair<std::int64_t, int>>& by_id)
+    {
+        std::int64_t room = 64 * std::int64_t(by_id.size());
+        for (const std::string& name : sets_.names()) {
+            std::vector<int> members = sets_.members(name, by_id, steps_);
+            room -= std::int64_t(members.size());
+            if (room < 0)
+                return deck_.note(fmt::format("the element sets from {} on cannot be chosen; they are too many", name));
+            if (!members.empty())
+                deck_.add_set(name, std::move(members));
+        }
+    }
+
+    struct Section {
+        std::string set, material;
+        double thickness;
+        bool layers;
+    };
+    DeckLines& lines_;
+    DeckBuilder deck_;
+    DeckFields fields_;
+    Card card_ = nullptr;
+    std::string type_, element_set_, set_, scope_;
+    size_t wanted_ = 0;
+    std::vector<std::int64_t> numbers_; // of the element that is being read
+    int part_ = 0, moved_ = 0, middle_nodes_ = 0;
+    ElementSets sets_;
+    std::vector<Section> sections_;
+    std::map<std::string, int> part_of_name_;
+    std::set<std::string> taken_names_;
+    std::int64_t steps_ = 300'000'000; // a few seconds
+};
+
+} // namespace
+
+Deck read_abaqus(DeckLines& lines) { return AbaqusReader(lines).read(); }
+
+} // namespace spia

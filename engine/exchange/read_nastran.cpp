@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "engine/exchange/deck_builder.h"
+#include "engine/exchange/deck_number.h"
+#include "engine/exchange/nastran_entries.h"
+#include "engine/exchange/nastran_systems.h"
+#include "engine/exchange/read_deck.h"
+
+// Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD2R, CTRIA3, CQUAD4, PSHELL).
+namespace spia {
+namespace {
+
+bool is_solid_or_bar(const std::string& name)
+{
+    for (const char* start : {"CHEXA", "CTETRA", "CPENTA", "CPYRA",  "CBAR", "CBEAM",  "CBEND",  "CROD",  "CONROD",
+                              "CTUBE", "CELAS",  "CBUSH",  "CSHEAR", "CGAP", "CQUADX", "CTRIAX", "CVISC", "CDAMP",
+                              "CWELD", "CFAST",  "CONM",   "CMASS",  "RBE",  "RBAR",   "PLOTEL"})
+        if (name.starts_with(start))
+            return true;
+    return false;
+}
+
+class NastranReader {
+public:
+    explicit NastranReader(DeckLines& lines) : lines_(lines), entry_(lines) {}
+
+    Deck read()
+    {
+        while (entry_.next())
+            take();
+        place_nodes();
+        name_parts();
+        return deck_.finish("Nastran bulk data", lines_.notes);
+    }
+
+private:
+    void take()
+    {
+        const std::string& name = entry_.name();
+        if (name == "GRID")
+            node();
+        else if (name == "CQUAD4" || name == "CQUADR" || name == "CQUAD8" || name == "CQUAD")
+            shell(4);
+        else if (name == "CTRIA3" || name == "CTRIAR" || name == "CTRIA6")
+            shell(3);
+        else if (name == "PSHELL")
+            property();
+        else if (name == "PCOMP")
+            composite();
+        else if (name == "GRDSET")
+            usual_system_ = lines_.whole_or_zero(entry_[1]);
+        else if (name == "CORD2R" || name == "CORD2C" || name == "CORD2S")
+            system(name.back());
+        else if (name.starts_with("MAT") && name.size() <= 5 && name != "MATT1")
+            material_[lines_.whole_or_zero(entry_[0])] = name;
+        else if (is_solid_or_bar(name))
+            deck_.count_other_elements(name);
+        else
+            deck_.count_skipped(name);
+    }
+
+    void node()
+    {
+        entry_.require_whole();
+        Node node{lines_.whole(entry_[0]), entry_[1].empty() ? -1 : lines_.whole(entry_[1]), Eigen::Vector3d::Zero()};
+        for (int k = 0; k < 3; ++k)
+            if (const std::string_view x = entry_[size_t(2 + k)]; !x.empty())
+                node.coordinates[k] = lines_.coordinate(x);
+        nodes_.push_back(node);
+    }
+
+    void shell(size_t corners)
+    {
+        entry_.require_whole();
+        const std::int64_t id = lines_.whole(entry_[0]);
+        std::array<std::int64_t, 4> corner = {};
+        for (size_t k = 0; k < corners; ++k)
+            corner[k] = lines_.whole(entry_[2 + k]);
+        if (entry_.name() == "CQUAD8" || entry_.name() == "CTRIA6" || entry_.name() == "CQUAD")
+            ++middle_nodes_;
+        const std::int64_t property = entry_[1].empty() ? id : lines_.whole(entry_[1]);
+        deck_.add_shell(deck_.part(property), id, corner, own_thickness(corners));
+    }
+
+    /// The mean of those at the corners of a CQUAD4 or CTRIA3; 0 if they are not given or relative.
+    double own_thickness(size_t corners)
+    {
+        if (entry_.name().back() != '4' && entry_.name().back() != '3')
+            return 0;
+        std::array<double, 4> thick = {};
+        for (size_t k = 0; k < corners; ++k) {
+            const std::string_view t = entry_[10 + k];
+            if (t.empty())
+                return 0;
+            thick[k] = lines_.number(t);
+        }
+        const bool relative = lines_.whole_or_zero(entry_[9]) != 0;
+        return relative ? 0 : mean(std::span(thick).first(corners));
+    }
+
+    void property()
+    {
+        entry_.require_whole();
+        DeckPart& part = deck_.at(deck_.part(lines_.whole(entry_[0])));
+        if (!entry_[1].empty())
+            part.material_id = lines_.whole(entry_[1]);
+        if (!entry_[2].empty())
+            part.thickness = lines_.number(entry_[2]);
+    }
+
+    /// The thickness of a laminate is that of its layers: material, thickness, angle, output from the ninth field on.
+    void composite()
+    {
+        entry_.require_whole();
+        double sum = 0, last = 0;
+        for (size_t k = 8; !entry_[k].empty() || !entry_[k + 1].empty() || !entry_[k + 2].empty(); k += 4) {
+            if (!entry_[k + 1].empty())
+                last = lines_.number(entry_[k + 1]);
+            sum += last;
+        }
+        DeckPart& part = deck_.at(deck_.part(lines_.whole(entry_[0])));
+        if (!entry_[8].empty())
+            part.material_id = lines_.whole(entry_[8]);
+        if (sum > 0)
+            part.thickness = entry_[7] == "SYM" ? 2 * sum : sum;
+    }
+
+    void system(char kind)
+    {
+        entry_.require_whole();
+        NastranSystems::System system{kind == 'R'   ? NastranSystems::Kind::rectangular
+                                      : kind == 'C' ? NastranSystems::Kind::cylindrical
+                                                    : NastranSystems::Kind::spherical,
+                                      lines_.whole_or_zero(entry_[1]), Eigen::Matrix3d::Zero()};
+        for (int k = 0; k < 9; ++k)
+            if (const std::string_view x = entry_[size_t(2 + k)]; !x.empty())
+                system.points(k % 3, k / 3) = lines_.coordinate(x);
+        systems_.add(lines_.whole(entry_[0]), system);
+    }
+
+    void place_nodes()
+    {
+        int unplaced = 0;
+        std::int64_t first = 0, in_system = 0;
+        for (const Node& node : nodes_) {
+            const std::int64_t system = node.system < 0 ? usual_system_ : node.system;
+            if (const auto place = systems_.in_space(system, node.coordinates))
+                deck_.add_node(node.id, *place);
+            else if (unplaced++ == 0) {
+                first = node.id;
+                in_system = system;
+            }
+        }
+        if (unplaced > 0)
+            deck_.note(
+                fmt::format("{} nodes are left out, for their coordinate systems are not given by CORD2R, CORD2C or "
+                            "CORD2S (first: node {} in system {})",
+                            unplaced, first, in_system));
+        if (middle_nodes_ > 0)
+            deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
+    }
+
+    void name_parts()
+    {
+        for (int p = 0; p < deck_.parts(); ++p) {
+            DeckPart& part = deck_.at(p);
+            if (const auto name = entry_.property_names().find(*part.id); name != entry_.property_names().end())
+                part.name = name->second;
+            if (const auto name = material_.find(part.material_id.value_or(0)); name != material_.end())
+                part.material = name->second;
+        }
+    }
+
+    struct Node {
+        std::int64_t id, system; ///< system -1: as GRDSET says
+        Eigen::Vector3d coordinates;
+    };
+    DeckLines& lines_;
+    NastranEntries entry_;
+    DeckBuilder deck_;
+    NastranSystems systems_;
+    std::vector<Node> nodes_; // coordinate systems may come behind them
+    std::int64_t usual_system_ = 0;
+    int middle_nodes_ = 0;
+    std::map<std::int64_t, std::string> material_;
+};
+
+} // namespace
+
+Deck read_nastran(DeckLines& lines) { return NastranReader(lines).read(); }
+
+} // namespace spia

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# usage: decks.sh SPIA FOLDER - parts of a solver deck on the command line
+set -euo pipefail
+spia=$1 out=$2
+rm -rf "$out"
+mkdir -p "$out"
+fail() { echo "FAILED: $*"; exit 1; }
+expect() { # CODE WORDS COMMAND...
+    local wanted=$1 words=$2 got=0
+    shift 2
+    "$@" > "$out/log" 2>&1 || got=$?
+    [ "$got" = "$wanted" ] || { cat "$out/log"; fail "exit $got, not $wanted: $*"; }
+    grep -q -- "$words" "$out/log" || { cat "$out/log"; fail "no '$words': $*"; }
+}
+deck="$out/two parts.inp"
+{
+    echo "*NODE"
+    for part in 0 1; do for i in 0 1 2 3; do for j in 0 1 2 3; do
+        echo "$((100 * part + 4 * i + j + 1)), $((500 * part + 20 * i)), $((20 * j)), $((i * i))"
+    done; done; done
+    for part in 0 1; do
+        echo "*ELEMENT, TYPE=S4R, ELSET=$([ $part = 0 ] && echo Lid || echo Base)"
+        for i in 0 1 2; do for j in 0 1 2; do
+            n=$((100 * part + 4 * i + j + 1))
+            echo "$((100 * part + 3 * i + j + 1)), $n, $((n + 4)), $((n + 5)), $((n + 1))"
+        done; done
+    done
+    printf '*SHELL SECTION, ELSET=Lid, MATERIAL=DC04\n0.8, 5\n*SHELL SECTION, ELSET=Base, MATERIAL=DC01\n1.5\n'
+    printf '*ELSET, ELSET=Row, GENERATE\n1, 3, 1\n'
+} > "$deck"
+expect 2 "part  *Base  *9 shells, 1.5 thick, DC01" "$spia" info "$deck"
+grep -q "element set  *Row" "$out/log" || fail "no sets"
+expect 0 "can be unfolded" "$spia" info "$deck" --part Lid --json "$out/info.json"
+grep -q '"thickness_mm": 0.8' "$out/info.json" || fail "no thickness in the JSON"
+expect 2 "choose by id or name (--part):" "$spia" run "$deck" --out "$out/run"
+expect 2 "there is no part 'Roof'" "$spia" run --part Roof "$deck" --out "$out/run"
+expect 0 "0.8 mm thick as in the deck" "$spia" run --part lid "$deck" --out "$out/run" --formats csv --json "$out/run.json"
+grep -q '"sheet_thickness_mm": 0.8' "$out/run.json" || fail "the sheet is not 0.8 mm thick"
+expect 0 "20.32 mm thick as in the deck" "$spia" run --part lid --unit inch "$deck" --out "$out/run" --formats csv
+expect 0 "2 mm thick as asked for, not 0.8 mm" "$spia" run --part Row "$deck" --thickness 2 --out "$out/run" --formats csv
+expect 2 "several parts\|separate pieces" "$spia" compare --part Lid,Base "$deck" --methods lscm
+expect 0 "1.5 mm thick as in the deck" "$spia" compare --part Base "$deck" --methods lscm
+expect 0 "0.8 mm thick as in the deck" "$spia" unfold --part Lid "$deck" --auto
+expect 2 "from solver decks only" "$spia" info --part 1 "$(dirname "$0")/../../assets/parts/dome.obj"
+echo "decks: all as expected"

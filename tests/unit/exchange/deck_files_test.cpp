@@ -1,0 +1,266 @@
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <random>
+#include <sys/resource.h>
+
+#include "engine/exchange/deck_choice.h"
+#include "engine/exchange/read_part.h"
+#include "tests/unit/exchange/sample_decks.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path data_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data";
+
+/// As its origin states.
+struct KnownDeck {
+    const char* file;
+    int nodes, quads, triangles, loops; ///< nodes: used by shells
+    double thickness;                   ///< 0: none
+    const char* material;
+    bool flipped;
+};
+
+void PrintTo(const KnownDeck& deck, std::ostream* out) { *out << deck.file; }
+
+class RealDeck : public testing::TestWithParam<KnownDeck> {};
+
+TEST_P(RealDeck, HasTheElementsItsOriginStates)
+{
+    const KnownDeck known = GetParam();
+    const fs::path file = data_folder / known.file;
+    if (!fs::exists(file))
+        GTEST_SKIP() << "no " << file;
+    const Deck deck = read_deck(file, content_of(file));
+    int quads = 0;
+    for (const auto& corner : deck.corner)
+        quads += corner[3] >= 0;
+    EXPECT_EQ(quads, known.quads);
+    EXPECT_EQ(deck.elements() - quads, known.triangles);
+    EXPECT_EQ(int(choose_parts(deck, {}).node.size()), known.nodes);
+    if (known.loops == 0) // several parts with joints of three faces
+        return;
+    ReadOptions as_it_is;
+    as_it_is.seam.mode = SeamOptions::Mode::none;
+    const PartFile part = read_part(file, as_it_is);
+    EXPECT_EQ(part.mesh.vertices(), known.nodes);
+    EXPECT_EQ(part.file_faces, known.quads + known.triangles);
+    EXPECT_EQ(part.doctor.boundary_loops, known.loops);
+    EXPECT_EQ(part.doctor.genus, 0);
+    EXPECT_EQ(part.thickness_mm.value_or(0), known.thickness);
+    EXPECT_EQ(part.material, known.material);
+    EXPECT_EQ(part.doctor.find(Fault::flipped_face) != nullptr, known.flipped);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shared, RealDeck,
+    testing::Values(KnownDeck{"fe/recliner_bracket.k", 1972, 1811, 54, 12, 2.5, "MAT_ELASTIC", false},
+                    KnownDeck{"fe/crash_box_upper.rad", 646, 589, 5, 1, 2.2, "Steel_DP600", true},
+                    KnownDeck{"fe/crash_box_upper.k", 646, 589, 5, 1, 2.2, "MAT_PIECEWISE_LINEAR_PLASTICITY", true},
+                    KnownDeck{"fe/support_panel.bdf", 832, 736, 4, 14, 1.2, "MAT1", true},
+                    KnownDeck{"fe/support_trough.bdf", 1001, 920, 4, 1, 1.2, "MAT1", true},
+                    KnownDeck{"fe/aileron_skin.inp", 4644, 4494, 0, 1, 1.55, "Aluminium", false},
+                    KnownDeck{"fe/drawn_cone_28k.k", 28306, 27902, 272, 3, 1, "MAT_PIECEWISE_LINEAR_PLASTICITY", false},
+                    KnownDeck{"fe/car_hood_coarse.k", 275, 240, 0, 1, 0, "MAT_PLASTIC_KINEMATIC", false},
+                    KnownDeck{"deck/car6_crash_v223.k", 2378, 2388, 36, 0, 0, "", false},
+                    KnownDeck{"deck/dummy_wing_metallic.bdf", 1810, 1613, 369, 0, 0, "", false}),
+    [](const auto& parameter) {
+        std::string name = parameter.param.file;
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+        return name;
+    });
+
+TEST(RealDecks, TheSamePartInTwoFormatsIsTheSameMesh)
+{
+    const fs::path keyword = data_folder / "fe/crash_box_upper.k", radioss = data_folder / "fe/crash_box_upper.rad";
+    if (!fs::exists(keyword) || !fs::exists(radioss))
+        GTEST_SKIP() << "no " << keyword;
+    const Deck a = read_deck(keyword, content_of(keyword)), b = read_deck(radioss, content_of(radioss));
+    EXPECT_EQ(a.node, b.node);
+    const auto by_id = [](const Deck& deck) {
+        std::map<std::int64_t, std::array<int, 4>> corners; // the one has its triangles first, the other last
+        for (int e = 0; e < deck.elements(); ++e)
+            corners[deck.element[size_t(e)]] = deck.corner[size_t(e)];
+        return corners;
+    };
+    EXPECT_EQ(by_id(a), by_id(b));
+    for (int v = 0; v < a.nodes(); ++v)
+        EXPECT_LT((a.position[size_t(v)] - b.position[size_t(v)]).norm(), 1e-5); // nine digits against fifteen
+}
+
+TEST(RealDecks, OnePartOfACarAndOnePropertyOfAWing)
+{
+    const fs::path car = data_folder / "deck/car6_crash_v223.k", wing = data_folder / "deck/dummy_wing_metallic.bdf";
+    if (!fs::exists(car) || !fs::exists(wing))
+        GTEST_SKIP() << "no " << car;
+    ReadOptions options;
+    options.parts = {"Roof"};
+    const PartFile roof = read_part(car, options);
+    EXPECT_EQ(roof.file_faces, 72);
+    EXPECT_EQ(roof.thickness_mm, 2);
+    EXPECT_EQ(roof.doctor.boundary_loops, 1);
+    try {
+        read_part(car);
+        ADD_FAILURE() << "a whole car is no sheet";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("5 Longeron (front)"), std::string::npos) << error.what();
+    }
+    const Deck deck = read_deck(wing, content_of(wing));
+    const auto part =
+        std::find_if(deck.parts.begin(), deck.parts.end(), [](const DeckPart& p) { return p.id == 31000000; });
+    ASSERT_NE(part, deck.parts.end());
+    EXPECT_EQ(part->thickness, 12);
+    EXPECT_EQ(part->name, "PLATE Property");
+    EXPECT_EQ(int(choose_parts(deck, std::vector<std::string>{"31000000"}).element.size()), part->elements);
+}
+
+/// Lines of every format and damage of every kind; the same for all so that one reader meets what is meant for another.
+const std::vector<std::string> spice = {"*",
+                                        "*NODE\n",
+                                        "*ELEMENT_SHELL_THICKNESS\n",
+                                        "*PART_INERTIA\n",
+                                        "*PART_COMPOSITE\n",
+                                        "*SECTION_SHELL_TITLE\n",
+                                        "*INCLUDE\n",
+                                        "*INCLUDE\na.k\n",
+                                        "*PARAMETER\nR x 1\n",
+                                        "*KEYWORD LONG=Y\n",
+                                        "*END\n",
+                                        "&x",
+                                        "-&x",
+                                        "$",
+                                        "**",
+                                        "INCLUDE 'a.bdf'\n",
+                                        "INCLUDE '",
+                                        "BEGIN BULK\n",
+                                        "ENDDATA\n",
+                                        "CORD2R,1,1,1.,1.,1.,1.,1.,1.\n",
+                                        "GRDSET,,1\n",
+                                        "PCOMP,7,,,,,,,SYM\n",
+                                        "GRID*",
+                                        ",",
+                                        ",,,,,,,,,,,,",
+                                        "*\n",
+                                        "+\n",
+                                        "\t",
+                                        "*ELSET, ELSET=A, GENERATE\n",
+                                        "1,9000000000000000000,1\n",
+                                        "-9223372036854775808,9223372036854775807,9223372036854775807\n",
+                                        "*ELSET, ELSET=A\nA, HOOD\n",
+                                        "*PART, NAME=\"A\n",
+                                        "*INSTANCE\n",
+                                        "*SHELL SECTION, ELSET=A, COMPOSITE\n",
+                                        "*INCLUDE, INPUT=a.inp\n",
+                                        "*ELEMENT, TYPE=STRI65\n",
+                                        "$EndNodes\n",
+                                        "$Elements\n",
+                                        "$PhysicalNames\n",
+                                        "9000000000000000000\n",
+                                        "/NODE\n",
+                                        "/SHELL/4\n",
+                                        "/PROP/SHELL/-1\n",
+                                        "/PART/",
+                                        "#include a.rad\n",
+                                        "-1",
+                                        "0",
+                                        "99999999",
+                                        "9223372036854775807",
+                                        "-9223372036854775808",
+                                        "1e999",
+                                        "1.5-3",
+                                        "nan",
+                                        "\n",
+                                        "\r\n",
+                                        "\n\n",
+                                        "\xff\xfe",
+                                        std::string(1, '\0'),
+                                        std::string(300, ' '),
+                                        std::string(300, '9')};
+
+std::string damaged(std::string text, std::mt19937& random)
+{
+    const auto line_at = [&](size_t at) {
+        const size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+        const size_t end = std::min(text.find('\n', at), text.size() - 1);
+        return std::pair(begin, end + 1 - begin);
+    };
+    for (uint32_t changes = 1 + random() % 4; changes > 0 && !text.empty(); --changes) {
+        const size_t at = random() % text.size();
+        const auto [begin, length] = line_at(at);
+        switch (random() % 8) {
+        case 0: text.resize(at); break;
+        case 1: text[at] = char(random()); break;
+        case 2: text[at] = char(text[at] ^ (1 << random() % 8)); break;
+        case 3: text.erase(at, random() % 40); break;
+        case 4: text.insert(random() % 2 ? at : begin, spice[random() % spice.size()]); break;
+        case 5: text.insert(begin, text.substr(begin, length)); break;
+        case 6: text.insert(line_at(random() % text.size()).first, text.substr(begin, length)); break;
+        case 7: text.erase(begin, length); break;
+        }
+    }
+    return text;
+}
+
+TEST(DamagedDecks, OfEveryFormatEndInADeckOrAnInputError)
+{
+    const ScratchFolder scratch;                          // empty: what is included is not there
+    const char* wanted = std::getenv("SPIA_FUZZ_ROUNDS"); // for a longer search, e.g. with the sanitizers
+    const int rounds = wanted ? std::atoi(wanted) : 5000;
+    std::mt19937 random(20250117);
+    for (const auto& [name, seed] : sample::decks()) {
+        SCOPED_TRACE(name);
+        int accepted = 0, refused = 0;
+        for (int round = 0; round < rounds; ++round) {
+            const std::string content = damaged(seed, random);
+            try {
+                const Deck deck = read_deck(scratch / name, content);
+                ++accepted;
+                ASSERT_GT(deck.elements(), 0);
+                ASSERT_EQ(deck.element.size(), deck.corner.size());
+                ASSERT_EQ(deck.node.size(), deck.position.size());
+                for (int e = 0; e < deck.elements(); ++e) {
+                    for (size_t k = 0; k < 4; ++k) {
+                        ASSERT_LT(deck.corner[size_t(e)][k], deck.nodes());
+                        ASSERT_GE(deck.corner[size_t(e)][k], k == 3 ? -1 : 0);
+                    }
+                    ASSERT_LT(size_t(deck.part_of[size_t(e)]), deck.parts.size());
+                }
+                for (const DeckSet& set : deck.sets)
+                    for (const int e : set.elements)
+                        ASSERT_LT(e, deck.elements());
+                for (const Eigen::Vector3d& x : deck.position)
+                    ASSERT_TRUE(x.allFinite());
+            } catch (const InputError&) {
+                ++refused;
+            } catch (const std::exception& other) {
+                RecordProperty("content", content);
+                FAIL() << "round " << round << ": " << other.what();
+            }
+        }
+        EXPECT_GT(accepted, rounds / 20); // small changes often hurt nothing
+        EXPECT_GT(refused, rounds / 20);
+    }
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 2'000'000) << "kilobytes: some damage led to a huge allocation";
+}
+
+TEST(DamagedDecks, RandomBytesAndOneEndlessLineAreRefused)
+{
+    std::mt19937 random(7);
+    std::string noise(1 << 20, ' '), line = noise, commas(1 << 20, ',');
+    for (char& c : noise)
+        c = char(random());
+    for (const char* name : {"a.k", "a.bdf", "a.inp", "a.msh", "a.rad"})
+        for (const std::string& text : {noise, line, commas, std::string(1 << 16, '\n'), std::string("\n")})
+            EXPECT_THROW(sample::read(name, text), InputError) << name << " " << text.substr(0, 10);
+}
+
+} // namespace
+} // namespace spia

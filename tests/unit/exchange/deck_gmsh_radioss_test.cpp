@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/exchange/sample_decks.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using sample::has_note;
+using sample::refusal;
+
+const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n";
+
+Deck read(const std::string& text) { return sample::read("a.msh", text); }
+
+TEST(GmshDeck, ElementsOfHigherOrderGiveTheirCornersAndSolidsAreTold)
+{
+    const Deck deck = read(
+        head + nodes +
+        "$Elements\n7\n1 15 2 0 1 1\n2 1 2 0 1 1 2\n3 9 2 0 5 1 2 3 4 4 4\n4 16 2 0 5 1 2 3 4 1 2 3 4\n5 10 2 0 5 1 2 3 4 1 2 3 4 1\n"
+        "6 4 2 0 1 1 2 3 4\n7 2 4 0 6 2 1 1 2 3\n$EndElements\n$ElementData\n1\n\"x\"\n$EndElementData\n");
+    ASSERT_EQ(deck.elements(), 4);
+    EXPECT_EQ(deck.corner[0], (std::array<int, 4>{0, 1, 2, -1}));
+    EXPECT_EQ(deck.corner[2], (std::array<int, 4>{0, 1, 2, 3}));
+    EXPECT_EQ(deck.parts[0].name, "surface 5");
+    EXPECT_EQ(deck.parts[1].name, "surface 6"); // behind the tags of two partitions
+    EXPECT_TRUE(has_note(deck, "type 4"));
+    EXPECT_FALSE(has_note(deck, "type 1"));
+}
+
+TEST(GmshDeck, IsRefusedWithItsLineWhereItIsWrong)
+{
+    const auto expect = [](const std::string& text, const std::string& words) {
+        EXPECT_NE(refusal("a.msh", text).find(words), std::string::npos) << words << "\nin: " << refusal("a.msh", text);
+    };
+    expect("$MeshFormat\n2.2 1 8\n\x01\x00\x00\x00", "line 2: this is a binary mesh");
+    expect("$MeshFormat\n1 0 8\n", "version 1 of the format is not read");
+    expect("$MeshFormat\n4.2 0 8\n", "version 4.2 of the format is not read");
+    expect("(0 \"a mesh of another program\")\n", "this is no mesh of Gmsh");
+    expect(nodes, "$MeshFormat must come first");
+    expect(head + "$Nodes\n9000000000000000000\n1 0 0 0\n", "the file ends in the middle of a section");
+    expect(head + "$Nodes\n5\n1 0 0 0\n$EndNodes\n", "line 7: the section is shorter than it says");
+    expect(head + "$Nodes\n1\n1 0 z 0\n", "line 6: 'z' is not a number");
+    expect(head + nodes + "$Elements\n1\n1 2 99 0 1 1 2 3\n", "the element has 99 tags");
+    expect(head + nodes + "$Elements\n1\n1 2 2 0 1 1 2\n", "a number is missing");
+    expect(head + "$Comments\nnever ends\n", "$EndComments is missing");
+}
+
+const std::string cards =
+    "/NODE\n         1                 0.0                 0.0                 0.0\n         2                 1.0                 0.0                 0.0\n"
+    "         3                 1.0               1.+00                 0.0\n         4                                     1.0\n";
+
+TEST(RadiossDeck, ElementsHaveTheirOwnThicknessAndUnits)
+{
+    const auto card = [](std::initializer_list<std::pair<const char*, int>> fields) {
+        std::string line;
+        for (const auto& [text, width] : fields)
+            line += fmt::format("{:>{}}", text, width);
+        return line + "\n";
+    };
+    const Deck deck = sample::read(
+        "a.rad", "/BEGIN\nrun\n      2022         0\n" + card({{"Mg", 20}, {"m", 20}, {"s", 20}}) + cards +
+                     "/SHELL/4\n" +
+                     card({{"1", 10}, {"1", 10}, {"2", 10}, {"3", 10}, {"4", 10}, {"", 10}, {"0.3", 20}, {"1.5", 20}}) +
+                     "/SH3N/4\n# a comment\n" +
+                     card({{"2", 10}, {"1", 10}, {"2", 10}, {"3", 10}, {"", 20}, {"0.3", 20}, {"1.5", 20}}) +
+                     "/BRICK/9\n1\n2\n/PART/4\nlid\n" + card({{"1", 10}, {"3", 10}}) + "/PROP/TYPE1/1\np\n0\n0\n" +
+                     card({{"5", 10}, {"0", 10}, {"0.7", 20}}) + "/MAT/LAW2/3\n\n/GRBRIC/PART/1\nx\n");
+    ASSERT_EQ(deck.elements(), 2);
+    EXPECT_EQ(deck.position[3], Eigen::Vector3d(0, 1, 0));
+    EXPECT_EQ(deck.parts[0].thickness, 1.5);
+    EXPECT_EQ(deck.parts[0].name, "lid");
+    EXPECT_EQ(deck.parts[0].material, "LAW2");
+    EXPECT_EQ(deck.unit, LengthUnit::m);
+    EXPECT_TRUE(has_note(deck, "/BRICK lines (2)"));
+    EXPECT_TRUE(has_note(deck, "/GRBRIC"));
+}
+
+TEST(RadiossDeck, FilesAreIncluded)
+{
+    const ScratchFolder scratch;
+    put(scratch / "nodes.inc", cards);
+    put(scratch / "main.rad",
+        "#include nodes.inc\n/SHELL/4\n         1         1         2         3         4\n/END\n");
+    EXPECT_EQ(read_deck(scratch / "main.rad", content_of(scratch / "main.rad")).elements(), 1);
+}
+
+TEST(RadiossDeck, IsRefusedWithItsLineWhereItIsWrong)
+{
+    const auto expect = [](const std::string& text, const std::string& words) {
+        EXPECT_NE(refusal("a.rad", text).find(words), std::string::npos) << words << "\nin: " << refusal("a.rad", text);
+    };
+    expect("/BEGIN\nrun\n        41\n", "line 3: cards of version 41 are not read");
+    expect("/NODE/3\n", "unit system of their own");
+    expect("/NODE\n         1                   q\n", "line 2: 'q' is not a number");
+    expect("/SHELL\n", "line 1: a number is missing");
+    expect("/SHELL/4\n         1         1         2\n", "line 2: a number is missing");
+    expect(cards, "no shell element");
+}
+
+} // namespace
+} // namespace spia
