@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +17,7 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
+#include "engine/mesh/topology.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
@@ -68,7 +72,7 @@ void print_map(const BendMap& map)
         fmt::print("          and {} more\n", map.bends.size() - most);
 }
 
-void print_states(const UnfoldRun& run)
+void print_states(const UnfoldRun& run, double diagonal)
 {
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
@@ -76,7 +80,7 @@ void print_states(const UnfoldRun& run)
                    state.name, state.plain, state.face.strain_equivalent.maxCoeff(),
                    100 * state.face.thinning.minCoeff(), 100 * state.face.thinning.maxCoeff(),
                    state.converged ? "" : ", NOT converged");
-        if (state.on && std::holds_alternative<HeightFace>(state.on->face))
+        if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
             fmt::print("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
                        state.on->distance_mm, state.on->angle * degrees);
         if (state.friction_share < 1)
@@ -170,21 +174,38 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
     return kept;
 }
 
+/// A script of an earlier run that says something else may have been edited: it is kept beside.
+void keep_edited(const std::filesystem::path& file, const std::string& proposal)
+{
+    std::ifstream stream(file, std::ios::binary);
+    const std::string before{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream.is_open() || before == proposal)
+        return;
+    std::filesystem::path aside = file;
+    aside.replace_extension(".before.json");
+    std::error_code failed;
+    std::filesystem::rename(file, aside, failed);
+    if (!failed)
+        fmt::print("  note: the script that was there is kept as {}\n", aside.string());
+}
+
 std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
                                                const BendMap& map, const FlattenOptions& options,
-                                               const UnfoldScript& steps, const UnfoldRun& run,
+                                               const UnfoldScript& steps, const UnfoldRun& run, size_t kept,
                                                const PolishedBlank* polished)
 {
     if (arguments.folder.empty())
         return {};
+    remove_unfolding(arguments.folder, stem_of(arguments));
     auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
                                  polished ? &polished->whole : nullptr, arguments.formats);
-    if (std::count(arguments.formats.begin(), arguments.formats.end(), "states") && !run.states.empty()) {
+    if (std::count(arguments.formats.begin(), arguments.formats.end(), "states") && run.states.size() > kept) {
         files.push_back(states_file(arguments));
         write_unfold_states(files.back(), part.mesh, options, steps, run);
     }
     if (arguments.automatic) {
         files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
+        keep_edited(files.back(), unfold_script_json(map, steps));
         write_atomically(files.back(), unfold_script_json(map, steps, part.source_face));
     }
     return files;
@@ -220,7 +241,7 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
     }
 }
 
-std::vector<std::string> shortcomings(const UnfoldRun& run, const std::vector<std::string>& findings)
+std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, const std::vector<std::string>& findings)
 {
     std::vector<std::string> poorer = findings;
     for (const UnfoldState& state : run.states)
@@ -229,8 +250,20 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, const std::vector<st
         else if (state.friction_share < 1)
             poorer.push_back(fmt::format("step \"{}\" has {:.2g} % of its friction: {}", state.name,
                                          100 * state.friction_share, state.reason));
+    for (const UnfoldState& state : run.states)
+        if (state.on && creased(*state.on, diagonal))
+            poorer.push_back(
+                fmt::format("step \"{}\" bends the sheet at its hinge: the target is {:.3g} mm beside the fixed "
+                            "faces and turned by {:.1f} deg against them",
+                            state.name, state.on->distance_mm, state.on->angle * degrees));
+    if (!run.states.empty() && run.states.back().necking > 0)
+        poorer.push_back(
+            fmt::format("{} triangles are strained beyond what the hardening curve is trusted to: extrapolated, "
+                        "the sheet would neck or tear there",
+                        run.states.back().necking));
     if (!run.states.empty() && run.states.back().overlap.places > 0)
-        poorer.push_back(fmt::format("the blank lies on itself at {} places", run.states.back().overlap.places));
+        poorer.push_back(fmt::format("{} lies on itself at {} places", run.blank ? "the blank" : "the last state",
+                                     run.states.back().overlap.places));
     if (run.flipped > 0)
         poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
     if (!run.blank && run.failure.empty())
@@ -254,11 +287,20 @@ int unfold(const UnfoldArguments& arguments)
     for (const auto& file : {arguments.to_part, arguments.to_blank})
         if (!file.empty())
             read_line_file(file); // before the work
+    if (!arguments.folder.empty())
+        prepare_folder(arguments.folder);
     if (!arguments.json.empty())
         require_writable(arguments.json);
+    if (!arguments.surface.empty() && !arguments.folder.empty() &&
+        std::filesystem::weakly_canonical(arguments.json) ==
+            std::filesystem::weakly_canonical(arguments.folder / (stem_of(arguments) + ".json")))
+        throw InputError(fmt::format("{} is where the report of the surface goes; give --json another name",
+                                     arguments.json.string()));
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
     options.thickness = sheet_thickness(arguments.thickness, part);
+    if (!(options.thickness > 0) || !std::isfinite(options.thickness))
+        throw InputError(fmt::format("the thickness is {} mm; it must be above 0", options.thickness));
     if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
         fmt::print("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
@@ -266,6 +308,7 @@ int unfold(const UnfoldArguments& arguments)
     UnfoldScript steps;
     std::vector<std::string> findings;
     UnfoldRun run;
+    size_t redone = 0; // states that are in their file already
     JobDisplay display{"unfold"};
     const auto clock = std::chrono::steady_clock::now();
     if (arguments.automatic) {
@@ -283,13 +326,14 @@ int unfold(const UnfoldArguments& arguments)
             throw InputError(fmt::format("no step of the script makes sense on this part; {}", findings.front()));
         const KeptStates kept = kept_states(arguments, part, options, steps);
         run = run_unfolding(part.mesh, steps, options, display.progress(), &kept.run, kept.keep);
+        redone = kept.keep;
     }
     display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
     std::optional<PolishedBlank> polished;
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
-    auto files = write_files(arguments, part, map, options, steps, run, both);
+    auto files = write_files(arguments, part, map, options, steps, run, redone, both);
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
     std::optional<SurfaceOfSteps> surface;
@@ -305,14 +349,14 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.json.empty())
         write_atomically(arguments.json,
                          unfold_report_json(arguments.part, part, map, steps, run, findings, files, both));
-    print_states(run);
+    print_states(run, bounding_diagonal(part.mesh));
     if (polished)
         print_polish(*polished);
     if (surface && surface->session.blank)
         print_summary(surface->session);
     for (const auto& file : files)
         fmt::print("wrote     {}\n", file.string());
-    auto poorer = shortcomings(run, findings);
+    auto poorer = shortcomings(run, bounding_diagonal(part.mesh), findings);
     if (surface)
         for (std::string& text : spia::shortcomings(surface->session))
             poorer.push_back(std::move(text));

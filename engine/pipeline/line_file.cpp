@@ -47,10 +47,16 @@ std::vector<SheetLine> lines_of_json(const std::filesystem::path& file, LengthUn
         std::vector<Eigen::Vector3d> points;
         each_of(each, place, "points",
                 [&](const Json& p, const Place& at, const std::string&) { points.push_back(mm * point(p, at)); });
+        points.erase(std::unique(points.begin(), points.end()), points.end()); // points that stand twice are one
+        bool round = closed && closed->get<bool>();
+        if (points.size() > 2 && points.front() == points.back()) {
+            round = true;
+            points.pop_back();
+        }
         if (points.size() < 2)
-            place.member("points").fail("needs two points or more");
+            place.member("points").fail("needs two different points or more");
         SheetLine line{text_in(each, place, "name", called), Eigen::Matrix3Xd(3, Eigen::Index(points.size())),
-                       closed && closed->get<bool>()};
+                       round && points.size() > 2};
         for (size_t k = 0; k < points.size(); ++k)
             line.point.col(Eigen::Index(k)) = points[k];
         lines.push_back(std::move(line));

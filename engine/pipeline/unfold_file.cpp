@@ -48,7 +48,7 @@ public:
                 named_[name] = -1;
             }
         });
-        if (!named_.empty())
+        if (!named_.empty() && !findings.empty()) // of a script for this part only some regions may be named
             for (const auto& [name, label] : own_)
                 if (!taken.count(label) && label < int(map.regions.size()))
                     findings.push_back(fmt::format("the part has a region at {:.4g}, {:.4g}, {:.4g} that the script "
@@ -223,7 +223,7 @@ void read_options(const Json& json, const Place& place, PlannedStep& step)
             place.member(name).fail("must be a whole number");
         return value ? std::optional(int(*value)) : std::nullopt;
     };
-    step.tolerance = number_in(json, place, "tolerance", 1e-14, 1e-2);
+    step.tolerance = number_in(json, place, "tolerance", least_step_tolerance, most_step_tolerance);
     step.most_energy_steps = whole("most_energy_steps");
     step.most_newton_steps = whole("most_newton_steps");
 }
@@ -315,8 +315,11 @@ std::string read_step(const Json& json, const Place& place, const PartFile& part
     if (const Json* friction = find(json, place, "friction", false))
         for (const std::string& missing : read_friction(*friction, place.member("friction"), part, map, regions, step))
             left_out.push_back("friction without " + missing);
-    if (const Json* options = find(json, place, "options", false))
+    if (const Json* options = find(json, place, "options", false)) {
+        if (step.kind == UnfoldKind::unroll)
+            place.member("options").fail("has no meaning: nothing is solved when a face is unrolled");
         read_options(*options, place.member("options"), step);
+    }
     if (step.pick.freed.empty())
         return "nothing of what it moves is there";
     if (step.pick.carrying.empty() && step.kind != UnfoldKind::flatten)

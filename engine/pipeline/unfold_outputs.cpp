@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <initializer_list>
+#include <system_error>
 
+#include "engine/core/error.h"
+#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/blank_outline.h"
 #include "engine/exchange/write_dxf.h"
 #include "engine/exchange/write_vtu.h"
@@ -38,12 +42,47 @@ std::vector<SheetLine> blank_lines(const TriMesh& part, const BendMap& map, cons
     return lines;
 }
 
+void prepare_folder(const std::filesystem::path& folder)
+{
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        throw ExchangeError(
+            fmt::format("cannot make the folder {}: {}; choose another one", folder.string(), failed.message()));
+    require_writable(folder / "spia-unfold");
+}
+
+void remove_unfolding(const std::filesystem::path& folder, const std::string& name)
+{
+    const auto ends_in = [](const std::string& text, std::initializer_list<const char*> endings) {
+        return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return text == ending; });
+    };
+    std::vector<std::filesystem::path> old;
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+        const std::string file = entry.path().filename().string();
+        if (file.compare(0, name.size() + 1, name + "-") != 0)
+            continue;
+        std::string rest = file.substr(name.size() + 1);
+        if (rest.compare(0, 4, "step") == 0) {
+            size_t digits = 4;
+            while (digits < rest.size() && rest[digits] >= '0' && rest[digits] <= '9')
+                ++digits;
+            rest = digits > 4 ? "step" + rest.substr(digits) : rest;
+        }
+        if (ends_in(rest, {"step.vtu", "step-trim.dxf", "step-trim.iges", "step-trim.step", "blank.dxf", "blank.iges",
+                           "blank.step", "polished.dxf", "polished.vtu"}))
+            old.push_back(entry.path());
+    }
+    for (const auto& file : old)
+        std::filesystem::remove(file, failed);
+}
+
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
                                                    const UnfoldRun& run, const FlattenResult* polished,
                                                    const std::vector<std::string>& formats)
 {
-    std::filesystem::create_directories(folder);
     std::vector<std::filesystem::path> files;
     const auto wanted = [&](const char* format) {
         return std::find(formats.begin(), formats.end(), format) != formats.end();

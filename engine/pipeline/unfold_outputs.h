@@ -13,7 +13,13 @@ namespace spia {
 /// By the names the command line uses; all but "states" (unfold_states.h) are endings.
 const std::vector<std::string>& unfold_formats();
 
-/// Writes what a run gave into a folder, which is made if need be. Of each step its state (NAME-stepN.vtu) and, if it laid
+/// Makes a folder if need be, and sees that it can be written, before the work. @throws ExchangeError why not
+void prepare_folder(const std::filesystem::path& folder);
+
+/// Removes what write_unfolding() wrote there under this name: a blank of an earlier run must not be taken for that of the next.
+void remove_unfolding(const std::filesystem::path& folder, const std::string& name);
+
+/// Writes what a run gave into a folder. Of each step its state (NAME-stepN.vtu) and, if it laid
 /// faces on others, their developed edge as trim lines on the target (NAME-stepN-trim.dxf, .iges, .step); of the blank its
 /// outline and bend lines (NAME-blank.dxf, .iges, .step).
 /// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null

@@ -153,9 +153,9 @@ Json step_json(const PartFile& part, const BendMap& map, const PlannedStep& step
     PlannedStep named = step;
     named.freed.clear();
     named.fixed.clear();
-    if (step.kind == UnfoldKind::unroll) // by one of its faces
-        return step_json(map, named, part.source_face);
     Json json = step_json(map, named, part.source_face);
+    if (step.kind == UnfoldKind::unroll)
+        json["carrying"] = faces_json(part, map, step.pick.carrying);
     if (step.kind != UnfoldKind::lay)
         return json;
     json["freed"] = faces_json(part, map, step.pick.freed);

@@ -1,6 +1,7 @@
 #include "engine/pipeline/unfold_states.h"
 
 #include <bit>
+#include <boost/crc.hpp>
 #include <cmath>
 #include <cstring>
 #include <fmt/core.h>
@@ -279,13 +280,30 @@ private:
     int depth_ = 0;
 };
 
+/// Four bytes behind the content: a number in the states that was damaged is a number still.
+std::string checksum(std::string_view content)
+{
+    boost::crc_32_type crc;
+    crc.process_bytes(content.data(), content.size());
+    const std::uint32_t sum = crc.checksum();
+    std::string bytes;
+    for (int shift = 0; shift < 32; shift += 8)
+        bytes += char((sum >> shift) & 0xff);
+    return bytes;
+}
+
 Json read_cbor(const std::filesystem::path& file)
 {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
         throw InputError("is not there; run the steps into this folder first");
     std::ifstream stream(file, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    constexpr size_t sum = 4;
+    if (bytes.size() < sum || checksum(std::string_view(bytes).substr(0, bytes.size() - sum)) !=
+                                  std::string_view(bytes).substr(bytes.size() - sum))
+        damaged("its end");
+    bytes.resize(bytes.size() - sum);
     Shallow shallow;
     if (!Json::sax_parse(bytes, &shallow, Json::input_format_t::cbor))
         damaged("its content");
@@ -310,7 +328,9 @@ void write_unfold_states(const std::filesystem::path& file, const TriMesh& part,
         json["states"].push_back(state_json(run.states[k]));
     }
     const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
-    write_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    std::string content(bytes.begin(), bytes.end());
+    content += checksum(content);
+    write_atomically(file, content);
 }
 
 KeptStates read_unfold_states(const std::filesystem::path& file, const TriMesh& part, const FlattenOptions& options,

@@ -40,11 +40,17 @@ public:
     {
         std::vector<Eigen::Vector3d> points;
         const Eigen::Index segments = segments_of(line);
+        for (const auto& p : line.point.colwise()) // a point that lies off the sheet tells more than a place before it
+            on_part(line, p.head<2>());
         for (Eigen::Index k = 0; k < segments; ++k) {
             const Eigen::Vector2d p = line.point.col(k).head<2>(),
                                   q = line.point.col((k + 1) % line.point.cols()).head<2>();
-            for (const double t : crossings(p, q - p))
-                points.push_back(on_part(line, p + t * (q - p)));
+            std::vector<double> at = crossings(p, q - p);
+            for (size_t i = 0; i < at.size(); ++i) {
+                points.push_back(on_part(line, p + at[i] * (q - p)));
+                const double next = i + 1 < at.size() ? at[i + 1] : 1; // between edges it is in one face, or off the sheet
+                on_part(line, p + (at[i] + next) / 2 * (q - p));
+            }
         }
         if (!line.closed)
             points.push_back(on_part(line, line.point.rightCols<1>().head<2>()));

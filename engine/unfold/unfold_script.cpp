@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/forming/flips.h"
@@ -14,6 +15,7 @@
 #include "engine/forming/sheet_fields.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/fit_height.h"
 #include "engine/unfold/turn_binder.h"
 
 namespace spia {
@@ -67,7 +69,9 @@ std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
         if (faces.empty())
             throw InputError("nothing carries the target; name the faces that do, or give one");
         const double within = std::max(1e-4, step.within_mm / diagonal(now, faces));
-        const std::optional<BinderFit> fit = fit_binder(now, faces, within);
+        std::optional<BinderFit> fit = fit_binder(now, faces, within);
+        if (!fit && step.kind == UnfoldKind::lay && step.within_mm == 0) // as unfold_step() does where nothing is moved
+            fit = fit_height(now, faces);
         if (!fit)
             throw InputError(fmt::format("the carrying faces around face {} lie on no plane, cylinder or cone within "
                                          "{:.3g} mm; pick others, allow more or give a target",
@@ -249,6 +253,12 @@ void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t 
 }
 
 } // namespace
+
+bool creased(const BinderFit& target, double diagonal)
+{
+    constexpr double far = 2e-4, turned = 3 * std::numbers::pi / 180; // of the part; radians
+    return target.distance_mm > far * diagonal || target.angle > turned;
+}
 
 BinderFace moved_out(const BinderFace& face, double mm)
 {

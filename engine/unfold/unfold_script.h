@@ -9,6 +9,9 @@
 
 namespace spia {
 
+/// What the tolerance of a step may be.
+constexpr double least_step_tolerance = 1e-14, most_step_tolerance = 0.1;
+
 /// The steps that unfold a part, in order.
 using UnfoldScript = std::vector<PlannedStep>;
 
@@ -42,6 +45,10 @@ struct UnfoldRun {
 ///                    than to keep
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
                         const Progress& progress = {}, const UnfoldRun* before = nullptr, size_t keep = 0);
+
+/// Whether what was laid bends at its hinge: the target is farther beside the fixed faces, or turned more against them, than the last
+/// facet of a fillet is. @param diagonal of the part, mm
+bool creased(const BinderFit& target, double diagonal);
 
 /// The face moved to its outer side; a smooth one along the normal of its plane. @throws InputError if a cylinder or cone would vanish
 BinderFace moved_out(const BinderFace& face, double mm);

@@ -79,4 +79,22 @@ grep -q "tear off face" "$out.log" || fail "the tear is not told"
 echo '{"steps": [{"freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/one.json"
 expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --strict
 grep -q "does not lie in a plane" "$out.log" || fail "the shortcoming is not told"
+# what a shorter script leaves of a longer one, and what hides its faults
+mkdir -p "$out/less"
+cp "$out/auto/"*.json "$out/less/"
+expect_exit 0 "$spia" unfold "$part" --script "$out/less/lipped-channel-script.json" --out "$out/less" --strict
+expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --out "$out/less" --strict
+[ ! -e "$out/less/lipped-channel-blank.dxf" ] || fail "the blank of an earlier run is left"
+[ ! -e "$out/less/lipped-channel-step2.vtu" ] || fail "a state of an earlier run is left"
+[ -s "$out/less/lipped-channel-script.json" ] || fail "a script is gone"
+echo "// mine" >> "$out/less/lipped-channel-script.json"
+expect_exit 0 "$spia" unfold "$part" --auto --out "$out/less" --strict
+grep -q "// mine" "$out/less/lipped-channel-script.before.json" || fail "an edited script is gone"
+expect_exit 4 "$spia" unfold "$part" --auto --out "$out/one.json"
+expect_exit 2 "$spia" unfold "$part" --auto --out "$out/less" --surface --json "$out/less/lipped-channel.json"
+expect_exit 2 "$spia" unfold "$part" --auto --thickness nan
+echo '{"lines": [{"closed": true, "points": [[0, 0], [20, 0], [20, 0], [20, 20], [0, 0]]}]}' > "$out/twice.json"
+expect_exit 0 "$spia" unfold "$part" --auto --out "$out/less" --to-part "$out/twice.json" --strict
+"$spia" unfold "$2/assets/parts/square-cup.obj" --auto > "$out.log" 2>&1
+grep -q "strained beyond" "$out.log" || fail "necking is not told"
 echo "unfold: all as it should be"

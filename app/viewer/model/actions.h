@@ -27,10 +27,12 @@ struct SetUnit {
     std::string unit;
 }; ///< "set_unit": reads the part again
 /// "set_reading": reads the part again, with vertices at one place joined or not (not given: as the format needs), and with
-/// all but the largest piece of sheet left out or not.
+/// all but the largest piece of sheet left out or not, and of a solver deck which parts, by ids or names (not given: as they are;
+/// none: all).
 struct SetReading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
+    std::vector<std::string> parts = {};
 };
 /// "set_seam": mode ("automatic", "none", "given"), path [[vertex of the file, ...], ...]; reads the part again.
 struct SetSeam {

@@ -89,11 +89,12 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
 void ViewerModel::Apply::operator()(const SetReading& action)
 {
     const ReadOptions& now = session.options.read;
-    if (now.weld == action.weld && now.doctor.keep_largest == action.keep_largest)
+    if (now.weld == action.weld && now.doctor.keep_largest == action.keep_largest && now.parts == action.parts)
         return;
     read_again("Read the part otherwise", [&](ReadOptions& read) {
         read.weld = action.weld;
         read.doctor.keep_largest = action.keep_largest;
+        read.parts = action.parts;
     });
 }
 

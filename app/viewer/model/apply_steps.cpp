@@ -145,8 +145,9 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
         throw InputError("A step needs a name.");
     if (!std::isfinite(action.offset_mm) || !(action.within_mm >= 0))
         throw InputError("The offset of a step is a length, and the distance from its face one from 0 on.");
-    if (action.tolerance && !(*action.tolerance > 0 && *action.tolerance < 1))
-        throw InputError("The tolerance of a step must be above 0 and below 1.");
+    if (action.tolerance && !(*action.tolerance >= least_step_tolerance && *action.tolerance <= most_step_tolerance))
+        throw InputError(
+            fmt::format("The tolerance of a step must be from {} to {}.", least_step_tolerance, most_step_tolerance));
     const PlannedStep& before = *document.steps[number];
     if (before.kind != UnfoldKind::lay && action.offset_mm != before.offset_mm)
         throw InputError("Only a step that lays faces on a face can have it moved.");

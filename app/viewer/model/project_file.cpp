@@ -29,6 +29,7 @@ struct StoredPart {
     std::optional<bool> weld;
     bool keep_largest = false;
     SeamOptions seam;
+    std::vector<std::string> parts; ///< of a deck
 };
 
 struct StoredProject {
@@ -94,7 +95,7 @@ inline constexpr auto members_of<StoredStep> =
                member("rubbing", &StoredStep::rubbing, any_index),
                member("within_mm", &StoredStep::within_mm, Between{0, most_mm}),
                member("offset_mm", &StoredStep::offset_mm, Between{-most_mm, most_mm}),
-               member("tolerance", &StoredStep::tolerance, Between{1e-15, 1}),
+               member("tolerance", &StoredStep::tolerance, Between{least_step_tolerance, most_step_tolerance}),
                member("most_energy_steps", &StoredStep::most_energy_steps, Between{0, 1e6}),
                member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6}),
                member("target", &StoredStep::target, one_target),
@@ -119,8 +120,8 @@ inline constexpr auto members_of<StoredPath> =
 template <>
 inline constexpr auto members_of<StoredPart> =
     std::tuple{required("path", &StoredPart::path), member("unit", &StoredPart::unit),
-               member("weld", &StoredPart::weld), member("keep_largest", &StoredPart::keep_largest),
-               member("seam", &StoredPart::seam)};
+               member("weld", &StoredPart::weld),   member("keep_largest", &StoredPart::keep_largest),
+               member("seam", &StoredPart::seam),   member("parts", &StoredPart::parts)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -224,6 +225,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.read.weld = stored.part.weld;
     session.options.read.doctor.keep_largest = stored.part.keep_largest;
     session.options.read.seam = stored.part.seam;
+    session.options.read.parts = stored.part.parts;
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -262,8 +264,8 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.schema = fmt::format("{}{}", schema_name, version);
     stored.program = program_name();
     stored.picks = store_picks(document);
-    stored.part = {stored_path(session.file, folder), session.options.read.unit, session.options.read.weld,
-                   session.options.read.doctor.keep_largest, session.options.read.seam};
+    stored.part = {stored_path(session.file, folder),        session.options.read.unit, session.options.read.weld,
+                   session.options.read.doctor.keep_largest, session.options.read.seam, session.options.read.parts};
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

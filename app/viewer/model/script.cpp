@@ -65,7 +65,7 @@ constexpr std::tuple forms{
     form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit)),
     form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
     form<SetReading>("set_reading", member("weld", &SetReading::weld),
-                     member("keep_largest", &SetReading::keep_largest)),
+                     member("keep_largest", &SetReading::keep_largest), member("parts", &SetReading::parts)),
     form_of_inner("set_seam", &SetSeam::seam),
     form<RunTo>("run_to", member("stage", &RunTo::stage)),
     form<CancelJob>("cancel_job"),
@@ -92,7 +92,7 @@ constexpr std::tuple forms{
     form<ChangeStep>("change_step", required("step", &ChangeStep::step, any_index), member("name", &ChangeStep::name),
                      member("offset_mm", &ChangeStep::offset_mm, Between{-most_mm, most_mm}),
                      member("within_mm", &ChangeStep::within_mm, Between{0, most_mm}),
-                     member("tolerance", &ChangeStep::tolerance, Between{1e-15, 1}),
+                     member("tolerance", &ChangeStep::tolerance, Between{least_step_tolerance, most_step_tolerance}),
                      member("target", &ChangeStep::target, one_target_if_any),
                      member("friction", &ChangeStep::friction, one_pressure)),
     form<SetTargetPlane>("set_target_plane", required("step", &SetTargetPlane::step, any_index),
@@ -214,6 +214,11 @@ template <> ChangeRegion before(const Json& json, const ViewerState& state)
     return {number->get<int>(), region.name, region.kind, region.colour};
 }
 
+template <> SetReading before(const Json&, const ViewerState& state)
+{
+    return {{}, false, state.document.session.options.read.parts};
+}
+
 template <> ChangeStep before(const Json& json, const ViewerState& state)
 {
     const StepList& steps = state.document.steps;
@@ -221,7 +226,12 @@ template <> ChangeStep before(const Json& json, const ViewerState& state)
     if (number == json.end() || !number->is_number_unsigned() || number->get<size_t>() >= steps.size())
         return {}; // reading complains, or carrying it out
     const PlannedStep& step = *steps[number->get<size_t>()];
-    return {number->get<int>(), step.name, step.offset_mm, step.within_mm, step.tolerance, {},
+    return {number->get<int>(),
+            step.name,
+            step.offset_mm,
+            step.within_mm,
+            step.tolerance,
+            {},
             numbers_of(step.pick.friction)};
 }
 

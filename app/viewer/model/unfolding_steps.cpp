@@ -42,10 +42,8 @@ std::optional<StepFigures::Hinge> hinge_of(const UnfoldState& state, const Plann
 {
     if (!state.on || step.pick.fixed.empty())
         return std::nullopt;
-    constexpr double far = 2e-4, turned = 3; // of the part's diagonal; degrees: what a fillet's last facet still has
-    const double angle = state.on->angle * 180 / std::numbers::pi;
-    return StepFigures::Hinge{state.on->distance_mm, angle,
-                              state.on->distance_mm > far * bounding_diagonal(part) || angle > turned};
+    return StepFigures::Hinge{state.on->distance_mm, state.on->angle * 180 / std::numbers::pi,
+                              creased(*state.on, bounding_diagonal(part))};
 }
 
 StepFigures figures_of(const UnfoldState& state, const PlannedStep& step, const TriMesh& part)

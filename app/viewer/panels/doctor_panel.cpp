@@ -53,9 +53,9 @@ void fix_button(Frame& frame, const Finding& finding)
         ImGui::SameLine();
     ImGui::BeginDisabled(frame.model.busy());
     if (cut && small_button(frame, "Keep the largest piece"))
-        frame.actions.push(SetReading{read.weld, true});
+        frame.actions.push(SetReading{read.weld, true, read.parts});
     if (apart && small_button(frame, "Join them"))
-        frame.actions.push(SetReading{true, read.doctor.keep_largest});
+        frame.actions.push(SetReading{true, read.doctor.keep_largest, read.parts});
     ImGui::EndDisabled();
     tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
                   "three faces. Undo brings it back."
@@ -74,6 +74,67 @@ std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
             return unit;
     }
     return std::nullopt;
+}
+
+/// By what a part of a deck is chosen.
+std::string key_of(const DeckPart& part) { return part.id ? std::to_string(*part.id) : part.name; }
+
+/// Which parts of a solver deck are read.
+void deck_parts(Frame& frame, const PartFile& part)
+{
+    if (!part.deck || part.deck->parts.size() < 2)
+        return;
+    const ReadOptions& read = frame.state.document.session.options.read;
+    const auto chosen = [&](const DeckPart& each) {
+        return std::find(read.parts.begin(), read.parts.end(), key_of(each)) != read.parts.end();
+    };
+    const std::string text = read.parts.empty()       ? fmt::format("all {} parts", part.deck->parts.size())
+                             : read.parts.size() == 1 ? read.parts[0]
+                                                      : fmt::format("{} parts", read.parts.size());
+    ImGui::BeginDisabled(frame.model.busy());
+    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    const bool open = ImGui::BeginCombo("Parts", text.c_str());
+    if (!open)
+        tooltip("Of the solver deck. Click for one part, Ctrl and click for more.");
+    else {
+        if (ImGui::Selectable("all", read.parts.empty()))
+            frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}});
+        for (size_t k = 0; k < part.deck->parts.size(); ++k) {
+            const DeckPart& each = part.deck->parts[k];
+            ImGui::PushID(int(k));
+            std::string label = key_of(each);
+            if (each.id && !each.name.empty())
+                label += "  " + each.name;
+            if (ImGui::Selectable(fmt::format("{}  ({} shells)", label, each.elements).c_str(), chosen(each))) {
+                std::vector<std::string> parts;
+                if (ImGui::GetIO().KeyCtrl) {
+                    parts = read.parts;
+                    if (chosen(each))
+                        std::erase(parts, key_of(each));
+                    else
+                        parts.push_back(key_of(each));
+                } else
+                    parts = {key_of(each)};
+                frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts});
+            }
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::EndDisabled();
+}
+
+/// The gauge that the file gives, if it is not the one that is used.
+void deck_gauge(Frame& frame, const PartFile& part)
+{
+    if (!part.thickness_mm)
+        return;
+    muted(frame, fmt::format("The deck says {:.4g} mm{}", *part.thickness_mm,
+                             part.material.empty() ? "" : fmt::format(" of \"{}\"", part.material)));
+    if (*part.thickness_mm == frame.state.document.session.options.flatten.thickness || frame.model.busy())
+        return;
+    if (small_button(frame, fmt::format("Use {:.4g} mm", *part.thickness_mm).c_str()))
+        frame.actions.push(SetThickness{*part.thickness_mm});
 }
 
 /// What reading the file left to say, and the unit if it looks wrong.
@@ -101,6 +162,8 @@ void doctor_panel(Frame& frame)
     const PartFile* part = examined(state);
     if (!part)
         return;
+    deck_parts(frame, *part);
+    deck_gauge(frame, *part);
     file_notes(frame, *part);
     if (part->doctor.findings.empty())
         return;

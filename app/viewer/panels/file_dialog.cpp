@@ -26,7 +26,12 @@ struct Wording {
 const Wording& wording(FileDialog::Purpose purpose)
 {
     using P = FileDialog::Purpose;
-    static const Wording part{"Open a part", "Open", {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"}, false, false};
+    static const Wording part{"Open a part",
+                              "Open",
+                              {".stl", ".obj", ".ply", ".off", ".gltf", ".glb", ".k", ".key", ".dyn", ".bdf", ".nas",
+                               ".dat", ".inp", ".msh", ".rad"},
+                              false,
+                              false};
     static const Wording project{"Open a project", "Open", {".spia"}, false, false};
     static const Wording material{"Choose a material file", "Choose", {".json"}, false, false};
     static const Wording test{"Choose a tensile test", "Choose", {".csv", ".txt", ".tsv", ".dat"}, false, false};

@@ -173,7 +173,7 @@ void step_editor(Frame& frame, int number)
         double tolerance = edited.tolerance.value_or(FlattenOptions{}.tolerance);
         ImGui::SetNextItemWidth(width);
         if (typed_number(frame, "Tolerance", tolerance, "%.1e")) {
-            edited.tolerance = std::clamp(tolerance, 1e-14, 0.1);
+            edited.tolerance = std::clamp(tolerance, least_step_tolerance, most_step_tolerance);
             changed = true;
         }
         tooltip("Of the solver: a larger one lets a step end that nearly converges");

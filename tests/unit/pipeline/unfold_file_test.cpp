@@ -154,6 +154,15 @@ TEST_F(UnfoldFile, CylinderAndConeAreTargets)
     EXPECT_NEAR((placed(cone, developed(cone, {10, 0, 10})) - Eigen::Vector3d(10, 0, 10)).norm(), 0, 1e-9);
 }
 
+TEST_F(UnfoldFile, AnUnrollIsWrittenWithAllTheFacesThatCarryIt)
+{
+    const ReadScript first =
+        read(R"({"steps": [{"kind": "unroll", "carrying": {"regions": ["region 1", "region 2"], "faces": [3]}}]})");
+    const ReadScript again = read(unfold_script_json(part, map, first.steps));
+    EXPECT_TRUE(again.findings.empty());
+    EXPECT_EQ(again.steps.at(0).pick.carrying, first.steps.at(0).pick.carrying);
+}
+
 TEST_F(UnfoldFile, EveryFaultIsToldWithItsPlace)
 {
     const std::string ends = R"(, "fixed": {"regions": ["region 2"]}}]})",
@@ -196,6 +205,8 @@ TEST_F(UnfoldFile, EveryFaultIsToldWithItsPlace)
               0u);
     EXPECT_EQ(fault(R"({"steps": [{"kind": "flatten", "friction": {"coefficient": 0.1, "pressure_MPa": 1}}]})"),
               ": /steps/0/friction has no meaning: flatten moves the whole part");
+    EXPECT_EQ(fault(R"({"steps": [{"kind": "unroll", "carrying": {"regions": ["region 1"]}, "options": {}}]})"),
+              ": /steps/0/options has no meaning: nothing is solved when a face is unrolled");
     EXPECT_EQ(fault(lip + R"("kind": "bend"}]})"), ": /steps/0/kind must be \"lay\", \"unroll\" or \"flatten\"");
     EXPECT_EQ(fault(lip + R"("kind": "flatten"}]})"), ": /steps/0/freed has no meaning: flatten moves the whole part");
     EXPECT_EQ(fault(lip + R"("carrying": {"regions": ["region 1"]}}]})").find(": /steps/0/carrying picks face"), 0u);

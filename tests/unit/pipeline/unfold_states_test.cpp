@@ -184,22 +184,14 @@ TEST_F(UnfoldStates, AMissingOrDamagedFileIsSaid)
         put(good.substr(0, draw() % good.size()));
         EXPECT_THROW(read(steps), InputError) << k;
     }
-    int refused = 0;
-    for (int k = 0; k < 300; ++k) { // most of the bytes are numbers: another one is no fault, unless it is none
+    for (int k = 0; k < 300; ++k) {
         std::string bad = good;
-        for (int n = 0; n < 20; ++n)
-            bad[draw() % (k % 2 ? bad.size() : 4000)] = char(draw());
+        const size_t at = draw() % (k % 2 ? bad.size() : 4000);
+        bad[at] =
+            char(bad[at] ^ char(1 << (k % 8))); // one bit: most are numbers, and another number is no fault of form
         put(bad);
-        try {
-            const KeptStates kept = read(steps);
-            EXPECT_LE(kept.keep, steps.size());
-            for (const UnfoldState& state : kept.run.states)
-                EXPECT_TRUE(state.position.allFinite());
-        } catch (const InputError&) {
-            ++refused;
-        }
+        EXPECT_THROW(read(steps), InputError) << at;
     }
-    EXPECT_GT(refused, 30);
 }
 
 } // namespace spia

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/mesh/topology.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
@@ -138,6 +139,24 @@ TEST(SheetLines, WhatLeavesTheSheetIsRefusedAndNamed)
               }).find("two finite points"),
               std::string::npos);
     EXPECT_THROW(to_part(part.mesh, Eigen::Matrix2Xd::Zero(2, 3), line({{10, 20, 0}, {10, 30, 0}})), InputError);
+}
+
+TEST(SheetLines, AWayAcrossAHoleLeavesTheSheetThoughItsEndsDoNot)
+{
+    const TriMesh part = shapes::plate({.triangles = 3000});
+    const Eigen::Matrix2Xd flat = part.position.topRows<2>();
+    Eigen::Vector2d hole = Eigen::Vector2d::Zero();
+    const std::vector<std::vector<int>> loops = boundary_loops(part);
+    ASSERT_GT(loops.size(), 1u);
+    for (const int v : loops[1])
+        hole += flat.col(v) / double(loops[1].size());
+    const double radius = (flat.col(loops[1][0]) - hole).norm();
+    const auto across = [&](double beside) {
+        return line({{hole[0] - 1.5 * radius, hole[1] + beside, 0}, {hole[0] + 1.5 * radius, hole[1] + beside, 0}});
+    };
+    EXPECT_THROW(to_part(part, flat, across(0)), InputError);
+    EXPECT_THROW(to_part(part, flat, across(0.8 * radius)), InputError);
+    EXPECT_NEAR(length(to_part(part, flat, across(1.1 * radius))), 3 * radius, 1e-9);
 }
 
 TEST(SheetLines, ARoundTripOverAStretchedBlankComesBackToTheDrawnLine)
