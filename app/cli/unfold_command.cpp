@@ -20,6 +20,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
@@ -298,6 +299,8 @@ int unfold(const UnfoldArguments& arguments)
                                      arguments.json.string()));
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
+    for (const std::string& line : reading_notes(part))
+        fmt::print("  {}\n", line);
     options.thickness = sheet_thickness(arguments.thickness, part);
     if (!(options.thickness > 0) || !std::isfinite(options.thickness))
         throw InputError(fmt::format("the thickness is {} mm; it must be above 0", options.thickness));
