@@ -15,14 +15,16 @@
 namespace {
 
 constexpr const char* part_files =
-    "STL, OBJ, PLY, OFF, glTF or GLB file, or solver deck (LS-DYNA .k .key .dyn, Nastran .bdf .nas .dat, Abaqus and CalculiX "
+    "STL, OBJ, PLY, OFF, glTF or GLB file, CAD file (.step .stp .iges .igs .brep), or solver deck (LS-DYNA .k .key .dyn, Nastran .bdf .nas .dat, Abaqus and CalculiX "
     ".inp, Gmsh .msh, Radioss .rad)";
 
 void add_parts(CLI::App* command, std::vector<std::string>& parts)
 {
     command
-        ->add_option("--part", parts,
-                     "of a solver deck: the part, property or element set to take, by id or name (default: all shells)")
+        ->add_option(
+            "--part", parts,
+            "of a solver deck: the part, property or element set to take, by id or name; of a CAD file: the faces to "
+            "take, by number from 0, e.g. 7 or 10-19 (default: all)")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("ID|NAME");

@@ -5,9 +5,11 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/exchange/cad_findings.h"
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/deck_choice.h"
 #include "engine/exchange/file_content.h"
+#include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
 #include "engine/exchange/read_gltf.h"
 #include "engine/exchange/read_openmesh.h"
@@ -18,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One of stl, obj, ply, off, gltf, glb, or of a deck.
+/// One of stl, obj, ply, off, gltf, glb, or of a deck or CAD file.
 std::string extension_of(const fs::path& path)
 {
     std::string extension = path.extension().string();
@@ -27,11 +29,11 @@ std::string extension_of(const fs::path& path)
     for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
         if (extension == known)
             return extension.substr(1);
-    if (is_deck(extension))
+    if (is_deck(extension) || is_cad(extension))
         return extension.substr(1);
     throw InputError(fmt::format(
         "the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files, "
-        "and from solver decks .k, .key, .dyn, .bdf, .nas, .dat, .inp, .msh and .rad",
+        "from CAD files .step, .stp, .iges, .igs and .brep, and from solver decks .k, .key, .dyn, .bdf, .nas, .dat, .inp, .msh and .rad",
         extension));
 }
 
@@ -189,7 +191,8 @@ void note_size(PartFile& part, bool unit_given)
         part.notes.push_back("lengths were taken as metres, as the glTF specification says");
     constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's plate
     const double diagonal = bounding_diagonal(part.mesh);
-    if (!unit_given && (diagonal < small || diagonal > large))
+    const bool unit_known = unit_given || (part.cad && part.cad->unit_stated);
+    if (!unit_known && (diagonal < small || diagonal > large))
         part.notes.push_back(
             fmt::format("the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
                         diagonal, name(part.unit)));
@@ -221,8 +224,20 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         fill(part, soup, options, false, progress.part(0.5, 1));
         return part;
     }
+    if (is_cad("." + extension)) {
+        const CadContent cad = read_cad(path, options.cad, options.parts, options.unit, progress.part(0, 0.8));
+        part.format = cad.format;
+        part.cad = CadOrigin{cad.face, cad.faces, cad.deflection, cad.sewing_tolerance, !cad.unit.empty()};
+        part.unit = options.unit.value_or(LengthUnit::mm);
+        ReadOptions whole = options;
+        if (cad.solid && options.parts.empty())
+            whole.seam.mode = SeamOptions::Mode::none; // a seam would not take its two skins apart
+        fill(part, cad.soup, whole, true, progress.part(0.8, 1));
+        report_cad(cad, part);
+        return part;
+    }
     if (!options.parts.empty())
-        throw InputError("parts can be chosen from solver decks only; this file is taken whole");
+        throw InputError("parts can be chosen from solver decks and CAD files only; this file is taken whole");
     const bool gltf = extension == "gltf" || extension == "glb";
     part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
     PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/cad_options.h"
 #include "engine/exchange/deck.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/mesh/cut.h"
@@ -18,8 +19,10 @@ struct ReadOptions {
                                          ///< deck says, else mm
     std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
     DoctorOptions doctor = {};           ///< its `weld` is ignored
-    std::vector<std::string> parts = {}; ///< of a solver deck, by id or name; empty: all its shells
-    SeamOptions seam = {};               ///< where a part is cut open that is no sheet; vertices of the file
+    std::vector<std::string> parts =
+        {};                ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
+    CadOptions cad = {};   ///< of a CAD file
+    SeamOptions seam = {}; ///< where a part is cut open that is no sheet; vertices of the file
 };
 
 /// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
@@ -30,6 +33,15 @@ struct DeckOrigin {
     std::vector<std::int64_t> node_id;    ///< per vertex of the file
     std::vector<DeckPart> parts;          ///< all of the deck; thicknesses in its unit
     std::vector<std::string> sets;        ///< names of element sets that can be chosen as well
+};
+
+/// What a part from a CAD file comes from. Its "faces of the file" are triangles, made from the CAD faces in their order.
+struct CadOrigin {
+    std::vector<int> face;       ///< per face of the file: the CAD face it lies on, from 0 in the order of the file
+    int faces = 0;               ///< CAD faces in the file
+    double deflection = 0;       ///< mm, largest distance between triangle and CAD face that was asked for
+    double sewing_tolerance = 0; ///< mm; 0: nothing had to be sewn
+    bool unit_stated = false;    ///< by the file; a unit given for it is refused
 };
 
 /// What a file holds, and what was done to it.
@@ -49,9 +61,11 @@ struct PartFile {
     std::optional<double> thickness_mm = {}; ///< of the sheet, if the file says it: only decks do
     std::string material = {};               ///< what the file calls it; empty: nothing
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
+    std::optional<CadOrigin> cad = {};       ///< of CAD files
 };
 
-/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file or the shells of a solver deck (read_deck()) as a sheet part: one piece with
+/// Reads an STL, OBJ, PLY, OFF, glTF or GLB file, the shells of a solver deck (read_deck()) or the faces of a STEP, IGES or
+/// BREP file (read_cad()) as a sheet part: one piece with
 /// a boundary and no handles. What is closed, has handles or is a tube is cut open along a seam (cut_open()); the report
 /// says so and where.
 /// Coordinates keep their full precision (STL and glTF hold single precision).

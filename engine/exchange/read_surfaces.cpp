@@ -15,6 +15,7 @@
 #include <fstream>
 
 #include "engine/core/error.h"
+#include "engine/exchange/iges_check.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/occt_surface.h"
 
@@ -32,26 +33,6 @@ std::ifstream opened(const std::filesystem::path& path)
     if (!file || std::filesystem::is_directory(path))
         refuse(path, "it cannot be opened");
     return file;
-}
-
-/// The last line of an IGES file, letter T in column 73, counts the lines of the sections S, G, D and P. It is looked
-/// at first because OpenCASCADE crashes on a file that was cut short. (Its STEP reader finds that out by itself.)
-void require_iges_end(const std::filesystem::path& path)
-{
-    std::ifstream file = opened(path);
-    int lines_of[128] = {};
-    std::string line, terminate;
-    while (std::getline(file, line))
-        if (line.size() >= 73) {
-            ++lines_of[line[72] & 127];
-            if (line[72] == 'T')
-                terminate = line;
-        }
-    int s, g, d, p;
-    if (std::sscanf(terminate.c_str(), "S%7dG%7dD%7dP%7d", &s, &g, &d, &p) != 4)
-        refuse(path, "it is no IGES file or was cut short (the terminate section is missing)");
-    if (s != lines_of[int('S')] || g != lines_of[int('G')] || d != lines_of[int('D')] || p != lines_of[int('P')])
-        refuse(path, "lines are missing (the terminate section counts others than there are)");
 }
 
 NurbsSurface surface_under(const TopoDS_Face& face, int number)
@@ -99,7 +80,9 @@ template <class Reader> std::vector<NurbsSurface> read(const std::filesystem::pa
 
 std::vector<NurbsSurface> read_iges_surfaces(const std::filesystem::path& path)
 {
-    require_iges_end(path);
+    std::ifstream file = opened(path);
+    if (const std::string fault = fault_of_iges(file); !fault.empty())
+        refuse(path, fault);
     return read<IGESControl_Reader>(path);
 }
 

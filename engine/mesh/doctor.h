@@ -30,7 +30,10 @@ enum class Fault {
     closed_surface,     ///< no boundary [face]
     handle,             ///< genus above 0 [face]
     seam,               ///< cut open, after the examination [vertex, of the seam]
-    sliver              ///< a very small angle [face]
+    sliver,             ///< a very small angle [face]
+    gap,                ///< between faces of a CAD file, closed [vertex]
+    unmeshed_face,      ///< a face of a CAD file that gave no triangle [none]
+    overlap             ///< faces of a CAD file that lie on one another [face]
 };
 std::string_view name(Fault fault);
 

@@ -35,6 +35,9 @@ std::string_view name(Fault fault)
     case Fault::handle: return "handle";
     case Fault::seam: return "seam";
     case Fault::sliver: return "sliver";
+    case Fault::gap: return "gap";
+    case Fault::unmeshed_face: return "face not meshed";
+    case Fault::overlap: return "overlapping faces";
     }
     return "";
 }
@@ -61,7 +64,7 @@ void DoctorReport::add(Fault fault, Severity severity, const Tally& tally, std::
 bool counts_vertices(Fault fault)
 {
     return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::stray_vertex ||
-           fault == Fault::touching_fans || fault == Fault::seam;
+           fault == Fault::touching_fans || fault == Fault::seam || fault == Fault::gap;
 }
 
 void require_healthy(const DoctorReport& report)

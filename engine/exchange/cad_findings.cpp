@@ -1,0 +1,131 @@
+#include "engine/exchange/cad_findings.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+namespace spia {
+namespace {
+
+constexpr double widest_tried_tolerance = 0.5; // mm, of sew()
+constexpr size_t shown = 20;                   // of many faces or gaps
+
+std::string listed(const std::vector<int>& faces)
+{
+    const std::vector<int> first(faces.begin(), faces.begin() + long(std::min(shown, faces.size())));
+    return fmt::format("{}{}", fmt::join(first, ", "),
+                       faces.size() > shown ? fmt::format(" and {} more", faces.size() - shown) : "");
+}
+
+int nearest_vertex(const PolygonSoup& soup, const Eigen::Vector3d& place)
+{
+    const auto nearer = [&](const auto& a, const auto& b) {
+        return (a - place).squaredNorm() < (b - place).squaredNorm();
+    };
+    return int(std::min_element(soup.position.begin(), soup.position.end(), nearer) - soup.position.begin());
+}
+
+/// Gaps narrower than a thousandth of the deflection are rounding, not gaps.
+void report_gaps(const CadContent& cad, std::vector<Finding>& findings)
+{
+    const auto narrow = std::find_if(cad.gaps.begin(), cad.gaps.end(),
+                                     [&](const CadGap& gap) { return gap.width < 1e-3 * cad.deflection; });
+    const auto count = int(narrow - cad.gaps.begin());
+    if (count == 0)
+        return;
+    const CadGap& widest = cad.gaps.front();
+    Finding finding{Fault::gap, Severity::repaired, count, 0, "", "", {}, {}};
+    for (auto gap = cad.gaps.begin(); gap != narrow && finding.where.size() < shown; ++gap) {
+        finding.where.push_back(nearest_vertex(cad.soup, gap->place));
+        finding.place.push_back(gap->place);
+    }
+    finding.first = finding.where.front();
+    finding.text = fmt::format("{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g} between CAD faces {} and {}",
+                               counted(count, "gap between CAD faces was", "gaps between CAD faces were"), widest.width,
+                               widest.place.x(), widest.place.y(), widest.place.z(), widest.face[0], widest.face[1]);
+    findings.push_back(std::move(finding));
+}
+
+void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (!cad.unmeshed.empty())
+        findings.push_back(
+            {Fault::unmeshed_face,
+             Severity::fatal,
+             int(cad.unmeshed.size()),
+             -1,
+             fmt::format("no triangles could be made of {}: {}",
+                         counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)),
+             "repair them in the CAD system, or choose the other faces (--part)",
+             {},
+             {}});
+}
+
+void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (cad.overlapping.empty())
+        return;
+    Finding finding{Fault::overlap, Severity::note, int(cad.overlapping.size()), -1, "", "", {}, {}};
+    for (const int face : cad.overlapping) {
+        const auto t = int(std::find(cad.face.begin(), cad.face.end(), face) - cad.face.begin());
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const int v : cad.soup.polygon(t))
+            middle += cad.soup.position[size_t(v)] / 3;
+        finding.where.push_back(t);
+        finding.place.push_back(middle);
+        if (finding.where.size() == shown)
+            break;
+    }
+    finding.first = finding.where.front();
+    finding.text = fmt::format("more than two of these CAD faces meet along an edge or lie on one another: {}",
+                               listed(cad.overlapping));
+    finding.advice = "leave the ones out that are double or branch off: choose the others (--part)";
+    findings.push_back(std::move(finding));
+}
+
+/// Two skins and the edge between them are no sheet, whatever the doctor says of the triangles.
+void report_solid(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (cad.solid && cad.taken == cad.faces)
+        findings.push_back(
+            {Fault::closed_surface,
+             Severity::fatal,
+             cad.faces,
+             -1,
+             fmt::format("it is a solid of {} faces, with both skins of the sheet", cad.faces),
+             fmt::format("choose the faces of one skin (--part, e.g. 3 or 0-{}), or export one skin as a "
+                         "surface",
+                         cad.faces / 2),
+             {},
+             {}});
+}
+
+} // namespace
+
+void report_cad(const CadContent& cad, PartFile& part)
+{
+    part.notes.push_back(fmt::format("{} CAD faces{}{}; triangles within {:.3g} mm of them", cad.faces,
+                                     cad.taken < cad.faces ? fmt::format(", {} of them taken", cad.taken) : "",
+                                     cad.unit.empty() ? "" : fmt::format(", lengths in {} and read as mm", cad.unit),
+                                     cad.deflection));
+    part.notes.push_back(cad.sewing_tolerance > 0
+                             ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",
+                                           cad.sewing_tolerance, cad.free_before, cad.free_after)
+                             : fmt::format("not sewn: {} free edges", cad.free_after));
+    if (cad.sewing_tolerance > cad.shortest_edge / 2)
+        part.notes.push_back(fmt::format("the sewing tolerance is more than half the shortest edge, {:.3g} mm: small "
+                                         "faces may have closed up",
+                                         cad.shortest_edge));
+    else if (cad.free_after > 0 && cad.shortest_edge < 2 * widest_tried_tolerance)
+        part.notes.push_back(fmt::format("an edge of {:.3g} mm keeps the sewing tolerance below half of that; give a "
+                                         "larger one if gaps are left open",
+                                         cad.shortest_edge));
+    std::vector<Finding> findings;
+    report_solid(cad, findings);
+    report_unmeshed(cad, findings);
+    report_overlaps(cad, findings);
+    report_gaps(cad, findings);
+    part.doctor.findings.insert(part.doctor.findings.begin(), findings.begin(), findings.end());
+}
+
+} // namespace spia

@@ -1,0 +1,10 @@
+#pragma once
+#include "engine/exchange/read_cad.h"
+#include "engine/exchange/read_part.h"
+
+namespace spia {
+
+/// Adds what reading the CAD file found to the doctor's report, before what the doctor found in the triangles.
+void report_cad(const CadContent& cad, PartFile& part);
+
+} // namespace spia

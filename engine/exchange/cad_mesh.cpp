@@ -1,0 +1,147 @@
+#include "engine/exchange/cad_mesh.h"
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <array>
+
+#include "engine/exchange/cad_sewing.h"
+#include "engine/exchange/occt_progress.h"
+#include "engine/mesh/disjoint_sets.h"
+
+namespace spia {
+namespace {
+
+void triangulate(const TopoDS_Compound& shape, double deflection, double angle, const Progress& progress)
+{
+    BRepTools::Clean(shape); // a file may bring triangles of its own
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = deflection;
+    parameters.Angle = angle;
+    parameters.MinSize = deflection;
+    parameters.InParallel = false; // the order of its points must not depend on threads
+    const Handle(OcctProgress) passed_on = new OcctProgress(progress, "triangulating the faces");
+    const BRepMesh_IncrementalMesh mesh(shape, parameters, passed_on->Start());
+    passed_on->rethrow();
+}
+
+/// The points of all faces in a row, and which of them are one because an edge or a vertex of the shape is.
+class SharedNodes {
+public:
+    explicit SharedNodes(std::span<const TopoDS_Face> faces) : first_(faces.size() + 1, 0), same_(0)
+    {
+        for (size_t f = 0; f < faces.size(); ++f) {
+            TopLoc_Location place;
+            const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
+            first_[f + 1] = first_[f] + (triangles.IsNull() ? 0 : triangles->NbNodes());
+        }
+        same_ = DisjointSets(size_t(first_.back()));
+        for (size_t f = 0; f < faces.size(); ++f)
+            join_along_edges(faces[f], first_[f]);
+    }
+    int node(size_t face, int number) { return same_.root(first_[face] + number - 1); } ///< number: from 1
+    int nodes() const { return first_.back(); }
+
+private:
+    std::vector<int> first_; ///< #faces + 1
+    DisjointSets same_;
+    TopTools_IndexedMapOfShape edge_;
+    std::vector<std::vector<int>> on_edge_; ///< nodes of the face that was first to use the edge
+    TopTools_DataMapOfShapeInteger on_vertex_;
+
+    void join_along_edges(const TopoDS_Face& face, int first)
+    {
+        TopLoc_Location place;
+        const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+        if (triangles.IsNull())
+            return;
+        for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+            const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
+            const Handle(Poly_PolygonOnTriangulation) polygon =
+                BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
+            if (polygon.IsNull())
+                continue;
+            std::vector<int> nodes;
+            for (int k = 1; k <= polygon->NbNodes(); ++k)
+                nodes.push_back(first + polygon->Node(k) - 1);
+            if (BRep_Tool::Degenerated(edge)) // a pole
+                for (const int node : nodes)
+                    same_.join(nodes.front(), node);
+            else
+                join_to_edge(edge, nodes);
+            join_to_vertex(TopExp::FirstVertex(edge), nodes.front());
+            join_to_vertex(TopExp::LastVertex(edge), nodes.back());
+        }
+    }
+    void join_to_edge(const TopoDS_Edge& edge, const std::vector<int>& nodes)
+    {
+        const auto number = size_t(edge_.Add(edge));
+        if (number > on_edge_.size()) {
+            on_edge_.push_back(nodes);
+            return;
+        }
+        const std::vector<int>& known = on_edge_[number - 1];
+        if (known.size() == nodes.size()) // else the edge stays open, and the report counts its sides
+            for (size_t k = 0; k < nodes.size(); ++k)
+                same_.join(known[k], nodes[k]);
+    }
+    void join_to_vertex(const TopoDS_Vertex& vertex, int node)
+    {
+        if (vertex.IsNull())
+            return;
+        if (const int* known = on_vertex_.Seek(vertex))
+            same_.join(*known, node);
+        else
+            on_vertex_.Bind(vertex, node);
+    }
+};
+
+} // namespace
+
+FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress)
+{
+    triangulate(compound_of(faces), deflection, angle, progress);
+    SharedNodes shared(faces);
+    FaceTriangles result;
+    std::vector<int> vertex(size_t(shared.nodes()), -1);
+    for (size_t f = 0; f < faces.size(); ++f) {
+        TopLoc_Location place;
+        const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
+        if (triangles.IsNull() || triangles->NbTriangles() == 0) {
+            result.missing.push_back(int(f));
+            continue;
+        }
+        for (int t = 1; t <= triangles->NbTriangles(); ++t) {
+            std::array<int, 3> node{}, corner{};
+            triangles->Triangle(t).Get(node[0], node[1], node[2]);
+            if (faces[f].Orientation() == TopAbs_REVERSED)
+                std::swap(node[1], node[2]);
+            for (size_t k = 0; k < 3; ++k) {
+                int& number = vertex[size_t(shared.node(f, node[k]))];
+                if (number < 0) {
+                    number = result.soup.vertices();
+                    const gp_Pnt p = triangles->Node(node[k]).Transformed(place.Transformation());
+                    result.soup.position.emplace_back(p.X(), p.Y(), p.Z());
+                }
+                corner[k] = number;
+            }
+            if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
+                continue; // it lies along a pole or an edge that is a point
+            result.soup.add_polygon(corner);
+            result.face.push_back(int(f));
+        }
+    }
+    return result;
+}
+
+} // namespace spia

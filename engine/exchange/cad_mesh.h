@@ -1,0 +1,23 @@
+#pragma once
+#include <TopoDS_Face.hxx>
+#include <span>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/exchange/cad_options.h"
+#include "engine/mesh/soup.h"
+
+namespace spia {
+
+struct FaceTriangles {
+    PolygonSoup soup;         ///< mm
+    std::vector<int> face;    ///< per triangle: index of its face
+    std::vector<int> missing; ///< faces that gave no triangle, ascending
+};
+
+/// Triangulates faces and joins the triangles along the edges that faces share, by which point of the edge they have: no
+/// distance is compared. For .cpp files of engine/exchange that hold an OcctSession.
+/// @param deflection  mm
+FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress);
+
+} // namespace spia

@@ -1,0 +1,14 @@
+#pragma once
+#include <optional>
+
+namespace spia {
+
+/// How faces of CAD files become one triangle mesh.
+struct CadOptions {
+    std::optional<double> sewing_tolerance = {}; ///< mm, gaps up to this are closed; not given: found from the gaps;
+                                                 ///< 0: the faces are not sewn
+    std::optional<double> deflection = {};       ///< mm between triangle and face; not given: 1/2000 of the diagonal
+    double angle = 0.35;                         ///< radians between the tangents at both ends of a chord
+};
+
+} // namespace spia

@@ -1,0 +1,206 @@
+#include "engine/exchange/cad_sewing.h"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <array>
+#include <fmt/core.h>
+#include <utility>
+
+#include "engine/exchange/occt_progress.h"
+
+namespace spia {
+namespace {
+
+constexpr double flaw = 1e-3; // mm; an edge shorter than this is a slip of the file, not a feature
+constexpr std::array<double, 4> tried = {1e-3, 1e-2, 0.1, 0.5}; // mm
+
+/// Which faces use each edge, a seam twice.
+class EdgeFaces {
+public:
+    explicit EdgeFaces(std::span<const TopoDS_Face> faces)
+    {
+        for (size_t f = 0; f < faces.size(); ++f)
+            for (TopExp_Explorer at(faces[f], TopAbs_EDGE); at.More(); at.Next()) {
+                const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
+                if (BRep_Tool::Degenerated(edge))
+                    continue;
+                const auto number = size_t(index_.Add(edge));
+                use_.resize(std::max(use_.size(), number));
+                use_[number - 1].push_back(int(f));
+            }
+    }
+    int edges() const { return int(use_.size()); }
+    const TopoDS_Edge& edge(int e) const { return TopoDS::Edge(index_(e + 1)); }
+    const std::vector<int>& faces(int e) const { return use_[size_t(e)]; }
+    int free() const
+    {
+        return int(std::count_if(use_.begin(), use_.end(), [](const auto& faces) { return faces.size() == 1; }));
+    }
+
+private:
+    TopTools_IndexedMapOfShape index_;
+    std::vector<std::vector<int>> use_;
+};
+
+double shortest_edge(const EdgeFaces& edges)
+{
+    double shortest = 0;
+    for (int e = 0; e < edges.edges(); ++e) {
+        double length = 0;
+        try {
+            length = GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edges.edge(e)), flaw / 10);
+        } catch (const Standard_Failure&) {
+            continue; // an edge without a curve has no length to go by
+        }
+        if (length > flaw && (shortest == 0 || length < shortest))
+            shortest = length;
+    }
+    return shortest;
+}
+
+/// What has become of each face; it may be several or none.
+template <class Successor> SewnFaces followed(const SewnFaces& before, const Successor& successor)
+{
+    SewnFaces after;
+    for (size_t f = 0; f < before.face.size(); ++f)
+        for (TopExp_Explorer at(successor(before.face[f]), TopAbs_FACE); at.More(); at.Next()) {
+            after.face.push_back(TopoDS::Face(at.Current()));
+            after.number.push_back(before.number[f]);
+        }
+    return after;
+}
+
+SewnFaces healed(const SewnFaces& faces, const Progress& progress)
+{
+    ShapeFix_Shape fix(compound_of(faces.face));
+    const Handle(OcctProgress) passed_on = new OcctProgress(progress, "healing the faces");
+    fix.Perform(passed_on->Start());
+    passed_on->rethrow();
+    return followed(faces, [&](const TopoDS_Face& face) { return fix.Context()->Apply(face); });
+}
+
+SewnFaces sewn(const SewnFaces& faces, double tolerance, const Progress& progress)
+{
+    BRepBuilderAPI_Sewing sewing(tolerance);
+    for (const TopoDS_Face& face : faces.face)
+        sewing.Add(face);
+    const Handle(OcctProgress) passed_on =
+        new OcctProgress(progress, fmt::format("sewing the faces at {} mm", tolerance));
+    sewing.Perform(passed_on->Start());
+    passed_on->rethrow();
+    SewnFaces result = followed(faces, [&](const TopoDS_Face& face) {
+        const TopoDS_Shape modified = sewing.Modified(face);
+        return modified.IsNull() ? TopoDS_Shape(face) : modified;
+    });
+    result.tolerance = tolerance;
+    result.free_after = EdgeFaces(result.face).free();
+    return result;
+}
+
+/// The widest place between two faces along their common edge: where their borders put it, each on its own surface.
+std::optional<CadGap> gap_along(const TopoDS_Edge& edge, const TopoDS_Face& a, const TopoDS_Face& b)
+{
+    constexpr int samples = 9;
+    const TopoDS_Face* face[2] = {&a, &b};
+    std::array<std::array<gp_Pnt, samples>, 2> point;
+    for (size_t side = 0; side < 2; ++side) {
+        double from, to;
+        const Handle(Geom2d_Curve) border = BRep_Tool::CurveOnSurface(edge, *face[side], from, to);
+        const Handle(Geom_Surface) surface = BRep_Tool::Surface(*face[side]);
+        if (border.IsNull() || surface.IsNull())
+            return {};
+        for (size_t k = 0; k < samples; ++k) {
+            const gp_Pnt2d uv = border->Value(from + (to - from) * double(k) / (samples - 1));
+            point[side][k] = surface->Value(uv.X(), uv.Y());
+        }
+    }
+    CadGap widest{-1, {}, {}};
+    for (size_t k = 0; k < samples; ++k)
+        if (const double width = point[0][k].Distance(point[1][k]); width > widest.width) {
+            const gp_Pnt& p = point[0][k];
+            widest = {width, Eigen::Vector3d(p.X(), p.Y(), p.Z()), {}};
+        }
+    return widest;
+}
+
+std::vector<CadGap> gaps_between(const SewnFaces& sewn)
+{
+    const EdgeFaces edges(sewn.face);
+    std::vector<CadGap> gaps;
+    for (int e = 0; e < edges.edges(); ++e) {
+        const std::vector<int>& faces = edges.faces(e);
+        if (faces.size() != 2 || faces[0] == faces[1])
+            continue;
+        auto gap = gap_along(edges.edge(e), sewn.face[size_t(faces[0])], sewn.face[size_t(faces[1])]);
+        if (!gap)
+            continue;
+        gap->face = {sewn.number[size_t(faces[0])], sewn.number[size_t(faces[1])]};
+        gaps.push_back(*gap);
+    }
+    std::stable_sort(gaps.begin(), gaps.end(), [](const CadGap& a, const CadGap& b) { return a.width > b.width; });
+    return gaps;
+}
+
+/// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
+SewnFaces best_sewn(const SewnFaces& whole, std::optional<double> given, const Progress& progress)
+{
+    if (given)
+        return *given > 0 ? sewn(whole, *given, progress) : whole;
+    const double most = whole.shortest_edge / 2;
+    SewnFaces best = whole;
+    for (size_t k = 0; k < tried.size() && best.free_after > 0; ++k) {
+        const double tolerance = k == 0 ? std::min(tried[0], most) : tried[k];
+        if (tolerance > most)
+            break;
+        SewnFaces next = sewn(whole, tolerance, progress.part(double(k) / tried.size(), double(k + 1) / tried.size()));
+        const bool all_there = next.face.size() >= best.face.size(); // a face smaller than the tolerance vanishes
+        if (all_there && next.free_after < best.free_after)
+            best = std::move(next);
+    }
+    return best;
+}
+
+} // namespace
+
+TopoDS_Compound compound_of(std::span<const TopoDS_Face> faces)
+{
+    TopoDS_Compound compound;
+    const BRep_Builder builder;
+    builder.MakeCompound(compound);
+    for (const TopoDS_Face& face : faces)
+        builder.Add(compound, face);
+    return compound;
+}
+
+SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, const Progress& progress)
+{
+    SewnFaces loose;
+    for (size_t f = 0; f < faces.size(); ++f) {
+        loose.face.push_back(faces[f]);
+        loose.number.push_back(int(f));
+    }
+    SewnFaces whole = healed(loose, progress.part(0, 0.2));
+    const EdgeFaces edges(whole.face);
+    whole.free_before = whole.free_after = edges.free();
+    whole.shortest_edge = shortest_edge(edges);
+    SewnFaces result = best_sewn(whole, tolerance, progress.part(0.2, 1));
+    result.free_before = whole.free_before;
+    result.shortest_edge = whole.shortest_edge;
+    result.gaps = gaps_between(result);
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,121 @@
+#include "engine/exchange/cad_shape.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Reader.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <cctype>
+#include <fmt/core.h>
+#include <sstream>
+
+#include "engine/core/error.h"
+#include "engine/exchange/file_content.h"
+#include "engine/exchange/iges_check.h"
+#include "engine/exchange/occt_progress.h"
+
+namespace spia {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why) { throw InputError(why + "; export it again"); }
+
+std::string unit_of(STEPControl_Reader& reader)
+{
+    TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+    reader.FileUnits(lengths, angles, solid_angles);
+    return lengths.IsEmpty() ? "" : lengths.First().ToCString();
+}
+
+std::string unit_of(IGESControl_Reader& reader)
+{
+    const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
+    if (model.IsNull() || model->GlobalSection().UnitName().IsNull())
+        return "";
+    return model->GlobalSection().UnitName()->ToCString();
+}
+
+void read_model(XSControl_Reader& reader, const std::filesystem::path& path, CadShape& result, const Progress& progress)
+{
+    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+        refuse("OpenCASCADE finds no model in it");
+    progress.checkpoint(0.4, "reading the CAD model");
+    if (reader.WS()->ModelCheckList().Status() == Interface_CheckFail)
+        refuse("OpenCASCADE finds it damaged");
+    const Handle(OcctProgress) passed_on = new OcctProgress(progress.part(0.4, 1), "making its faces");
+    reader.TransferRoots(passed_on->Start());
+    passed_on->rethrow();
+    result.shape = reader.OneShape();
+}
+
+void read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
+{
+    const std::string content = file_content(path);
+    if (content.substr(0, 200).find("DBRep_DrawableShape") == std::string::npos &&
+        content.substr(0, 200).find("CASCADE Topology") == std::string::npos)
+        refuse("it is no BREP file in text form");
+    std::istringstream stream(content);
+    const Handle(OcctProgress) passed_on = new OcctProgress(progress, "reading the CAD model");
+    BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
+    passed_on->rethrow();
+}
+
+void read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)
+{
+    const std::string content = file_content(path);
+    if (content.substr(0, 1000).find("ISO-10303-21") == std::string::npos)
+        refuse("it is no STEP file (ISO-10303-21)");
+    if (content.rfind("ENDSEC") == std::string::npos ||
+        content.find("END-ISO-10303-21", content.rfind("ENDSEC")) == std::string::npos)
+        refuse("it was cut short (its last line END-ISO-10303-21 is missing)");
+    STEPControl_Reader reader;
+    read_model(reader, path, result, progress);
+    result.unit = unit_of(reader);
+}
+
+void read_iges(const std::filesystem::path& path, CadShape& result, const Progress& progress)
+{
+    std::istringstream content(file_content(path));
+    if (const std::string fault = fault_of_iges(content); !fault.empty())
+        refuse(fault);
+    IGESControl_Reader reader;
+    read_model(reader, path, result, progress);
+    result.unit = unit_of(reader);
+}
+
+} // namespace
+
+CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progress)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+    CadShape result;
+    if (extension == ".brep") {
+        result.format = "BREP";
+        read_brep(path, result, progress);
+    } else if (extension == ".stp" || extension == ".step") {
+        result.format = "STEP";
+        read_step(path, result, progress);
+    } else {
+        result.format = "IGES";
+        read_iges(path, result, progress);
+    }
+    if (!result.shape.IsNull())
+        for (TopExp_Explorer at(result.shape, TopAbs_FACE); at.More(); at.Next())
+            result.face.push_back(TopoDS::Face(at.Current()));
+    if (result.face.empty())
+        throw InputError("it holds no face; export the part with its surfaces (curves and points alone make no sheet)");
+    result.solid = TopExp_Explorer(result.shape, TopAbs_SOLID).More();
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,26 @@
+#pragma once
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/progress.h"
+
+namespace spia {
+
+/// A CAD file as OpenCASCADE gives it, in mm.
+struct CadShape {
+    TopoDS_Shape shape;
+    std::vector<TopoDS_Face> face; ///< by its number: the order of the file
+    bool solid = false;            ///< some body is closed and filled
+    std::string format;            ///< e.g. "STEP"
+    std::string unit;              ///< of the file, e.g. "INCH"; empty if it names none (BREP)
+};
+
+/// For .cpp files of engine/exchange that hold an OcctSession.
+/// Its format is known by the ending, in upper or lower case.
+/// @throws InputError  the file is damaged or holds no face
+CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progress);
+
+} // namespace spia

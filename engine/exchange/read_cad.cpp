@@ -1,0 +1,175 @@
+#include "engine/exchange/read_cad.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <Bnd_Box.hxx>
+#include <Standard_Failure.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "engine/core/error.h"
+#include "engine/exchange/cad_mesh.h"
+#include "engine/exchange/cad_sewing.h"
+#include "engine/exchange/cad_shape.h"
+#include "engine/exchange/occt_session.h"
+#include "engine/mesh/weld.h"
+
+namespace spia {
+namespace {
+
+void require_options(const CadOptions& options)
+{
+    if (options.sewing_tolerance && !(*options.sewing_tolerance >= 0 && std::isfinite(*options.sewing_tolerance)))
+        throw InputError("the sewing tolerance must be a length in mm, or 0 to leave the faces as they are");
+    if (options.deflection && !(*options.deflection > 0 && std::isfinite(*options.deflection)))
+        throw InputError("the deflection must be a length in mm above 0");
+    if (!(options.angle > 0.01 && options.angle < 1.6))
+        throw InputError("the angle between chord ends must be between 0.01 and 1.6 radians");
+}
+
+/// "7" or "10-19", as a set of numbers below `faces`.
+void choose(const std::string& text, int faces, std::set<int>& chosen)
+{
+    int from = -1, to = -1;
+    const char *end = text.data() + text.size(), *after = std::from_chars(text.data(), end, from).ptr;
+    if (after != end && *after == '-')
+        after = std::from_chars(after + 1, end, to).ptr;
+    else
+        to = from;
+    if (after != end || from < 0 || to < from || to >= faces)
+        throw InputError(fmt::format("'{}' is not a face of the file; give numbers from 0 to {}, or a range like 0-{}",
+                                     text, faces - 1, faces - 1));
+    for (int f = from; f <= to; ++f)
+        chosen.insert(f);
+}
+
+std::vector<int> chosen_faces(std::span<const std::string> wanted, int faces)
+{
+    std::set<int> chosen;
+    for (const std::string& text : wanted)
+        choose(text, faces, chosen);
+    if (wanted.empty())
+        for (int f = 0; f < faces; ++f)
+            chosen.insert(f);
+    return {chosen.begin(), chosen.end()};
+}
+
+double diagonal_of(const TopoDS_Shape& shape)
+{
+    Bnd_Box box;
+    BRepBndLib::Add(shape, box, false);
+    if (box.IsVoid() || box.IsOpen() || !std::isfinite(box.SquareExtent()) || box.SquareExtent() <= 0)
+        throw InputError("its faces have no finite size; trim them in the CAD system and export again");
+    return std::sqrt(box.SquareExtent());
+}
+
+/// Faces at edges of three or more triangles.
+std::vector<int> overlapping(const CadContent& cad, double tolerance)
+{
+    const Weld joined = weld(cad.soup, tolerance);
+    std::map<std::pair<int, int>, std::vector<int>> triangles_at;
+    for (int t = 0; t < cad.soup.polygons(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const auto corner = cad.soup.polygon(t);
+            const int a = joined.same_as[size_t(corner[k])], b = joined.same_as[size_t(corner[(k + 1) % 3])];
+            if (a != b)
+                triangles_at[std::minmax(a, b)].push_back(t);
+        }
+    std::set<int> faces;
+    for (const auto& [edge, triangles] : triangles_at)
+        if (triangles.size() > 2)
+            for (const int t : triangles)
+                faces.insert(cad.face[size_t(t)]);
+    return {faces.begin(), faces.end()};
+}
+
+/// @throws InputError if the file has a unit of its own
+void scale(CadShape& shape, LengthUnit unit)
+{
+    if (!shape.unit.empty())
+        throw InputError(
+            fmt::format("the file says itself that its lengths are in {}, and they were converted to mm; leave the "
+                        "unit out (--unit)",
+                        shape.unit));
+    gp_Trsf scaling;
+    scaling.SetScaleFactor(millimetres(unit));
+    BRepBuilderAPI_Transform transform(shape.shape, scaling, true); // the whole, for faces to keep common edges
+    for (TopoDS_Face& face : shape.face)
+        face = TopoDS::Face(transform.ModifiedShape(face));
+}
+
+CadContent content_of(CadShape& shape, const CadOptions& options, std::span<const std::string> wanted,
+                      const Progress& progress)
+{
+    CadContent result;
+    result.format = shape.format;
+    result.unit = shape.unit;
+    result.solid = shape.solid;
+    result.faces = int(shape.face.size());
+    const std::vector<int> numbers = chosen_faces(wanted, result.faces);
+    result.taken = int(numbers.size());
+    std::vector<TopoDS_Face> taken;
+    for (const int number : numbers)
+        taken.push_back(shape.face[size_t(number)]);
+
+    result.deflection = options.deflection.value_or(diagonal_of(compound_of(taken)) / 2000);
+    SewnFaces sewn = sew(taken, options.sewing_tolerance, progress.part(0, 0.5));
+    result.sewing_tolerance = sewn.tolerance;
+    result.shortest_edge = sewn.shortest_edge;
+    result.free_before = sewn.free_before;
+    result.free_after = sewn.free_after;
+    const auto number_of = [&](int face) { return numbers[size_t(face)]; };
+    for (CadGap& gap : sewn.gaps) {
+        gap.face = {number_of(gap.face[0]), number_of(gap.face[1])};
+        result.gaps.push_back(gap);
+    }
+    FaceTriangles mesh = mesh_faces(sewn.face, result.deflection, options.angle, progress.part(0.5, 0.95));
+    progress.checkpoint(0.95, "looking for overlapping faces");
+    result.soup = std::move(mesh.soup);
+    std::vector<char> meshed(taken.size(), 0);
+    for (const int f : mesh.face) {
+        const int face = sewn.number[size_t(f)];
+        meshed[size_t(face)] = 1;
+        result.face.push_back(number_of(face));
+    }
+    for (size_t f = 0; f < taken.size(); ++f)
+        if (!meshed[f])
+            result.unmeshed.push_back(number_of(int(f)));
+    result.overlapping = overlapping(result, std::max(result.sewing_tolerance, 1e-6 * diagonal_of(compound_of(taken))));
+    progress.checkpoint(1, "looking for overlapping faces");
+    return result;
+}
+
+} // namespace
+
+bool is_cad(std::string_view extension)
+{
+    return extension == ".step" || extension == ".stp" || extension == ".iges" || extension == ".igs" ||
+           extension == ".brep";
+}
+
+CadContent read_cad(const std::filesystem::path& path, const CadOptions& options, std::span<const std::string> wanted,
+                    std::optional<LengthUnit> unit, const Progress& progress)
+{
+    require_options(options);
+    const OcctSession session;
+    try {
+        CadShape shape = read_cad_shape(path, progress.part(0, 0.4));
+        if (unit)
+            scale(shape, *unit);
+        return content_of(shape, options, wanted, progress.part(0.4, 1));
+    } catch (const Standard_Failure& failure) {
+        throw InputError(
+            fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
+    } catch (const std::length_error& error) { // a count in a damaged file
+        throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
+    }
+}
+
+} // namespace spia

@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/exchange/cad_options.h"
+#include "engine/exchange/length_unit.h"
+#include "engine/mesh/soup.h"
+
+namespace spia {
+
+/// Two faces that do not quite meet.
+struct CadGap {
+    double width = 0;      ///< mm, the widest of nine places along the edge
+    Eigen::Vector3d place; ///< of it, mm
+    std::array<int, 2> face;
+};
+
+/// Faces of a CAD file as one triangle mesh. Faces are numbered as the file has them, from 0.
+struct CadContent {
+    PolygonSoup soup;             ///< triangles, mm; neighbours share the vertices of their common edge
+    std::vector<int> face;        ///< per triangle the face it lies on
+    int faces = 0;                ///< of the file
+    int taken = 0;                ///< of them
+    bool solid = false;           ///< the file holds a closed body
+    std::string format;           ///< e.g. "STEP"
+    std::string unit;             ///< that the file names, e.g. "INCH"; lengths here are mm; empty: it names none
+    double deflection = 0;        ///< mm, largest distance between triangle and face that was asked for
+    double sewing_tolerance = 0;  ///< mm; 0: the faces were taken as they are
+    double shortest_edge = 0;     ///< mm
+    int free_before = 0;          ///< edges of one face only, before sewing
+    int free_after = 0;           ///< and after it
+    std::vector<CadGap> gaps;     ///< at edges that two faces share now, the widest first
+    std::vector<int> unmeshed;    ///< faces without triangles
+    std::vector<int> overlapping; ///< faces at edges of three or more triangles, once points at one place are one
+};
+
+/// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.
+bool is_cad(std::string_view extension);
+
+/// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one file at a time.
+/// @param wanted  faces to take, "7" or "10-19"; empty: all
+/// @param unit  of a BREP file (not given: mm); the others name their unit, and it is obeyed
+/// @throws InputError  the file is damaged or holds no face, a face wanted does not exist, an option makes no sense, a
+///         unit is given and the file has its own
+CadContent read_cad(const std::filesystem::path& path, const CadOptions& options = {},
+                    std::span<const std::string> wanted = {}, std::optional<LengthUnit> unit = {},
+                    const Progress& progress = {});
+
+} // namespace spia

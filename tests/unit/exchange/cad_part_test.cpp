@@ -1,0 +1,355 @@
+#include <algorithm>
+#include <atomic>
+#include <gtest/gtest.h>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "engine/core/error.h"
+#include "engine/exchange/read_cad.h"
+#include "engine/exchange/read_part.h"
+#include "engine/exchange/write_iges.h"
+#include "engine/exchange/write_step.h"
+#include "engine/mesh/topology.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+const fs::path cad_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data/cad";
+constexpr double pi = std::numbers::pi;
+
+NurbsSurface bilinear(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d)
+{
+    NurbsSurface s;
+    s.degree_u = s.degree_v = 1;
+    s.count_u = s.count_v = 2;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.control.resize(3, 4);
+    s.control.col(s.index(0, 0)) = a;
+    s.control.col(s.index(1, 0)) = b;
+    s.control.col(s.index(0, 1)) = c;
+    s.control.col(s.index(1, 1)) = d;
+    s.weight.setOnes(4);
+    return s;
+}
+
+NurbsSurface rectangle(double x0, double x1, double y0, double y1)
+{
+    return bilinear({x0, y0, 0}, {x1, y0, 0}, {x0, y1, 0}, {x1, y1, 0});
+}
+
+constexpr double radius = 50, height = 80;
+
+/// Exactly the cylinder about z between two angles.
+NurbsSurface cylinder(double from, double to)
+{
+    NurbsSurface s;
+    s.degree_u = 2;
+    s.degree_v = 1;
+    s.count_u = 3;
+    s.count_v = 2;
+    s.knots_u = {0, 0, 0, 1, 1, 1};
+    s.knots_v = {0, 0, 1, 1};
+    s.control.resize(3, 6);
+    s.weight.resize(6);
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 3; ++i) {
+            const double angle = from + (to - from) * i / 2, cosine = i == 1 ? std::cos((to - from) / 2) : 1;
+            s.control.col(s.index(i, j)) << radius / cosine * std::cos(angle), radius / cosine * std::sin(angle),
+                height * j;
+            s.weight[s.index(i, j)] = cosine;
+        }
+    return s;
+}
+
+/// A quarter cylinder in two faces.
+std::vector<NurbsSurface> quarter_cylinder() { return {cylinder(0, pi / 4), cylinder(pi / 4, pi / 2)}; }
+
+/// 5 x 4 squares of 20 mm, every second row moved by half a square, 0.05 mm apart; one of them 0.08 mm more to the left.
+std::vector<NurbsSurface> gappy_bricks()
+{
+    std::vector<NurbsSurface> bricks;
+    for (int row = 0; row < 4; ++row)
+        for (int k = 0; k <= 5; ++k) {
+            const double shift = row % 2 * 10.0;
+            double x0 = std::max(0.0, 20 * (k - 1) + shift), x1 = std::min(100.0, 20 * k + shift);
+            if (x1 <= x0)
+                continue;
+            x0 += x0 > 0 ? 0.025 : 0;
+            x1 -= x1 < 100 ? 0.025 : 0;
+            if (row == 2 && k == 3) // the one from 40 to 60
+                x0 += 0.03;
+            bricks.push_back(rectangle(x0, x1, 20 * row + (row > 0 ? 0.025 : 0), 20 * row + (row < 3 ? 19.975 : 20)));
+        }
+    return bricks;
+}
+
+void expect_quarter_cylinder(const CadContent& cad, double deflection)
+{
+    ASSERT_GT(cad.soup.polygons(), 0);
+    double least = radius;
+    for (int t = 0; t < cad.soup.polygons(); ++t) {
+        const auto corner = cad.soup.polygon(t);
+        Vector3d middle = Vector3d::Zero();
+        for (size_t k = 0; k < 3; ++k) {
+            const Vector3d& p = cad.soup.position[size_t(corner[k])];
+            const Vector3d half = (p + cad.soup.position[size_t(corner[(k + 1) % 3])]) / 2;
+            EXPECT_NEAR(p.head<2>().norm(), radius, 1e-9);
+            least = std::min(least, half.head<2>().norm());
+            middle += p / 3;
+        }
+        EXPECT_EQ(cad.face[size_t(t)], std::atan2(middle.y(), middle.x()) > pi / 4);
+    }
+    EXPECT_GE(least, radius - deflection * 1.01);
+    EXPECT_LE(least, radius - deflection / 20) << "far finer than was asked for";
+}
+
+class OwnCadFile : public testing::TestWithParam<const char*> {
+protected:
+    void write(const fs::path& path, const std::vector<NurbsSurface>& surfaces, LengthUnit unit = LengthUnit::mm)
+    {
+        if (path.extension() == ".step")
+            write_step(path, surfaces, "part", unit);
+        else
+            write_iges(path, surfaces, "part", unit);
+    }
+    ScratchFolder folder_;
+    fs::path file_ = folder_ / (std::string("a part") + GetParam());
+};
+
+} // namespace
+
+TEST_P(OwnCadFile, ComesBackWithinTheDeflectionAsOneSheet)
+{
+    write(file_, quarter_cylinder());
+    for (const double deflection : {0.3, 0.05, 0.005}) {
+        ReadOptions options;
+        options.cad.deflection = deflection;
+        testing::internal::CaptureStdout();
+        const CadContent cad = read_cad(file_, options.cad);
+        const PartFile part = read_part(file_, options);
+        EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+        expect_quarter_cylinder(cad, deflection);
+        EXPECT_EQ(part.doctor.boundary_loops, 1);
+        EXPECT_EQ(part.doctor.components, 1);
+        // An arc's polygon is shorter than it by a part 2/3 sag/radius at most, so is the area.
+        const double exact = radius * pi / 2 * height;
+        EXPECT_LT(area(part.mesh), exact);
+        EXPECT_GT(area(part.mesh), exact * (1 - deflection / radius));
+        ASSERT_TRUE(part.cad);
+        EXPECT_EQ(part.cad->faces, 2);
+        EXPECT_EQ(int(part.cad->face.size()), part.file_faces);
+    }
+}
+
+TEST_P(OwnCadFile, IsInMillimetresWhateverItsUnit)
+{
+    for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::inch, LengthUnit::m}) {
+        write(file_, quarter_cylinder(), unit);
+        const PartFile part = read_part(file_);
+        EXPECT_NEAR(part.mesh.position.row(2).maxCoeff(), height, 1e-6) << name(unit);
+        EXPECT_NEAR(part.mesh.position.row(0).maxCoeff(), radius, 1e-6) << name(unit);
+        ReadOptions twice;
+        twice.unit = LengthUnit::inch;
+        EXPECT_THROW(read_part(file_, twice), InputError);
+    }
+}
+
+TEST_P(OwnCadFile, GivesTheFacesThatAreWanted)
+{
+    write(file_,
+          {rectangle(0, 10, 0, 10), rectangle(10, 30, 0, 10), rectangle(30, 60, 0, 10), rectangle(60, 100, 0, 10)});
+    const auto taken = [&](const std::vector<std::string>& wanted) {
+        ReadOptions options;
+        options.parts = wanted;
+        return area(read_part(file_, options).mesh);
+    };
+    EXPECT_NEAR(taken({}), 1000, 1e-6);
+    EXPECT_NEAR(taken({"2"}), 300, 1e-6);
+    EXPECT_NEAR(taken({"1-2"}), 500, 1e-6);
+    EXPECT_NEAR(taken({"3", "1-2", "2"}), 900, 1e-6);
+    for (const char* wrong : {"4", "-1", "2-1", "1-", "x", "", "1 2", "0-4", "99999999999"})
+        EXPECT_THROW(taken({wrong}), InputError) << wrong;
+}
+
+TEST_P(OwnCadFile, StopsWhenAskedAtEveryStageAndLeavesTheNextOneFree)
+{
+    write(file_, gappy_bricks());
+    std::vector<std::string> stages;
+    read_cad(file_, {}, {}, {}, Progress([&](double, std::string_view step) {
+                 if (stages.empty() || stages.back() != step)
+                     stages.emplace_back(step);
+             }));
+    EXPECT_GE(std::set<std::string>(stages.begin(), stages.end()).size(), 5u);
+    for (const std::string& stage : std::set<std::string>(stages.begin(), stages.end())) {
+        const auto stop = std::make_shared<std::atomic<bool>>(false);
+        const Progress progress([&](double, std::string_view step) { *stop = *stop || step == stage; }, stop);
+        EXPECT_THROW(read_cad(file_, {}, {}, {}, progress), Cancelled) << stage;
+    }
+    EXPECT_NO_THROW(read_cad(file_));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, OwnCadFile, testing::Values(".step", ".IGS"),
+                         [](const auto& ending) { return std::string(ending.param).substr(1); });
+
+TEST(CadSewing, ClosesTheGapsOfABrickWallAndTellsTheWidest)
+{
+    const ScratchFolder folder;
+    write_iges(folder / "wall.igs", gappy_bricks());
+    const PartFile part = read_part(folder / "wall.igs");
+    EXPECT_EQ(part.doctor.components, 1);
+    EXPECT_EQ(part.doctor.boundary_loops, 1);
+    EXPECT_NEAR(area(part.mesh), 8000, 8000 * 0.05 / 20);
+    EXPECT_EQ(part.cad->sewing_tolerance, 0.1); // 0.01 is below every gap
+
+    const CadContent cad = read_cad(folder / "wall.igs");
+    ASSERT_FALSE(cad.gaps.empty());
+    const CadGap& widest = cad.gaps.front();
+    EXPECT_GE(widest.width, 0.08 - 1e-6);
+    EXPECT_LE(widest.width, std::hypot(0.08, 0.05) + 1e-6); // ends of borders are also apart along them
+    EXPECT_NEAR(widest.place.x(), 40, 0.1);
+    EXPECT_GT(widest.place.y(), 40 - 0.1);
+    EXPECT_LT(widest.place.y(), 60 + 0.1);
+    const Finding* told = part.doctor.find(Fault::gap);
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->severity, Severity::repaired);
+    EXPECT_LT((part.mesh.position.col(told->first) - widest.place).norm(), 21);
+
+    ReadOptions loose;
+    loose.cad.sewing_tolerance = 0.01;
+    EXPECT_GT(examine_part(folder / "wall.igs", loose).doctor.components, 1);
+    loose.cad.sewing_tolerance = -1;
+    EXPECT_THROW(examine_part(folder / "wall.igs", loose), InputError);
+}
+
+TEST(CadSewing, NeverClosesMoreThanHalfTheShortestEdge)
+{
+    const ScratchFolder folder;
+    write_iges(folder / "gap.igs", std::vector{rectangle(0, 10, 0, 0.4), rectangle(10.3, 20, 0, 0.4)});
+    const CadContent cad = read_cad(folder / "gap.igs"); // 0.5 would close it, and collapse both
+    EXPECT_NEAR(cad.shortest_edge, 0.4, 1e-6);
+    EXPECT_EQ(cad.free_after, 8);
+    EXPECT_TRUE(cad.gaps.empty());
+    write_iges(folder / "gap.igs", std::vector{rectangle(0, 10, 0, 4), rectangle(10.3, 20, 0, 4)});
+    EXPECT_EQ(read_cad(folder / "gap.igs").free_after, 6);
+}
+
+TEST(CadSewing, NamesFacesThatBranchOff)
+{
+    const ScratchFolder folder;
+    write_iges(folder / "branch.igs",
+               std::vector{rectangle(-30, -10, 0, 10), rectangle(-10, 0, 0, 10), rectangle(0, 10, 0, 10),
+                           bilinear({0, 0, 0}, {0, 0, 8}, {0, 10, 0}, {0, 10, 8})});
+    EXPECT_EQ(read_cad(folder / "branch.igs").overlapping, (std::vector{1, 2, 3}));
+    ReadOptions without;
+    without.parts = {"0-2"};
+    const PartFile part = read_part(folder / "branch.igs", without);
+    EXPECT_FALSE(part.doctor.find(Fault::overlap));
+    EXPECT_NEAR(area(part.mesh), 400, 1e-6);
+}
+
+namespace {
+
+/// As shared/data/README.md states; of files without an area it is that of the same surface in another format.
+struct KnownCad {
+    const char* file;
+    int faces, loops;
+    double area;
+};
+
+void PrintTo(const KnownCad& cad, std::ostream* out) { *out << cad.file; }
+
+class RealCad : public testing::TestWithParam<KnownCad> {};
+
+} // namespace
+
+TEST_P(RealCad, HasTheLoopsAndTheAreaItsOriginStates)
+{
+    const KnownCad known = GetParam();
+    const fs::path file = cad_folder / known.file;
+    if (!fs::exists(file))
+        GTEST_SKIP() << "no " << file;
+    ReadOptions options;
+    options.seam.mode = SeamOptions::Mode::none;
+    options.cad.deflection = 0.005; // so that the chords of borders and bends take less than 1e-3 of the area
+    const PartFile part = examine_part(file, options);
+    EXPECT_EQ(part.cad->faces, known.faces);
+    EXPECT_EQ(part.doctor.components, 1);
+    EXPECT_EQ(part.doctor.boundary_loops, known.loops);
+    EXPECT_EQ(part.doctor.genus, 0);
+    EXPECT_NEAR(area(part.mesh), known.area, known.area * 1e-3);
+    EXPECT_EQ(std::set<int>(part.cad->face.begin(), part.cad->face.end()).size(), size_t(known.faces));
+    RecordProperty("triangles", part.mesh.triangles());
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, RealCad,
+                         testing::Values(KnownCad{"fan_bracket_skin.step", 31, 17, 6507.58},
+                                         KnownCad{"fan_bracket_skin.igs", 31, 17, 6507.58},
+                                         KnownCad{"drawn_cone_skin.step", 26, 3, 36584.63},
+                                         KnownCad{"freeform99.brep", 99, 1, 950.7},
+                                         KnownCad{"freeform99.stp", 99, 1, 950.7},
+                                         KnownCad{"freeform99.igs", 99, 1, 950.7}),
+                         [](const auto& cad) {
+                             std::string name = cad.param.file;
+                             std::replace(name.begin(), name.end(), '.', '_');
+                             return name;
+                         });
+
+TEST(RealCadModel, NoseIsSewnAndItsDoubledFacesAreNamed)
+{
+    for (const char* name : {"race_car_nose.stp", "race_car_nose.igs"}) {
+        if (!fs::exists(cad_folder / name))
+            GTEST_SKIP() << "no " << cad_folder / name;
+        const CadContent cad = read_cad(cad_folder / name);
+        EXPECT_EQ(cad.faces, 141);
+        EXPECT_EQ(cad.free_before, 664);
+        EXPECT_LE(cad.free_after, 26);
+        EXPECT_TRUE(cad.unmeshed.empty());
+        EXPECT_FALSE(cad.overlapping.empty());
+    }
+}
+
+TEST(RealCadModel, SolidIsRefusedUntilASkinIsChosen)
+{
+    const fs::path file = cad_folder / "fan_bracket.step";
+    if (!fs::exists(file))
+        GTEST_SKIP() << "no " << file;
+    try {
+        read_part(file);
+        FAIL() << "a solid is no sheet";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("solid of 220 faces"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("--part"), std::string::npos) << error.what();
+    }
+    ReadOptions one;
+    one.parts = {"7"};
+    EXPECT_EQ(read_part(file, one).cad->faces, 220);
+}
+
+TEST(RealCadModel, BrepTakesTheUnitThatIsGiven)
+{
+    const fs::path file = cad_folder / "freeform99.brep";
+    if (!fs::exists(file))
+        GTEST_SKIP() << "no " << file;
+    ReadOptions inches;
+    inches.unit = LengthUnit::inch;
+    const PartFile part = read_part(file, inches), plain = read_part(file);
+    EXPECT_NEAR(area(part.mesh) / area(plain.mesh), 25.4 * 25.4, 0.5);
+    EXPECT_EQ(part.doctor.boundary_loops, 1);
+}
+
+TEST(CadPart, SameFileGivesTheSameTriangles)
+{
+    const ScratchFolder folder;
+    write_iges(folder / "wall.igs", gappy_bricks());
+    const CadContent a = read_cad(folder / "wall.igs"), b = read_cad(folder / "wall.igs");
+    EXPECT_EQ(a.soup.corner, b.soup.corner);
+    EXPECT_EQ(a.soup.position, b.soup.position);
+}
+
+} // namespace spia
