@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/core.h>
+#include <utility>
 
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
@@ -124,6 +125,34 @@ void deck_parts(Frame& frame, const PartFile& part)
     ImGui::EndDisabled();
 }
 
+/// Which faces of a CAD file are read: of a solid those of one skin.
+void cad_faces(Frame& frame, const PartFile& part)
+{
+    if (!part.cad)
+        return;
+    const ReadOptions& read = frame.state.document.session.options.read;
+    std::string text;
+    for (const std::string& each : read.parts)
+        text += (text.empty() ? "" : ", ") + each;
+    ImGui::BeginDisabled(frame.model.busy());
+    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    if (typed_text(frame, "Parts", text, fmt::format("all {} faces", part.cad->faces).c_str())) {
+        std::vector<std::string> parts;
+        std::string one;
+        for (const char c : text + ",")
+            if (c == ',') {
+                if (!one.empty())
+                    parts.push_back(std::exchange(one, ""));
+            } else if (c != ' ')
+                one += c;
+        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts});
+    }
+    tooltip("Faces of the CAD file by their numbers, from 0: for instance 3, 10-19");
+    if (!read.parts.empty() && small_button(frame, "All faces"))
+        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}});
+    ImGui::EndDisabled();
+}
+
 /// The gauge that the file gives, if it is not the one that is used.
 void deck_gauge(Frame& frame, const PartFile& part)
 {
@@ -163,6 +192,7 @@ void doctor_panel(Frame& frame)
     if (!part)
         return;
     deck_parts(frame, *part);
+    cad_faces(frame, *part);
     deck_gauge(frame, *part);
     file_notes(frame, *part);
     if (part->doctor.findings.empty())

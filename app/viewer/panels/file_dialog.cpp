@@ -28,8 +28,8 @@ const Wording& wording(FileDialog::Purpose purpose)
     using P = FileDialog::Purpose;
     static const Wording part{"Open a part",
                               "Open",
-                              {".stl", ".obj", ".ply", ".off", ".gltf", ".glb", ".k", ".key", ".dyn", ".bdf", ".nas",
-                               ".dat", ".inp", ".msh", ".rad"},
+                              {".stl", ".obj", ".ply", ".off", ".gltf", ".glb",  ".k",   ".key",  ".dyn", ".bdf",
+                               ".nas", ".dat", ".inp", ".msh", ".rad",  ".step", ".stp", ".iges", ".igs", ".brep"},
                               false,
                               false};
     static const Wording project{"Open a project", "Open", {".spia"}, false, false};
