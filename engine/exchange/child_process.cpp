@@ -115,6 +115,7 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
 {
     double fraction = 0;
     std::string step = "reading the file", arrived, buffer(size_t(1) << 20, '\0');
+    progress.checkpoint(fraction, step);
     for (;;) {
         pollfd waiting{child.pipe(), POLLIN, 0};
         constexpr int milliseconds = 100; // between looks at whether the job is still wanted

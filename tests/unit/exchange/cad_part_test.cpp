@@ -16,6 +16,7 @@
 #include "engine/exchange/write_iges.h"
 #include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/weld.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -149,6 +150,16 @@ TEST_P(OwnCadFile, ComesBackWithinTheDeflectionAsOneSheet)
         EXPECT_EQ(part.cad->faces, 2);
         EXPECT_EQ(int(part.cad->face.size()), part.file_faces);
     }
+}
+
+TEST_P(OwnCadFile, HasThePointsOfACommonEdgeOnce)
+{
+    std::vector<NurbsSurface> storeys(2, cylinder(0, pi / 2)); // with an arc between them
+    storeys[1].control.row(2).array() += height;
+    write(file_, storeys);
+    const CadContent cad = read_cad(file_);
+    const Weld twice = weld(cad.soup, 1e-6);
+    EXPECT_EQ(twice.exact + twice.near, 0);
 }
 
 TEST_P(OwnCadFile, IsInMillimetresWhateverItsUnit)
