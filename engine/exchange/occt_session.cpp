@@ -7,17 +7,29 @@
 #include <STEPControl_Controller.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace spia {
 namespace {
 
+using Log = std::function<void(std::string_view)>;
+
 class LogPrinter : public Message_Printer {
+public:
+    explicit LogPrinter(Log log) : log_(std::move(log)) {}
+
 protected:
-    void send(const TCollection_AsciiString& text, const Message_Gravity) const override
-    {
-        spdlog::debug("OpenCASCADE: {}", text.ToCString());
-    }
+    void send(const TCollection_AsciiString& text, const Message_Gravity) const override { log_(text.ToCString()); }
+
+private:
+    Log log_;
 };
+
+void print_to(Log log)
+{
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+    Message::DefaultMessenger()->AddPrinter(new LogPrinter(std::move(log)));
+}
 
 std::mutex& the_lock()
 {
@@ -28,8 +40,7 @@ std::mutex& the_lock()
 void prepare_once()
 {
     static const bool prepared = [] {
-        Message::DefaultMessenger()->ChangePrinters().Clear();
-        Message::DefaultMessenger()->AddPrinter(new LogPrinter);
+        print_to([](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); });
         IGESControl_Controller::Init();
         STEPControl_Controller::Init();
         return true;
@@ -40,5 +51,7 @@ void prepare_once()
 } // namespace
 
 OcctSession::OcctSession() : lock_(the_lock()) { prepare_once(); }
+
+void OcctSession::redirect(Log log) const { print_to(std::move(log)); }
 
 } // namespace spia

@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <mutex>
+#include <string_view>
 
 namespace spia {
 
@@ -10,6 +12,9 @@ namespace spia {
 class OcctSession {
 public:
     OcctSession();
+
+    /// For work in a copy of this process, whose log nobody reads: where messages go there.
+    void redirect(std::function<void(std::string_view)> log) const;
 
 private:
     std::lock_guard<std::mutex> lock_;

@@ -11,12 +11,15 @@
 #include <fmt/core.h>
 #include <map>
 #include <set>
+#include <spdlog/spdlog.h>
 #include <stdexcept>
 
 #include "engine/core/error.h"
+#include "engine/exchange/cad_bytes.h"
 #include "engine/exchange/cad_mesh.h"
 #include "engine/exchange/cad_sewing.h"
 #include "engine/exchange/cad_shape.h"
+#include "engine/exchange/child_process.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/mesh/weld.h"
 
@@ -146,6 +149,22 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     return result;
 }
 
+CadContent read_here(const std::filesystem::path& path, const CadOptions& options, std::span<const std::string> wanted,
+                     std::optional<LengthUnit> unit, const Progress& progress)
+{
+    try {
+        CadShape shape = read_cad_shape(path, progress.part(0, 0.4));
+        if (unit)
+            scale(shape, *unit);
+        return content_of(shape, options, wanted, progress.part(0.4, 1));
+    } catch (const Standard_Failure& failure) {
+        throw InputError(
+            fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
+    } catch (const std::length_error& error) { // a count in a damaged file
+        throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
+    }
+}
+
 } // namespace
 
 bool is_cad(std::string_view extension)
@@ -158,18 +177,13 @@ CadContent read_cad(const std::filesystem::path& path, const CadOptions& options
                     std::optional<LengthUnit> unit, const Progress& progress)
 {
     require_options(options);
-    const OcctSession session;
-    try {
-        CadShape shape = read_cad_shape(path, progress.part(0, 0.4));
-        if (unit)
-            scale(shape, *unit);
-        return content_of(shape, options, wanted, progress.part(0.4, 1));
-    } catch (const Standard_Failure& failure) {
-        throw InputError(
-            fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
-    } catch (const std::length_error& error) { // a count in a damaged file
-        throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
-    }
+    const OcctSession session; // held here for as long as the child works
+    const auto work = [&](const Progress& told, const ChildLog& log) {
+        session.redirect(log);
+        return packed(read_here(path, options, wanted, unit, told));
+    };
+    const auto log = [](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); };
+    return unpacked(in_child(work, log, progress));
 }
 
 } // namespace spia

@@ -44,7 +44,8 @@ struct CadContent {
 /// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.
 bool is_cad(std::string_view extension);
 
-/// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one file at a time.
+/// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one file at a time. That is done in a
+/// process of its own (in_child()), for OpenCASCADE crashes and hangs on some damaged files.
 /// @param wanted  faces to take, "7" or "10-19"; empty: all
 /// @param unit  of a BREP file (not given: mm); the others name their unit, and it is obeyed
 /// @throws InputError  the file is damaged or holds no face, a face wanted does not exist, an option makes no sense, a

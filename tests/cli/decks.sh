@@ -41,5 +41,5 @@ expect 0 "2 mm thick as asked for, not 0.8 mm" "$spia" run --part Row "$deck" --
 expect 2 "several parts\|separate pieces" "$spia" compare --part Lid,Base "$deck" --methods lscm
 expect 0 "1.5 mm thick as in the deck" "$spia" compare --part Base "$deck" --methods lscm
 expect 0 "0.8 mm thick as in the deck" "$spia" unfold --part Lid "$deck" --auto
-expect 2 "from solver decks only" "$spia" info --part 1 "$(dirname "$0")/../../assets/parts/dome.obj"
+expect 2 "from solver decks and CAD files only" "$spia" info --part 1 "$(dirname "$0")/../../assets/parts/dome.obj"
 echo "decks: all as expected"

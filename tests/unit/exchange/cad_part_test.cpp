@@ -1,17 +1,22 @@
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <csignal>
 #include <gtest/gtest.h>
 #include <memory>
 #include <numbers>
 #include <random>
 #include <set>
+#include <unistd.h>
 
 #include "engine/core/error.h"
+#include "engine/exchange/child_process.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/exchange/write_iges.h"
 #include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/weld.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -145,6 +150,16 @@ TEST_P(OwnCadFile, ComesBackWithinTheDeflectionAsOneSheet)
         EXPECT_EQ(part.cad->faces, 2);
         EXPECT_EQ(int(part.cad->face.size()), part.file_faces);
     }
+}
+
+TEST_P(OwnCadFile, HasThePointsOfACommonEdgeOnce)
+{
+    std::vector<NurbsSurface> storeys(2, cylinder(0, pi / 2)); // with an arc between them
+    storeys[1].control.row(2).array() += height;
+    write(file_, storeys);
+    const CadContent cad = read_cad(file_);
+    const Weld twice = weld(cad.soup, 1e-6);
+    EXPECT_EQ(twice.exact + twice.near, 0);
 }
 
 TEST_P(OwnCadFile, IsInMillimetresWhateverItsUnit)
@@ -350,6 +365,82 @@ TEST(CadPart, SameFileGivesTheSameTriangles)
     const CadContent a = read_cad(folder / "wall.igs"), b = read_cad(folder / "wall.igs");
     EXPECT_EQ(a.soup.corner, b.soup.corner);
     EXPECT_EQ(a.soup.position, b.soup.position);
+}
+
+TEST(ChildProcess, GivesTheResultOrTheErrorAndOutlivesACrash)
+{
+    std::vector<std::string> logged;
+    const ChildLog log = [&](std::string_view text) { logged.emplace_back(text); };
+    const std::string large(5'000'000, 'x');
+    EXPECT_EQ(in_child([&](const Progress&, const ChildLog& say) { return say("hello"), large; }, log, {}), large);
+    EXPECT_EQ(logged, std::vector<std::string>{"hello"});
+    try {
+        in_child([](const Progress&, const ChildLog&) -> std::string { throw InputError("no good"); }, log, {});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "no good");
+    }
+    const auto crash = [](const Progress&, const ChildLog&) -> std::string {
+        std::raise(SIGKILL);
+        return "";
+    };
+    EXPECT_THROW(in_child(crash, log, {}), InputError);
+    const auto hog = [](const Progress&, const ChildLog&) { return std::string(size_t(20) << 30, 'x'); };
+    EXPECT_THROW(in_child(hog, log, {}), InputError);
+}
+
+TEST(ChildProcess, IsStoppedEvenIfItSaysNothing)
+{
+    const auto stop = std::make_shared<std::atomic<bool>>(true);
+    const auto sleep = [](const Progress&, const ChildLog&) { return ::sleep(100), std::string(); };
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THROW(in_child(
+                     sleep, [](std::string_view) {}, Progress({}, stop)),
+                 Cancelled);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+/// Files cut short and with bytes changed: refused or read, but never the end of this program.
+TEST(CadPart, DamagedFilesAreRefusedOrReadButNeverCrash)
+{
+    const ScratchFolder folder;
+    std::vector<fs::path> sources = {folder / "own.step", folder / "own.igs"};
+    write_step(sources[0], quarter_cylinder());
+    write_iges(sources[1], quarter_cylinder());
+    if (fs::exists(cad_folder / "freeform99.brep"))
+        sources.push_back(cad_folder / "freeform99.brep");
+    std::mt19937 random(7);
+    for (const fs::path& source : sources) {
+        const std::string whole = content_of(source);
+        int refused = 0;
+        constexpr int files = 30;
+        for (int k = 0; k < files; ++k) {
+            std::string damaged = whole;
+            if (k % 3 == 0)
+                damaged.resize(random() % whole.size());
+            else
+                for (unsigned n = random() % 20 + 1; n > 0; --n)
+                    damaged[random() % whole.size()] = "0123456789#(),.$*-E;'"[random() % 21];
+            const fs::path file = folder / ("damaged" + source.extension().string());
+            put(file, damaged);
+            // What takes long is stopped: a damaged number can ask for millions of triangles.
+            const auto stop = std::make_shared<std::atomic<bool>>(false);
+            const auto start = std::chrono::steady_clock::now();
+            const Progress patience(
+                [&](double, std::string_view) {
+                    *stop = std::chrono::steady_clock::now() - start > std::chrono::seconds(2);
+                },
+                stop);
+            try {
+                examine_part(file, {}, patience);
+            } catch (const InputError& error) {
+                EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos); // the name of the file
+                ++refused;
+            } catch (const Cancelled&) {
+            }
+        }
+        EXPECT_GE(refused, files / 3) << source; // those cut short at least
+    }
 }
 
 } // namespace spia
