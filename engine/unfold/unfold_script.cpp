@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/forming/flips.h"
@@ -255,7 +256,7 @@ void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t 
 
 bool creased(const BinderFit& target, double diagonal)
 {
-    constexpr double far = 2e-4, turned = 0.2; // of the part; radians: what carries a proposed step may be turned as far
+    constexpr double far = 2e-4, turned = 3 * std::numbers::pi / 180; // of the part; radians
     return target.distance_mm > far * diagonal || target.angle > turned;
 }
 

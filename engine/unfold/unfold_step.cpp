@@ -12,6 +12,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/unfold/fit_height.h"
 #include "engine/unfold/freed_piece.h"
+#include "engine/unfold/hinge_quality.h"
 #include "engine/unfold/solve_piece.h"
 #include "engine/unfold/target_friction.h"
 #include "engine/unfold/turn_binder.h"
@@ -107,35 +108,6 @@ BinderFace target_of(const TriMesh& part, const TriMesh& state, const UnfoldPick
     return fit->face;
 }
 
-/// How well the target goes through the held vertices and on from the fixed faces around them.
-BinderFit along_hinges(const BinderFace& face, const TriMesh& state, const std::vector<int>& fixed,
-                       const std::vector<FreedPiece>& pieces)
-{
-    constexpr double too_far = 1e-3; // of the part
-    BinderFit fit{face, 0, 0};
-    std::vector<char> held(size_t(state.vertices()), 0);
-    for (const FreedPiece& piece : pieces)
-        for (const int v : piece.held)
-            held[size_t(piece.vertex[size_t(v)])] = 1;
-    const double limit = too_far * bounding_diagonal(state);
-    for (const int f : fixed)
-        for (const int v : state.triangle.col(f))
-            if (held[size_t(v)]) {
-                const Eigen::Vector3d x = state.position.col(v);
-                const double off = (x - placed(face, developed(face, x))).norm();
-                if (!(off <= limit))
-                    throw InputError(fmt::format(
-                        "the fixed face {} ends {:.3g} mm beside the target, where freed faces are joined to it; give a "
-                        "target that goes through their common edge",
-                        f, off));
-                fit.distance_mm = std::max(fit.distance_mm, off);
-                const Eigen::Matrix3d c = state.position(Eigen::all, state.triangle.col(f));
-                const Eigen::Vector3d m = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)), n = outer_normal(face, x);
-                fit.angle = std::max(fit.angle, std::atan2(n.cross(m).norm(), n.dot(m)));
-            }
-    return fit;
-}
-
 /// Where faces stand among the freed ones.
 std::vector<int> places_of(const std::vector<int>& faces, const std::vector<int>& freed)
 {
@@ -168,7 +140,7 @@ UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state,
 
     UnfoldStepResult result;
     result.position = state;
-    result.binder = along_hinges(target, now, picked.fixed, pieces);
+    result.binder = hinge_quality(target, now, picked.fixed, pieces);
     result.freed = picked.freed;
     result.face = sized_fields(Eigen::Index(picked.freed.size()));
     double done = 0;

@@ -18,7 +18,7 @@ struct UnfoldedPiece {
 
 struct UnfoldStepResult {
     Eigen::Matrix3Xd position; ///< 3 by #V, mm: all vertices after the step
-    BinderFit binder; ///< the target, its distance from the held vertices and its angle to the fixed faces around them
+    BinderFit binder;                 ///< the target and how well it goes on from the fixed faces: see hinge_quality()
     std::vector<int> freed;           ///< ascending
     SheetFields face;                 ///< of forming the step's sheet into the part: one entry per freed face
     std::vector<UnfoldedPiece> piece; ///< in the order of their first faces

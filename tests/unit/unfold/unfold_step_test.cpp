@@ -202,7 +202,7 @@ TEST(UnfoldStep, AFlangeOnACylinderLandsOnTheCylindersOwnExtension)
             EXPECT_EQ(std::get<CylinderFace>(result.binder.face).bulges, !inside);
             EXPECT_LT(largest_strain(result.face), 1e-6);
             EXPECT_LT(result.binder.distance_mm, 1e-6);
-            EXPECT_NEAR(result.binder.angle, step / 2, 1e-3); // a chord against its arc
+            EXPECT_LT(result.binder.angle, 1e-3); // a chord against its arc is no crease
             // Flat lengths along the flange become arcs: a chord is shorter by step^2 / 24.
             for (int v = 0; v < part.vertices(); ++v) {
                 const int k = v % (columns + 1);
