@@ -55,6 +55,13 @@ std::string cells(const MethodRun& run)
                        run.quality.flips > 0 ? fmt::format(" ({} flips)", run.quality.flips) : "");
 }
 
+std::string necking(const BentRun& run)
+{
+    if (run.necking == 0 && run.at_hinge_end == 0)
+        return "";
+    return fmt::format(" ({} neck, {} at ends of hinges)", run.necking, run.at_hinge_end);
+}
+
 /// A table of the bent parts, step by step and by others. @returns how many have no blank, or one with flips
 int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const FlattenOptions& options)
 {
@@ -70,7 +77,7 @@ int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const
         const BentRun run = run_bent(shape.make(), options);
         fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.3g}{} | {} | {} | {} | {:.3g}{} | {} | {} | {:.2f} |\n",
                    shape.name(), run.triangles, run.regions, run.steps, run.converged, run.local.quality.flips,
-                   run.overlaps, run.strain, run.necking > 0 ? fmt::format(" ({} neck)", run.necking) : "",
+                   run.overlaps, run.strain, necking(run),
                    run.local.off_exact ? fmt::format("{:.1e}", *run.local.off_exact) : "", cells(run.local),
                    cells(run.whole), run.whole_strain, run.whole_converged ? "" : " (not converged)", cells(run.abf),
                    cells(run.arap), run.seconds);

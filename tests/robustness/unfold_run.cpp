@@ -6,9 +6,11 @@
 #include <exception>
 #include <functional>
 #include <stdexcept>
+#include <vector>
 
 #include "engine/compare/abf.h"
 #include "engine/compare/arap.h"
+#include "engine/mesh/topology.h"
 #include "engine/unfold/unfold_script.h"
 
 namespace spia {
@@ -40,6 +42,37 @@ MethodRun method_run(const shapes::BentPart& part, const std::function<Eigen::Ma
     return run;
 }
 
+/// Per vertex: on the free rim, and between fixed and freed faces in one of the steps.
+std::vector<char> hinge_ends(const TriMesh& part, const UnfoldScript& steps)
+{
+    std::vector<char> rim(size_t(part.vertices()), 0), end = rim;
+    for (const std::vector<int>& loop : boundary_loops(part))
+        for (const int v : loop)
+            rim[size_t(v)] = 1;
+    for (const PlannedStep& step : steps) {
+        std::vector<char> fixed(size_t(part.vertices()), 0);
+        for (const int f : step.pick.fixed)
+            for (const int v : part.triangle.col(f))
+                fixed[size_t(v)] = 1;
+        for (const int f : step.pick.freed)
+            for (const int v : part.triangle.col(f))
+                if (fixed[size_t(v)] && rim[size_t(v)])
+                    end[size_t(v)] = 1;
+    }
+    return end;
+}
+
+void count_necking(const TriMesh& part, const UnfoldScript& steps, const UnfoldState& last, BentRun& run)
+{
+    const std::vector<char> end = hinge_ends(part, steps);
+    for (int f = 0; f < part.triangles(); ++f)
+        if (last.face.necking[f]) {
+            const auto corner = part.triangle.col(f);
+            const bool at_end = std::any_of(corner.begin(), corner.end(), [&](int v) { return end[size_t(v)]; });
+            ++(at_end ? run.at_hinge_end : run.necking);
+        }
+}
+
 Eigen::Matrix2Xd step_by_step(const TriMesh& part, const FlattenOptions& options, BentRun& run)
 {
     const auto clock = std::chrono::steady_clock::now();
@@ -55,7 +88,7 @@ Eigen::Matrix2Xd step_by_step(const TriMesh& part, const FlattenOptions& options
         throw std::runtime_error(unfolded.failure.empty() ? "it does not lie in a plane" : unfolded.failure);
     const UnfoldState& last = unfolded.states.back();
     run.strain = last.face.strain_equivalent.maxCoeff();
-    run.necking = last.face.necking.sum();
+    count_necking(part, steps, last, run);
     run.overlaps = last.overlap.places;
     return std::move(unfolded.blank->position);
 }
