@@ -20,7 +20,6 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/report.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
@@ -257,6 +256,12 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, con
                 fmt::format("step \"{}\" bends the sheet at its hinge: the target is {:.3g} mm beside the fixed "
                             "faces and turned by {:.1f} deg against them",
                             state.name, state.on->distance_mm, state.on->angle * degrees));
+    for (const UnfoldState& state : run.states)
+        if (state.reach.without_room > 0)
+            poorer.push_back(
+                fmt::format("step \"{}\": {} faces reach beyond the end of the target, up to {:.4g} mm from "
+                            "what carries it",
+                            state.name, state.reach.without_room, state.reach.farthest_mm));
     if (!run.states.empty() && run.states.back().necking > 0)
         poorer.push_back(
             fmt::format("{} triangles are strained beyond what the hardening curve is trusted to: extrapolated, "

@@ -203,12 +203,13 @@ void read_target(const Json& json, const Place& place, const PartFile& part, Pla
             place.fail("must be \"fitted\" or an object { }");
         return;
     }
-    require_object(json, place, {"plane", "cylinder", "cone", "within_mm", "offset_mm"});
+    require_object(json, place, {"plane", "cylinder", "cone", "within_mm", "offset_mm", "extent_mm"});
     step.within_mm = number_in(json, place, "within_mm", 0, most_mm).value_or(0);
     step.offset_mm = number_in(json, place, "offset_mm", -most_mm, most_mm).value_or(0);
+    step.extent_mm = number_in(json, place, "extent_mm", 1e-9, most_mm);
     Json face = json;
-    face.erase("within_mm");
-    face.erase("offset_mm");
+    for (const char* other : {"within_mm", "offset_mm", "extent_mm"})
+        face.erase(other);
     if (face.empty())
         return;
     step.pick.target = face_in(face, place, middle_of_pick(part.mesh, step.pick));

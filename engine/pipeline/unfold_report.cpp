@@ -106,6 +106,8 @@ Json step_json(const BendMap& map, const PlannedStep& step, const std::vector<in
         target["within_mm"] = step.within_mm;
     if (step.offset_mm != 0)
         target["offset_mm"] = step.offset_mm;
+    if (step.extent_mm)
+        target["extent_mm"] = *step.extent_mm;
     if (!target.empty())
         json["target"] = target;
     if (step.pick.friction)
@@ -216,6 +218,8 @@ Json state_json(const UnfoldState& state)
         json["target"] = face_json(state.on->face);
         json["distance_to_held_mm"] = state.on->distance_mm;
         json["angle_to_fixed_deg"] = state.on->angle * degrees;
+        json["reach_mm"] = state.reach.farthest_mm;
+        json["faces_without_room"] = state.reach.without_room;
     }
     return json;
 }

@@ -191,6 +191,7 @@ Json step_json(const PlannedStep& step)
             {"target", step.pick.target ? face_json(*step.pick.target) : Json()},
             {"within_mm", step.within_mm},
             {"offset_mm", step.offset_mm},
+            {"extent_mm", or_none(step.extent_mm)},
             {"friction", step.pick.friction ? friction_json(*step.pick.friction) : Json()},
             {"tolerance", or_none(step.tolerance)},
             {"most", {or_none(step.most_energy_steps), or_none(step.most_newton_steps)}}};
@@ -222,6 +223,8 @@ Json state_json(const UnfoldState& state)
                  {"beyond", state.necking},
                  {"overlap", state.overlap.places},
                  {"overlap_first", numbers(state.overlap.first)},
+                 {"reach_mm", state.reach.farthest_mm},
+                 {"without_room", state.reach.without_room},
                  {"seconds", state.seconds}};
     for (const Field& field : fields)
         json[field.name] = numbers(state.face.*field.values);
@@ -251,6 +254,7 @@ UnfoldState state_of(const Json& json, const TriMesh& part, const std::string& n
     state.necking = count(json, "beyond");
     state.overlap.places = count(json, "overlap");
     take(json, "overlap_first", 3, 1, state.overlap.first);
+    state.reach = {number(json, "reach_mm"), count(json, "without_room")};
     state.seconds = number(json, "seconds");
     if (json.contains("on"))
         state.on = BinderFit{face_of(member(json["on"], "face")), number(json["on"], "distance_mm"),

@@ -25,10 +25,12 @@ struct PlannedStep {
         pick; ///< of an unroll or a flatten: nothing is fixed, all is freed; an unroll has carrying faces all the same
     double within_mm =
         0; ///< how far the carrying faces may be from the plane, cylinder or cone that is looked for; 0: as unfold_step()
-    double offset_mm = 0;                                              ///< the target is moved so far to its outer side
-    std::vector<int> freed;                                            ///< labels of the map, ascending
-    std::vector<int> fixed;                                            ///< labels, the carrier first
-    int carrier = -1;                                                  ///< region; -1 where nothing stays
+    double offset_mm = 0; ///< the target is moved so far to its outer side
+    std::optional<double> extent_mm =
+        {};                 ///< how far it goes on beyond the carrying faces; none: as far as the sheet does
+    std::vector<int> freed; ///< labels of the map, ascending
+    std::vector<int> fixed; ///< labels, the carrier first
+    int carrier = -1;       ///< region; -1 where nothing stays
     std::optional<double> tolerance = {};                              ///< of the solver, in place of FlattenOptions
     std::optional<int> most_energy_steps = {}, most_newton_steps = {}; ///< likewise
 };
@@ -47,6 +49,12 @@ struct UnfoldSequence {
     std::vector<PlannedStep> steps; ///< in order: the outermost first; after the last the part is flat
     std::vector<std::string> notes; ///< what could not be a step of its own, and why
 };
+
+/// The faces that carry the target of a step: those named, else all that stay.
+inline const std::vector<int>& carrying_faces(const PlannedStep& step)
+{
+    return step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
+}
 
 /// Proposes the order in which a part is unfolded region by region: the outermost regions are laid on the faces of their
 /// neighbours (planes, cylinders, cones, else smooth faces through gently curved ones), then these with what lies on them on theirs,

@@ -55,11 +55,6 @@ double diagonal(const TriMesh& mesh, const std::vector<int>& faces)
     return box.diagonal().norm();
 }
 
-const std::vector<int>& carrying_faces(const PlannedStep& step)
-{
-    return step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
-}
-
 /// The target where the script leaves it to be found with a distance of its own, or moves it.
 std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
 {
@@ -171,6 +166,8 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     state.necking = result.necking_triangles;
     state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
                                    carried_within(state.position, part, step, result));
+    if (step.kind == UnfoldKind::lay && !carrying_faces(step).empty())
+        state.reach = target_reach({state.position, part.triangle}, carrying_faces(step), result.freed, step.extent_mm);
 }
 
 /// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
@@ -241,10 +238,25 @@ void require_friction(const PlannedStep& step)
             refuse(fmt::format("face {} of its faces is not freed", f));
 }
 
+void require_extent(const PlannedStep& step)
+{
+    if (!step.extent_mm)
+        return;
+    if (!(*step.extent_mm > 0) || !std::isfinite(*step.extent_mm))
+        throw InputError(fmt::format("step \"{}\": the extent of its target is {} mm; it must be positive", step.name,
+                                     *step.extent_mm));
+    if (step.kind != UnfoldKind::lay || carrying_faces(step).empty())
+        throw InputError(fmt::format("step \"{}\": the extent of a target is counted from the faces that carry it, and "
+                                     "nothing carries it in this step; leave the extent out",
+                                     step.name));
+}
+
 void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t keep)
 {
-    for (const PlannedStep& step : script)
+    for (const PlannedStep& step : script) {
         require_friction(step);
+        require_extent(step);
+    }
     if (script.empty())
         throw InputError("the script has no step; there is nothing to unfold");
     if (keep > script.size() || (keep > 0 && (!before || before->states.size() < keep)))
@@ -317,7 +329,7 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         const PlannedStep& step = script[k];
         const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
         own.checkpoint(0, step.name);
-        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, 0};
+        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, {}, 0};
         try {
             if (step.kind == UnfoldKind::unroll)
                 unroll(part, step, options, next);

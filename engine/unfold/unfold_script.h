@@ -5,6 +5,7 @@
 
 #include "engine/unfold/landed_overlap.h"
 #include "engine/unfold/sequence.h"
+#include "engine/unfold/target_reach.h"
 #include "engine/unfold/unfold_step.h"
 
 namespace spia {
@@ -27,6 +28,7 @@ struct UnfoldState {
     std::string reason;          ///< why not; with friction also with which curve, and how much of it
     int necking = 0;             ///< faces beyond the trusted strain
     LandedOverlap overlap;       ///< of all that lies on the target after the step; of an unroll, in the plane
+    TargetReach reach;           ///< of what was laid; zero where nothing carries the target
     double seconds = 0;
     double friction_share = 1; ///< of the step's friction that is in the state: below 1 the sheet does not bear it
 };

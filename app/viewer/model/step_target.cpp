@@ -127,7 +127,7 @@ std::optional<BinderFace> planned_target(const TriMesh& before, const PlannedSte
 {
     std::optional<BinderFace> target = step.pick.target;
     if (!target) {
-        const std::vector<int>& carrying = step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
+        const std::vector<int>& carrying = carrying_faces(step);
         if (carrying.empty())
             return std::nullopt;
         Eigen::AlignedBox3d box;

@@ -128,11 +128,6 @@ Eigen::Matrix3Xd unfolded_places(const Document& document, double position)
                                : on_the_way(part.triangle, after(whole), after(whole + 1), at - double(whole));
 }
 
-const std::vector<int>& carrying_faces(const PlannedStep& step)
-{
-    return step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
-}
-
 StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                            std::optional<int> keep, const Progress& progress)
 {

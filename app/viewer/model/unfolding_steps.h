@@ -63,9 +63,6 @@ StepStatus step_status(const Document& document, size_t step);
 /// if its sheet turns. No more than there are states that hold.
 Eigen::Matrix3Xd unfolded_places(const Document& document, double position);
 
-/// The faces that carry what a step moves, ascending: of an unroll or a flatten those of its face, if any.
-const std::vector<int>& carrying_faces(const PlannedStep& step);
-
 /// What a job about steps left behind.
 struct StepsOutcome {
     std::optional<StepList> proposed;

@@ -81,7 +81,7 @@ TEST_F(UnfoldFile, APickUnitesRegionsFacesAndABox)
 {
     const ReadScript script = read(R"({"steps": [
         {"freed": {"regions": ["region 6"]}, "fixed": {"regions": ["region 2"]}, "name": "lip",
-         "target": {"within_mm": 0.5, "offset_mm": -2}, "options": {"most_newton_steps": 7, "tolerance": 1e-6}},
+         "target": {"within_mm": 0.5, "offset_mm": -2, "extent_mm": 12.5}, "options": {"most_newton_steps": 7, "tolerance": 1e-6}},
         {"freed": {"box": [[-60, -60, 0.1], [60, 60, 99]], "faces": [1579]}, "fixed": {"box": [[-60, -60, -1], [0, 60, 0.01]]},
          "target": {"plane": {"origin": [0, 0, 1], "normal": [0, 0, -3]}}}]})");
     EXPECT_FALSE(script.findings.empty()) << "the walls would tear off the other half of the bottom";
@@ -91,6 +91,8 @@ TEST_F(UnfoldFile, APickUnitesRegionsFacesAndABox)
     EXPECT_EQ(lip.pick.carrying, map.faces_of(1));
     EXPECT_EQ(lip.within_mm, 0.5);
     EXPECT_EQ(lip.offset_mm, -2);
+    EXPECT_EQ(lip.extent_mm, 12.5);
+    EXPECT_EQ(read(unfold_script_json(map, {lip})).steps.at(0).extent_mm, 12.5);
     EXPECT_EQ(lip.most_newton_steps, 7);
     EXPECT_EQ(lip.tolerance, 1e-6);
     EXPECT_EQ(lip.carrier, 1);

@@ -63,6 +63,8 @@ void expect_same(const UnfoldState& a, const UnfoldState& b)
     EXPECT_EQ(a.necking, b.necking);
     EXPECT_EQ(a.overlap.places, b.overlap.places);
     EXPECT_EQ(a.overlap.first, b.overlap.first);
+    EXPECT_EQ(a.reach.farthest_mm, b.reach.farthest_mm);
+    EXPECT_EQ(a.reach.without_room, b.reach.without_room);
     EXPECT_EQ(a.seconds, b.seconds);
     ASSERT_EQ(a.on.has_value(), b.on.has_value());
     if (!a.on)
@@ -87,6 +89,7 @@ TEST_F(UnfoldStates, AreReadBackToTheLastBit)
     run.states[0].necking = 7;
     run.states[0].friction_share = 0.75;
     run.states[0].overlap = {3, {1, 2, 3}};
+    run.states[0].reach = {4.5, 6};
     write();
     const KeptStates kept = read(steps);
     ASSERT_EQ(kept.keep, steps.size());
@@ -144,6 +147,9 @@ TEST_F(UnfoldStates, HoldUpToTheFirstStepThatIsAnotherOne)
     script = steps;
     script[0].offset_mm = 1;
     EXPECT_EQ(read(script).keep, 0U);
+    script = steps;
+    script[1].extent_mm = 20;
+    EXPECT_EQ(read(script).keep, 1U);
     script = steps;
     script.push_back(script.back());
     EXPECT_EQ(read(script).why, fmt::format("step {} was not done", script.size()));
