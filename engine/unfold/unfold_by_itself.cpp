@@ -28,13 +28,35 @@ struct Fault {
     bool has_blank = false; ///< the run ended in one all the same
 };
 
+/// The worst step before all is flattened that strains the sheet more than that does at last: it led nowhere.
+std::optional<Fault> strained_for_nothing(const UnfoldScript& steps, const UnfoldRun& run)
+{
+    constexpr double harmless = 0.05;
+    if (steps.back().kind != UnfoldKind::flatten)
+        return std::nullopt;
+    const double end = run.states.back().face.strain_equivalent.maxCoeff();
+    double most = std::max(harmless, end);
+    std::optional<Fault> fault;
+    for (size_t k = 0; k + 1 < steps.size(); ++k) {
+        const double strain = run.states[k].face.strain_equivalent(steps[k].pick.freed).maxCoeff();
+        if (strain <= most)
+            continue;
+        most = strain;
+        fault = Fault{k, fmt::format("it strains the sheet by {:.2g}, the blank at last only by {:.2g}", strain, end),
+                      run.blank.has_value()};
+    }
+    return fault;
+}
+
 std::optional<Fault> fault_in(const UnfoldScript& steps, const UnfoldRun& run)
 {
     for (size_t k = 0; k < run.states.size();
          ++k) // what does not converge for itself may as well move with its neighbours
         if (const UnfoldState& state = run.states[k]; !state.converged && steps[k].kind == UnfoldKind::lay)
             return Fault{k, "it did not converge: " + state.reason, run.blank && state.plain != "smooth"};
-    if (run.failure.empty() || steps[run.states.size()].kind == UnfoldKind::flatten)
+    if (run.failure.empty())
+        return strained_for_nothing(steps, run);
+    if (steps[run.states.size()].kind == UnfoldKind::flatten)
         return std::nullopt;
     return Fault{run.states.size(), run.failure};
 }
