@@ -45,9 +45,9 @@ struct SolveReport {
     double trusted_strain = 0; ///< the hardening curve is continued beyond it: the option's, or the uniform strain
     int relaxed_vertices = 0;  ///< whose equations were relaxed, see VirtualWork::relax()
     std::string reason;        ///< why the iteration ended, in words
-    StartMethod start;
-    std::vector<NewtonStep> energy; ///< steps of the energy stage (all its passes in a row)
-    std::vector<NewtonStep> newton; ///< steps of the virtual-work stage
+    StartMethod start = StartMethod::conformal; ///< of a blank that steps gave, which has none, nothing
+    std::vector<NewtonStep> energy;             ///< steps of the energy stage (all its passes in a row)
+    std::vector<NewtonStep> newton;             ///< steps of the virtual-work stage
     double process_share =
         1;               ///< of the forces of the tools that are in the blank: below 1 the sheet does not bear them
     double residual = 0; ///< |R| relative to the nodal forces at the yield stress

@@ -80,6 +80,13 @@ void tell(const Job& job, const Eigen::Matrix2Xd& blank, SolveReport& report)
             : "pulled so hard a sheet that softens would neck";
     report.reason =
         converged_in_words(report, beyond ? obstacle : "", beyond ? asked : report.trusted_strain, job.part.vertices());
+    add_share(report);
+}
+
+} // namespace
+
+void add_share(SolveReport& report)
+{
     if (report.process_share == 0)
         report.reason +=
             "; too much force: already with next to nothing of it no equilibrium was found on this mesh, and the "
@@ -89,8 +96,6 @@ void tell(const Job& job, const Eigen::Matrix2Xd& blank, SolveReport& report)
                                      "the blank has that much",
                                      100 * report.process_share);
 }
-
-} // namespace
 
 Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report, const Progress& progress)
 {

@@ -38,7 +38,7 @@ void add_tractions(const ProcessConditions& process, const TriMesh& part, const 
 {
     const Eigen::Matrix3Xd area_vector = area_vectors(part);
     for (const ContactRegion& region : process.contact) {
-        require_contact(region, part);
+        require_contact(region, part, fmt::format("the contact region \"{}\"", region.name));
         const double pressure = contact_pressure(region, area_vector, direction).MPa;
         if (region.friction == 0)
             continue;
@@ -140,9 +140,8 @@ Eigen::VectorXd lock_forces(const ProcessConditions& process, const TriMesh& par
 
 } // namespace
 
-void require_contact(const ContactRegion& region, const TriMesh& part)
+void require_contact(const ContactRegion& region, const TriMesh& part, const std::string& what)
 {
-    const std::string what = fmt::format("the contact region \"{}\"", region.name);
     require_faces(what, region.faces, part);
     if (!(region.friction >= 0) || !std::isfinite(region.friction) || region.sides < 1 || region.sides > 2)
         throw InputError(fmt::format("{}: friction {} on {} sides; friction must not be negative, sides 1 or 2", what,
@@ -153,6 +152,12 @@ void require_contact(const ContactRegion& region, const TriMesh& part)
         require_positive("the force of " + what, *region.force_N, "N");
     else
         require_positive("the pressure of " + what, *region.pressure_MPa, "MPa");
+}
+
+bool has_tools(const ProcessConditions& process)
+{
+    return !process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() ||
+           process.edge_restraint != 0;
 }
 
 double lock_force(const Material& material, double thickness)

@@ -64,8 +64,12 @@ struct ProcessConditions {
 /// h sigma_1 in plane strain. What a bead takes at most.
 double lock_force(const Material& material, double thickness);
 
+/// @param what the region in words, for the message
 /// @throws InputError if a face does not exist or a value is out of its bounds: names the region and the fault
-void require_contact(const ContactRegion& region, const TriMesh& part);
+void require_contact(const ContactRegion& region, const TriMesh& part, const std::string& what);
+
+/// Whether some tool pulls or presses on the part as a whole, or holds it.
+bool has_tools(const ProcessConditions& process);
 
 /// The sheet with its tailored pieces.
 /// @param plane axes of the blank in space; @throws InputError  names the piece and the fault

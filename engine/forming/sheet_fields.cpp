@@ -5,15 +5,6 @@
 #include "engine/core/parallel.h"
 
 namespace spia {
-namespace {
-
-constexpr Eigen::VectorXd SheetFields::*scalars[] = {&SheetFields::thickness,         &SheetFields::thinning,
-                                                     &SheetFields::strain_major,      &SheetFields::strain_minor,
-                                                     &SheetFields::stress_major,      &SheetFields::stress_minor,
-                                                     &SheetFields::strain_equivalent, &SheetFields::stress_equivalent};
-
-} // namespace
-
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
                         const Sheet& sheet)
 {
@@ -53,7 +44,7 @@ SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element
         return Eigen::VectorXd(sum.cwiseQuotient(weight));
     };
     SheetFields node;
-    for (const auto field : scalars)
+    for (const auto& [name, field] : sheet_scalars)
         node.*field = mean(face.*field);
     node.necking = Eigen::VectorXi::Zero(n);
     std::vector<Eigen::Matrix3d> tensor(size_t(n), Eigen::Matrix3d::Zero());
@@ -74,7 +65,7 @@ SheetFields node_fields(const TriMesh& part, const std::vector<Element>& element
 SheetFields sized_fields(Eigen::Index entries)
 {
     SheetFields fields;
-    for (const auto field : scalars)
+    for (const auto& [name, field] : sheet_scalars)
         (fields.*field).resize(entries);
     fields.direction_major.resize(3, entries);
     fields.necking.resize(entries);
@@ -85,7 +76,7 @@ void put_fields(const SheetFields& from, const std::vector<int>& at, SheetFields
 {
     for (size_t k = 0; k < at.size(); ++k) {
         const auto i = Eigen::Index(at[k]), j = Eigen::Index(k);
-        for (const auto field : scalars)
+        for (const auto& [name, field] : sheet_scalars)
             (to.*field)[i] = (from.*field)[j];
         to.direction_major.col(i) = from.direction_major.col(j);
         to.necking[i] = from.necking[j];

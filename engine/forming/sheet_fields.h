@@ -7,6 +7,21 @@
 
 namespace spia {
 
+/// A field of one number per entry.
+struct SheetScalar {
+    const char* name;
+    Eigen::VectorXd SheetFields::*values;
+};
+/// All of them.
+inline constexpr SheetScalar sheet_scalars[] = {{"thickness", &SheetFields::thickness},
+                                                {"thinning", &SheetFields::thinning},
+                                                {"strain_major", &SheetFields::strain_major},
+                                                {"strain_minor", &SheetFields::strain_minor},
+                                                {"stress_major", &SheetFields::stress_major},
+                                                {"stress_minor", &SheetFields::stress_minor},
+                                                {"strain_equivalent", &SheetFields::strain_equivalent},
+                                                {"stress_equivalent", &SheetFields::stress_equivalent}};
+
 /// Strains, thickness and stresses of forming a blank into the part, one entry per face.
 SheetFields face_fields(const TriMesh& part, const std::vector<Element>& element, const Blank& blank,
                         const Sheet& sheet);

@@ -89,7 +89,8 @@ Json part_json(const PartFile& part)
     return json;
 }
 
-Json solve_json(const SolveReport& report, const StampingDirection& stamping)
+/// @param of_steps the blank is that of steps: nothing was started
+Json solve_json(const SolveReport& report, const StampingDirection& stamping, bool of_steps)
 {
     return {{"converged", report.converged},
             {"reason", report.reason},
@@ -101,7 +102,7 @@ Json solve_json(const SolveReport& report, const StampingDirection& stamping)
             {"trusted_strain", report.trusted_strain},
             {"relaxed_vertices", report.relaxed_vertices},
             {"process_share", report.process_share},
-            {"start", name(report.start)},
+            {"start", of_steps ? Json() : Json(name(report.start))},
             {"resultant_N_N_Nmm", {report.resultant[0], report.resultant[1], report.resultant[2]}},
             {"stamping_direction", {stamping.direction[0], stamping.direction[1], stamping.direction[2]}},
             {"hidden_area_fraction", stamping.hidden_area_fraction},
@@ -455,7 +456,8 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["sheet_thickness_mm"] = session.options.flatten.thickness;
         json["process"] = process_json(session);
         json["source"] = source_json(session.options.steps);
-        json["solve"] = solve_json(session.blank->report, session.blank->stamping);
+        json["solve"] = solve_json(session.blank->report, session.blank->stamping,
+                                   session.options.steps && !session.options.steps->polish);
         json["blank"] = blank_json(*session.part, *session.blank);
         json["result"] = result_json(*session.blank);
         if (session.blank->skins)

@@ -73,7 +73,7 @@ void read(Session& session, const Progress& progress)
 /// Tools act on the part as a whole, which steps do not know.
 void require_no_tools(const ProcessConditions& process)
 {
-    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() || process.edge_restraint > 0)
+    if (has_tools(process))
         throw InputError(
             "the steps of unfolding leave out contact, drawbeads, pilots and the held edge; take these away, or solve "
             "the part in one step");

@@ -205,6 +205,8 @@ Json state_json(const UnfoldState& state)
                  {"face", state.plain},
                  {"converged", state.converged},
                  {"reason", state.reason},
+                 {"system", name(state.system)},
+                 {"trusted_strain", state.trusted_strain},
                  {"equivalent_strain_max", state.face.strain_equivalent.maxCoeff()},
                  {"thinning_max", state.face.thinning.maxCoeff()},
                  {"thinning_min", state.face.thinning.minCoeff()},

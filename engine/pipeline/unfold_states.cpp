@@ -5,14 +5,14 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/core.h>
-#include <fstream>
-#include <iterator>
 
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
 #include "engine/exchange/atomic_file.h"
+#include "engine/exchange/file_content.h"
 #include "engine/exchange/provenance.h"
 #include "engine/forming/material_text.h"
+#include "engine/forming/sheet_fields.h"
 
 namespace spia {
 namespace {
@@ -197,19 +197,6 @@ Json step_json(const PlannedStep& step)
             {"most", {or_none(step.most_energy_steps), or_none(step.most_newton_steps)}}};
 }
 
-struct Field {
-    const char* name;
-    Eigen::VectorXd SheetFields::*values;
-};
-constexpr Field fields[] = {{"thickness", &SheetFields::thickness},
-                            {"thinning", &SheetFields::thinning},
-                            {"strain_major", &SheetFields::strain_major},
-                            {"strain_minor", &SheetFields::strain_minor},
-                            {"stress_major", &SheetFields::stress_major},
-                            {"stress_minor", &SheetFields::stress_minor},
-                            {"strain_equivalent", &SheetFields::strain_equivalent},
-                            {"stress_equivalent", &SheetFields::stress_equivalent}};
-
 Json state_json(const UnfoldState& state)
 {
     Json json = {{"position", numbers(state.position)},
@@ -218,6 +205,8 @@ Json state_json(const UnfoldState& state)
                  {"step", numbers(state.step)},
                  {"plain", state.plain},
                  {"converged", state.converged},
+                 {"system", int(state.system)},
+                 {"trusted_strain", state.trusted_strain},
                  {"friction_share", state.friction_share},
                  {"reason", state.reason},
                  {"beyond", state.necking},
@@ -226,7 +215,7 @@ Json state_json(const UnfoldState& state)
                  {"reach_mm", state.reach.farthest_mm},
                  {"without_room", state.reach.without_room},
                  {"seconds", state.seconds}};
-    for (const Field& field : fields)
+    for (const SheetScalar& field : sheet_scalars)
         json[field.name] = numbers(state.face.*field.values);
     if (state.on)
         json["on"] = {
@@ -243,13 +232,18 @@ UnfoldState state_of(const Json& json, const TriMesh& part, const std::string& n
     take(json, "direction_major", 3, faces, state.face.direction_major);
     take(json, "necking", faces, 1, state.face.necking);
     take(json, "step", faces, 1, state.step);
-    for (const Field& field : fields)
+    for (const SheetScalar& field : sheet_scalars)
         take(json, field.name, faces, 1, state.face.*field.values);
     state.plain = text(json, "plain");
     state.reason = text(json, "reason");
     if (!member(json, "converged").is_boolean())
         damaged("converged");
     state.converged = json["converged"].get<bool>();
+    const int system = count(json, "system");
+    if (system > int(SolvedSystem::energy))
+        damaged("system");
+    state.system = SolvedSystem(system);
+    state.trusted_strain = number(json, "trusted_strain");
     state.friction_share = number(json, "friction_share");
     state.necking = count(json, "beyond");
     state.overlap.places = count(json, "overlap");
@@ -298,11 +292,9 @@ std::string checksum(std::string_view content)
 
 Json read_cbor(const std::filesystem::path& file)
 {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored))
+    if (!std::filesystem::exists(file))
         throw InputError("is not there; run the steps into this folder first");
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    std::string bytes = file_content(file);
     constexpr size_t sum = 4;
     if (bytes.size() < sum || checksum(std::string_view(bytes).substr(0, bytes.size() - sum)) !=
                                   std::string_view(bytes).substr(bytes.size() - sum))

@@ -118,6 +118,13 @@ struct OuterNormal {
 
 } // namespace
 
+bool operator==(const HeightFace& a, const HeightFace& b)
+{
+    return a.origin == b.origin && a.axes == b.axes && a.corner == b.corner && a.spacing == b.spacing &&
+           a.coefficient.rows() == b.coefficient.rows() && a.coefficient.cols() == b.coefficient.cols() &&
+           a.coefficient == b.coefficient;
+}
+
 std::string_view name(const BinderFace& face)
 {
     constexpr std::string_view names[] = {"plane", "cylinder", "cone", "smooth"};

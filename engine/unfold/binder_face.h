@@ -12,6 +12,8 @@ namespace spia {
 struct PlaneFace {
     Eigen::Vector3d origin;           ///< mm; of the development, too
     Eigen::Matrix<double, 3, 2> axes; ///< orthonormal; their cross product points to the outer side
+
+    friend bool operator==(const PlaneFace&, const PlaneFace&) = default;
 };
 
 struct CylinderFace {
@@ -21,6 +23,8 @@ struct CylinderFace {
         towards;   ///< unit vector square to the axis, to the middle of the face: opposite of it the development is cut
     double radius; ///< mm
     bool bulges;   ///< the outer side looks away from the axis
+
+    friend bool operator==(const CylinderFace&, const CylinderFace&) = default;
 };
 
 struct ConeFace {
@@ -29,6 +33,8 @@ struct ConeFace {
     Eigen::Vector3d towards; ///< as of a cylinder
     double half_angle;       ///< radians, between axis and generators
     bool bulges;
+
+    friend bool operator==(const ConeFace&, const ConeFace&) = default;
 };
 
 /// A smooth height over a plane: a bicubic spline on even knots, and where these end straight on.
@@ -38,6 +44,8 @@ struct HeightFace {
     Eigen::Vector2d corner;           ///< mm, in the plane: the first knot of either way
     double spacing;                   ///< mm, of the knots
     Eigen::MatrixXd coefficient;      ///< mm, of the B-splines; 3 more than cells in x (rows) and y (columns)
+
+    friend bool operator==(const HeightFace& a, const HeightFace& b);
 };
 
 using BinderFace = std::variant<PlaneFace, CylinderFace, ConeFace, HeightFace>;

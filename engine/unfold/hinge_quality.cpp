@@ -21,7 +21,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 /// as far as no facet of a bend does there is a sharp edge, which is no chord.
 Eigen::VectorXd facet_turns(const TriMesh& state, const std::vector<int>& faces)
 {
-    constexpr double most_facet = 0.8; // a chord over 45 degrees, as fit_binder() takes it
+    constexpr double most_facet = 0.8; // twice what fit_binder() lets a chord turn from its arc
     const Eigen::Matrix3Xi triangle = state.triangle(Eigen::all, faces);
     const Eigen::Matrix3Xd normal = area_vectors({state.position, triangle});
     Eigen::VectorXd turn = Eigen::VectorXd::Zero(state.vertices());

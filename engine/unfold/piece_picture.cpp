@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/mesh/cut.h"
@@ -14,21 +15,19 @@ namespace spia {
 namespace {
 
 /// Sheet that goes around once and is cut somewhere: one side of the cut is where the other is, a turn away.
-PiecePicture around_once(const BinderFace& target, Eigen::Matrix2Xd held)
+/// @param edges between the held vertices
+PiecePicture around_once(const BinderFace& target, Eigen::Matrix2Xd held, const std::vector<std::array<int, 2>>& edges)
 {
     PiecePicture out{target, std::nullopt, std::move(held)};
     auto* cone = std::get_if<ConeFace>(&out.target);
     if (!cone) // of a cylinder the development goes on and on
         return out;
-    const auto angle = [&](Eigen::Index k) { return std::atan2(-out.held(0, k), out.held(1, k)); };
-    // From the first one on each is less than a turn of the development further, either way: its middle comes to the middle.
-    double least = 0, most = 0;
-    for (Eigen::Index k = 0; k < out.held.cols(); ++k) {
-        const double way = angle(k) - angle(0);
-        least = std::min(least, way);
-        most = std::max(most, way);
-    }
-    const double middle = angle(0) + (least + most) / 2,
+    Eigen::VectorXd angle(out.held.cols());
+    for (Eigen::Index k = 0; k < angle.size(); ++k)
+        angle[k] = std::atan2(-out.held(0, k), out.held(1, k));
+    // A cone's development is less than a turn wide: its middle comes to the middle, by the way from the first vertex.
+    const double around = middle_around(angle, edges).value_or(angle[0]),
+                 middle = angle[0] - std::remainder(angle[0] - around, 2 * std::numbers::pi),
                  turn = (cone->bulges ? -1 : 1) * middle / std::sin(cone->half_angle);
     cone->towards = Eigen::AngleAxisd(turn, cone->axis) * cone->towards;
     out.held = (Eigen::Rotation2Dd(-middle).toRotationMatrix() * out.held).eval();
@@ -72,7 +71,7 @@ PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, co
         return out;
     }
     if (const std::optional<Eigen::Matrix2Xd> open = unwound_piece(piece, now, target))
-        return around_once(target, (*open)(Eigen::all, piece.held));
+        return around_once(target, (*open)(Eigen::all, piece.held), edges);
     if (surface_type(piece.mesh).loops < 2)
         throw InputError(fmt::format("the freed faces around face {} close the {} that they are joined to all the way "
                                      "around; free the other side in their place, or flatten the part",

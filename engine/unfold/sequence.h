@@ -50,6 +50,9 @@ struct UnfoldSequence {
     std::vector<std::string> notes; ///< what could not be a step of its own, and why
 };
 
+/// Whether two steps do the same to the last digit, whatever they are called.
+bool same_work(const PlannedStep& a, const PlannedStep& b);
+
 /// The faces that carry the target of a step: those named, else all that stay.
 inline const std::vector<int>& carrying_faces(const PlannedStep& step)
 {

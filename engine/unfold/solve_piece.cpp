@@ -162,8 +162,9 @@ void take_lengths(const FreedPiece& piece, const PiecePicture& picture, const Ei
 
 /// Solves anew with the lengths where the piece has come to lie, until it lies where they were taken.
 /// @param X the solution with other lengths
+/// @param face what it lies on, in words
 Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
-                           Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
+                           Eigen::Matrix2Xd X, std::string_view face, SolveReport& report, const Progress& progress)
 {
     constexpr int most_rounds = 30;
     constexpr double still = 1e-8; // of the piece
@@ -187,16 +188,18 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
             const double share = std::exchange(report.process_share, 1); // of the forces: of it the job has all by now
             next = solve(job, X, report, mine);
             report.process_share *= share;
+            add_share(report);
         }
         way = (next - X).colwise().norm().maxCoeff();
         X = std::move(next);
         if (report.converged && way <= still * size)
             return X;
     }
-    report.reason = report.converged
-                        ? fmt::format("the piece still moves by {:.1e} mm from round to round on the smooth face", way)
-                        : "the equations were solved on the smooth face with lengths from nearby, not with its own; " +
-                              report.reason;
+    report.reason =
+        report.converged
+            ? fmt::format("the piece still moves by {:.1e} mm from round to round on the {}", way, face)
+            : fmt::format("the equations were solved on the {} with lengths from nearby, not with its own; ", face) +
+                  report.reason;
     report.converged = false;
     return X;
 }
@@ -264,7 +267,7 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     Eigen::Matrix2Xd X =
         solve(job, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
     if (!picture.true_lengths())
-        X = in_rounds(job, measure, std::move(X), result.report, progress.part(0.6, 1));
+        X = in_rounds(job, measure, std::move(X), name(target), result.report, progress.part(0.6, 1));
 
     result.face = face_fields(piece.mesh, element, {X}, solved_sheet(job, result.report));
     X.colwise() += middle;

@@ -1,6 +1,7 @@
 #include "engine/unfold/stepped_blank.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
@@ -28,19 +29,24 @@ Eigen::Matrix<double, 3, 2> axes_of(const Eigen::Matrix3Xd& state, const Eigen::
 SolveReport report_of(const UnfoldRun& run, const FlattenOptions& options)
 {
     SolveReport report;
+    std::string others;
     report.converged = true;
+    report.system = SolvedSystem::strict;
     report.trusted_strain = options.curve.trusted_strain;
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
         report.seconds += state.seconds;
-        if (!state.converged && report.converged)
-            report.reason = fmt::format("step {} \"{}\" did not converge: {}", k + 1, state.name, state.reason);
         report.converged &= state.converged;
+        report.system = std::max(report.system, state.converged ? state.system : SolvedSystem::energy);
+        if (state.trusted_strain > 0)
+            report.trusted_strain = std::min(report.trusted_strain, state.trusted_strain);
+        report.process_share = std::min(report.process_share, state.friction_share);
+        if (!state.reason.empty())
+            others += fmt::format("; step {} \"{}\": {}", k + 1, state.name, state.reason);
     }
-    report.system = report.converged ? SolvedSystem::strict : SolvedSystem::energy;
-    if (report.converged)
-        report.reason = fmt::format("made in {} step{}, each of which converged", run.states.size(),
-                                    run.states.size() == 1 ? "" : "s");
+    report.reason = fmt::format("made in {} step{}{}", run.states.size(), run.states.size() == 1 ? "" : "s",
+                                report.converged ? ", each of which converged" : "") +
+                    others;
     return report;
 }
 
@@ -53,6 +59,9 @@ FlattenResult stepped_blank(const TriMesh& part, const UnfoldRun& run, const Fla
     if (run.flipped > 0)
         throw InputError(fmt::format("the blank of the steps has {} flipped triangle{}; unfold there in smaller steps",
                                      run.flipped, run.flipped == 1 ? "" : "s"));
+    if (run.blank->position.cols() != part.vertices() || run.states.back().face.thickness.size() != part.triangles())
+        throw InputError(fmt::format("the steps were made on a part of {} vertices, this one has {}; run them on it",
+                                     run.blank->position.cols(), part.vertices()));
     const std::vector<Element> element = elements(part);
     const Eigen::Matrix<double, 3, 2> axes = axes_of(run.states.back().position, run.blank->position);
     const Sheet sheet = sheet_of(options.material, options.thickness, options.curve, options.process, part, axes);

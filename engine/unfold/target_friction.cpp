@@ -75,6 +75,17 @@ std::vector<Eigen::Matrix3d> state_to_part(const TriMesh& part, const Eigen::Mat
 
 } // namespace
 
+void require_friction_on(ContactRegion friction, std::vector<int> freed, const TriMesh& part, const std::string& what)
+{
+    std::sort(freed.begin(), freed.end());
+    for (const int f : friction.faces)
+        if (!std::binary_search(freed.begin(), freed.end(), f))
+            throw InputError(fmt::format("{}: face {} rubs but is not freed; free it, too, or leave it out", what, f));
+    if (friction.faces.empty())
+        friction.faces = std::move(freed);
+    require_contact(friction, part, what);
+}
+
 Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& state, const UnfoldPick& pick,
                                   const std::vector<int>& freed, const BinderFace& target)
 {
@@ -85,13 +96,9 @@ Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& s
         region.name = "the target";
     std::sort(region.faces.begin(), region.faces.end());
     region.faces.erase(std::unique(region.faces.begin(), region.faces.end()), region.faces.end());
-    for (const int f : region.faces)
-        if (!std::binary_search(freed.begin(), freed.end(), f))
-            throw InputError(
-                fmt::format("face {} rubs on the target but is not freed; free it, too, or leave it out", f));
+    require_friction_on(region, freed, part, "the friction of the target");
     if (region.faces.empty())
         region.faces = freed;
-    require_contact(region, part);
     const TriMesh now{state, part.triangle};
     Eigen::Matrix3Xd square_to_target(3, part.triangles());
     for (int f = 0; f < part.triangles(); ++f)

@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "engine/forming/external_forces.h"
 #include "engine/unfold/binder_face.h"
 #include "engine/unfold/freed_piece.h"
@@ -13,6 +16,10 @@ namespace spia {
 /// @throws InputError if a face of it is not freed or a value is out of its bounds
 Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& state, const UnfoldPick& pick,
                                   const std::vector<int>& freed, const BinderFace& target);
+
+/// @param what in words, for the message
+/// @throws InputError as require_contact(), or if a face that rubs is not one of those freed: names it
+void require_friction_on(ContactRegion friction, std::vector<int> freed, const TriMesh& part, const std::string& what);
 
 /// How the sheet slips on the target: in its development to the foot of where it lies in the state; from there by the smallest turn
 /// into the sheet of the state, and with that to where it lies in the part.

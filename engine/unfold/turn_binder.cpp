@@ -51,23 +51,11 @@ bool turn_to(const Around& face, const Eigen::Matrix3Xd& point, const std::vecto
     Eigen::VectorXd angle(point.cols());
     for (Eigen::Index v = 0; v < point.cols(); ++v)
         angle[v] = face.angle(point.col(v));
-    std::vector<Arc> arcs;
-    const auto add = [&](double from, double length) {
-        from -= turn * std::floor(from / turn);
-        arcs.push_back({from, from + length});
-    };
-    for (const double a : angle)
-        add(a, 0);
-    for (const auto& [a, b] : edges) {
-        const double way = std::remainder(angle[b] - angle[a], turn);
-        add(way >= 0 ? angle[a] : angle[b], std::abs(way));
-    }
-    const std::optional<double> cut = middle_of_gap(std::move(arcs));
-    if (!cut)
+    const std::optional<double> middle = middle_around(angle, edges);
+    if (!middle)
         return false;
-    const double middle = *cut + turn / 2;
     face.towards =
-        (std::cos(middle) * face.towards + std::sin(middle) * face.axis.cross(face.towards)).normalized().eval();
+        (std::cos(*middle) * face.towards + std::sin(*middle) * face.axis.cross(face.towards)).normalized().eval();
     return true;
 }
 
@@ -100,6 +88,25 @@ std::optional<std::vector<int>> turns_along(const Eigen::VectorXd& angle, const 
 }
 
 } // namespace
+
+std::optional<double> middle_around(const Eigen::VectorXd& angle, const std::vector<std::array<int, 2>>& edges)
+{
+    if (angle.size() == 0)
+        return std::nullopt;
+    std::vector<Arc> arcs;
+    const auto add = [&](double from, double length) {
+        from -= turn * std::floor(from / turn);
+        arcs.push_back({from, from + length});
+    };
+    for (const double a : angle)
+        add(a, 0);
+    for (const auto& [a, b] : edges) {
+        const double way = std::remainder(angle[b] - angle[a], turn);
+        add(way >= 0 ? angle[a] : angle[b], std::abs(way));
+    }
+    const std::optional<double> gap = middle_of_gap(std::move(arcs));
+    return gap ? std::optional(*gap + turn / 2) : std::nullopt;
+}
 
 BinderFace turned_over(const BinderFace& face)
 {

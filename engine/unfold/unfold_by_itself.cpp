@@ -9,16 +9,10 @@
 namespace spia {
 namespace {
 
-bool same(const PlannedStep& a, const PlannedStep& b)
-{
-    return a.kind == b.kind && a.pick.freed == b.pick.freed && a.pick.fixed == b.pick.fixed &&
-           a.pick.carrying == b.pick.carrying && a.within_mm == b.within_mm;
-}
-
 /// How many steps two plans begin with alike.
 size_t alike(const UnfoldScript& a, const UnfoldScript& b)
 {
-    return size_t(std::mismatch(a.begin(), a.end(), b.begin(), b.end(), same).first - a.begin());
+    return size_t(std::mismatch(a.begin(), a.end(), b.begin(), b.end(), same_work).first - a.begin());
 }
 
 /// Why the plan has to change at one of its steps; none: it need not, or cannot.
@@ -31,7 +25,7 @@ struct Fault {
 /// The worst step before all is flattened that strains the sheet more than that does at last: it led nowhere.
 std::optional<Fault> strained_for_nothing(const UnfoldScript& steps, const UnfoldRun& run)
 {
-    constexpr double harmless = 0.05;
+    constexpr double harmless = 0.05; // equivalent strain
     if (steps.back().kind != UnfoldKind::flatten)
         return std::nullopt;
     const double end = run.states.back().face.strain_equivalent.maxCoeff();
@@ -53,7 +47,7 @@ std::optional<Fault> fault_in(const UnfoldScript& steps, const UnfoldRun& run)
     for (size_t k = 0; k < run.states.size();
          ++k) // what does not converge for itself may as well move with its neighbours
         if (const UnfoldState& state = run.states[k]; !state.converged && steps[k].kind == UnfoldKind::lay)
-            return Fault{k, "it did not converge: " + state.reason, run.blank && state.plain != "smooth"};
+            return Fault{k, "it did not converge: " + state.reason, run.blank.has_value()};
     if (run.failure.empty())
         return strained_for_nothing(steps, run);
     if (steps[run.states.size()].kind == UnfoldKind::flatten)
@@ -77,14 +71,14 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
         throw InputError("the part is flat already; there is nothing to unfold");
     options.root = now.sequence.root; // stays, whatever carries nothing
     std::vector<std::string> given_up;
-    std::optional<UnfoldedByItself> nearly; // the first plan that ended in a blank, if no other one converges
+    std::optional<UnfoldedByItself> nearly; // the first faulty plan whose steps converge, else that ended in a blank
     size_t keep = 0;
     for (UnfoldRun before;;) {
         now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep);
         const std::optional<Fault> fault = fault_in(now.sequence.steps, now.run);
         if (!fault)
             break;
-        if (fault->has_blank && !nearly) {
+        if (fault->has_blank && (!nearly || (!converged(nearly->run) && converged(now.run)))) {
             nearly = now;
             nearly->sequence.notes.insert(nearly->sequence.notes.end(), given_up.begin(), given_up.end());
         }

@@ -14,7 +14,7 @@ struct UnfoldedByItself {
 
 /// Proposes the steps of a part and runs them. Where a step has no result or does not converge, its carrier carries nothing in
 /// a new plan, in which what lay on it moves with its neighbours (what cannot be unrolled is flattened); the steps before it
-/// that stay the same are kept; if no plan converges it is the first one that ended in a blank. So it is with a step that strains
+/// that stay the same are kept; if no plan is without fault it is the first one whose steps converge, else the first that ended in a blank. So it is with a step that strains
 /// the sheet by more than 5 % and more than the flattening of the whole part does at last. Where not even flattening all at
 /// once has a result the run says so.
 /// @throws InputError as propose_sequence() and run_unfolding(), or if the part is flat already

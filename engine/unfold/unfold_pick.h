@@ -17,6 +17,8 @@ struct UnfoldPick {
     /// What the target, which rests, rubs against the freed faces as they slip from it to where they are in the state: on these
     /// of them, empty: on all. On one side or on both (a pad above, which rests as well). None: they slide freely.
     std::optional<ContactRegion> friction = {};
+
+    friend bool operator==(const UnfoldPick&, const UnfoldPick&) = default;
 };
 
 } // namespace spia

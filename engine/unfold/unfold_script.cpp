@@ -16,6 +16,7 @@
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/fit_height.h"
+#include "engine/unfold/target_friction.h"
 #include "engine/unfold/turn_binder.h"
 
 namespace spia {
@@ -25,9 +26,7 @@ SheetFields unformed(const TriMesh& part, double thickness)
 {
     const Eigen::Index count = part.triangles();
     SheetFields fields = sized_fields(count);
-    for (const auto field : {&SheetFields::thinning, &SheetFields::strain_major, &SheetFields::strain_minor,
-                             &SheetFields::strain_equivalent, &SheetFields::stress_major, &SheetFields::stress_minor,
-                             &SheetFields::stress_equivalent})
+    for (const auto& [name, field] : sheet_scalars)
         (fields.*field).setZero();
     fields.thickness.setConstant(thickness);
     for (Eigen::Index f = 0; f < count; ++f)
@@ -159,8 +158,10 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     state.converged = result.converged();
     for (const UnfoldedPiece& piece : result.piece) {
         state.friction_share = std::min(state.friction_share, piece.report.process_share);
-        const bool poorer = !piece.report.converged || (step.pick.friction && !piece.report.whole());
-        if (poorer && state.reason.empty())
+        state.system = std::max(state.system, piece.report.system);
+        state.trusted_strain = state.trusted_strain > 0 ? std::min(state.trusted_strain, piece.report.trusted_strain)
+                                                        : piece.report.trusted_strain;
+        if (!piece.report.whole() && state.reason.empty())
             state.reason = fmt::format("the piece around face {}: {}", piece.faces[0], piece.report.reason);
     }
     state.necking = result.necking_triangles;
@@ -210,32 +211,14 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
 }
 
 /// Names the step and what of its friction is wrong.
-void require_friction(const PlannedStep& step)
+void require_friction(const TriMesh& part, const PlannedStep& step)
 {
     if (!step.pick.friction)
         return;
-    const ContactRegion& rubs = *step.pick.friction;
-    const auto refuse = [&](const std::string& why) {
-        throw InputError(fmt::format("step \"{}\": friction: {}", step.name, why));
-    };
-    const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+    const std::string what = fmt::format("step \"{}\": its friction", step.name);
     if (step.kind != UnfoldKind::lay)
-        refuse("only a step that lays faces on a target has a tool that could rub on them");
-    if (!(rubs.friction >= 0) || !std::isfinite(rubs.friction))
-        refuse(fmt::format("the coefficient is {}; it must not be negative", rubs.friction));
-    if (rubs.sides != 1 && rubs.sides != 2)
-        refuse(fmt::format("sides is {}; it must be 1 or 2", rubs.sides));
-    if (rubs.force_N.has_value() == rubs.pressure_MPa.has_value())
-        refuse("it needs either a pressure_MPa or a force_N");
-    if (rubs.pressure_MPa && !positive(*rubs.pressure_MPa))
-        refuse(fmt::format("pressure_MPa is {}; it must be positive", *rubs.pressure_MPa));
-    if (rubs.force_N && !positive(*rubs.force_N))
-        refuse(fmt::format("force_N is {}; it must be positive", *rubs.force_N));
-    std::vector<int> freed = step.pick.freed;
-    std::sort(freed.begin(), freed.end());
-    for (const int f : rubs.faces)
-        if (!std::binary_search(freed.begin(), freed.end(), f))
-            refuse(fmt::format("face {} of its faces is not freed", f));
+        throw InputError(what + ": only a step that lays faces on a target has a tool that could rub on them");
+    require_friction_on(*step.pick.friction, step.pick.freed, part, what);
 }
 
 void require_extent(const PlannedStep& step)
@@ -251,10 +234,10 @@ void require_extent(const PlannedStep& step)
                                      step.name));
 }
 
-void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t keep)
+void require_script(const TriMesh& part, const UnfoldScript& script, const UnfoldRun* before, size_t keep)
 {
     for (const PlannedStep& step : script) {
-        require_friction(step);
+        require_friction(part, step);
         require_extent(step);
     }
     if (script.empty())
@@ -311,7 +294,7 @@ PlaneFace tangent_plane(const BinderFace& face, const Eigen::Matrix2Xd& places)
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
                         const Progress& progress, const UnfoldRun* before, size_t keep)
 {
-    require_script(script, before, keep);
+    require_script(part, script, before, keep);
     UnfoldRun run;
     if (keep > 0)
         run.states.assign(before->states.begin(), before->states.begin() + Eigen::Index(keep));
@@ -329,7 +312,11 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         const PlannedStep& step = script[k];
         const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
         own.checkpoint(0, step.name);
-        UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, {}, 0};
+        UnfoldState next;
+        next.name = step.name;
+        next.position = state.position;
+        next.face = state.face;
+        next.step = state.step;
         try {
             if (step.kind == UnfoldKind::unroll)
                 unroll(part, step, options, next);

@@ -25,10 +25,13 @@ struct UnfoldState {
     std::optional<BinderFit> on; ///< the target; none for an unroll
     std::string plain;           ///< plane, cylinder, cone: what it was laid on or unrolled from
     bool converged = true;       ///< else the best shape found
-    std::string reason;          ///< why not; with friction also with which curve, and how much of it
-    int necking = 0;             ///< faces beyond the trusted strain
-    LandedOverlap overlap;       ///< of all that lies on the target after the step; of an unroll, in the plane
-    TargetReach reach;           ///< of what was laid; zero where nothing carries the target
+    std::string reason;          ///< why not, or what else is not as asked for: the curve, friction, relaxed vertices
+    SolvedSystem system =
+        SolvedSystem::strict;  ///< the poorest of its pieces; of an unroll, which solves nothing, strict
+    double trusted_strain = 0; ///< the least with which one was solved; 0: none was
+    int necking = 0;           ///< faces beyond the trusted strain
+    LandedOverlap overlap;     ///< of all that lies on the target after the step; of an unroll, in the plane
+    TargetReach reach;         ///< of what was laid; zero where nothing carries the target
     double seconds = 0;
     double friction_share = 1; ///< of the step's friction that is in the state: below 1 the sheet does not bear it
 };

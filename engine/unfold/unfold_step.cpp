@@ -49,9 +49,7 @@ void require_valid(const TriMesh& part, const Eigen::Matrix3Xd& state, const Fla
                         state.cols(), part.vertices()));
     if (!(options.thickness > 0) || !std::isfinite(options.thickness))
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", options.thickness));
-    const ProcessConditions& process = options.process;
-    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() ||
-        process.edge_restraint != 0)
+    if (has_tools(options.process))
         throw InputError(
             "binders, pads, drawbeads, pilots and a held edge act on the part as a whole; leave them out of the "
             "local steps and apply them when the whole part is flattened; what rubs on a step's target belongs to its pick");

@@ -108,14 +108,15 @@ struct AddStep {
     StepTarget target = {};
     std::optional<int> plane_of = {};
 };
-/// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0: automatic), tolerance (null: that
-/// of the solver), target (as of add_step; with none of the three it is fitted again; not given: stays), friction of the target
+/// "change_step": step (from 0), name, offset_mm of the face to its outer side, within_mm (0: automatic), extent_mm beyond what
+/// carries it (null: as far as the sheet goes), tolerance (null: that of the solver), target (as of add_step; with none of the three it is fitted again; not given: stays), friction of the target
 /// (force_N or pressure_MPa, friction, sides 1 or 2; null: none)
 struct ChangeStep {
     int step = 0;
     std::string name = {};
     double offset_mm = 0;
     double within_mm = 0;
+    std::optional<double> extent_mm = {};
     std::optional<double> tolerance = {};
     std::optional<StepTarget> target = {};
     std::optional<StepFriction> friction = {};

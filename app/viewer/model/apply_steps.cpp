@@ -50,9 +50,8 @@ void ViewerModel::Apply::operator()(const RunSteps&)
         model.say(Severity::hint, "All steps are up to date.");
         return;
     }
-    const ProcessConditions& process = session.options.flatten.process;
     model.run_missing_steps();
-    if (!process.contact.empty() || !process.drawbeads.empty() || !process.pilots.empty() || process.edge_restraint > 0)
+    if (has_tools(session.options.flatten.process))
         model.say(Severity::hint, "Tools, drawbeads, pilots and the held edge act on the part as a whole; the steps "
                                   "leave them out.");
 }
@@ -60,6 +59,8 @@ void ViewerModel::Apply::operator()(const RunSteps&)
 void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
 {
     require_idle();
+    if (first_stale(document) == Stage::read)
+        throw InputError("The part is to be read again first; then run the steps on it.");
     if (!all_steps_done(document))
         throw InputError(document.steps.empty() ? "There are no steps yet: propose some, or add one."
                                                 : "Run the steps first: their blank is that of all of them.");
@@ -149,12 +150,16 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
         throw InputError(
             fmt::format("The tolerance of a step must be from {} to {}.", least_step_tolerance, most_step_tolerance));
     const PlannedStep& before = *document.steps[number];
+    if (action.extent_mm &&
+        (!(*action.extent_mm > 0) || before.kind != UnfoldKind::lay || carrying_faces(before).empty()))
+        throw InputError("How far a target goes on is a length above 0, from the faces that carry it.");
     if (before.kind != UnfoldKind::lay && action.offset_mm != before.offset_mm)
         throw InputError("Only a step that lays faces on a face can have it moved.");
     PlannedStep changed = before;
     changed.name = action.name;
     changed.offset_mm = action.offset_mm;
     changed.within_mm = action.within_mm;
+    changed.extent_mm = action.extent_mm;
     changed.tolerance = action.tolerance;
     if (action.target && *action.target != numbers_of(before)) {
         changed.pick.target = face_of(*action.target, part().mesh, before.pick);

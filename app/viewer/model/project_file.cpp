@@ -95,6 +95,7 @@ inline constexpr auto members_of<StoredStep> =
                member("rubbing", &StoredStep::rubbing, any_index),
                member("within_mm", &StoredStep::within_mm, Between{0, most_mm}),
                member("offset_mm", &StoredStep::offset_mm, Between{-most_mm, most_mm}),
+               member("extent_mm", &StoredStep::extent_mm, Between{1e-9, most_mm}),
                member("tolerance", &StoredStep::tolerance, Between{least_step_tolerance, most_step_tolerance}),
                member("most_energy_steps", &StoredStep::most_energy_steps, Between{0, 1e6}),
                member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6}),

@@ -153,6 +153,7 @@ public:
             step.pick.carrying = all_of(each.carrying, each.name);
             step.within_mm = each.within_mm;
             step.offset_mm = each.offset_mm;
+            step.extent_mm = each.extent_mm;
             step.tolerance = each.tolerance;
             step.most_energy_steps = each.most_energy_steps;
             step.most_newton_steps = each.most_newton_steps;

@@ -92,6 +92,7 @@ constexpr std::tuple forms{
     form<ChangeStep>("change_step", required("step", &ChangeStep::step, any_index), member("name", &ChangeStep::name),
                      member("offset_mm", &ChangeStep::offset_mm, Between{-most_mm, most_mm}),
                      member("within_mm", &ChangeStep::within_mm, Between{0, most_mm}),
+                     member("extent_mm", &ChangeStep::extent_mm, Between{1e-9, most_mm}),
                      member("tolerance", &ChangeStep::tolerance, Between{least_step_tolerance, most_step_tolerance}),
                      member("target", &ChangeStep::target, one_target_if_any),
                      member("friction", &ChangeStep::friction, one_pressure)),
@@ -230,6 +231,7 @@ template <> ChangeStep before(const Json& json, const ViewerState& state)
             step.name,
             step.offset_mm,
             step.within_mm,
+            step.extent_mm,
             step.tolerance,
             {},
             numbers_of(step.pick.friction)};

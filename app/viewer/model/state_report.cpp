@@ -171,6 +171,7 @@ Json unfolding_json(const ViewerState& state)
                      {"freed", step.pick.freed.size()},
                      {"offset_mm", step.offset_mm},
                      {"within_mm", step.within_mm},
+                     {"extent_mm", written(step.extent_mm)},
                      {"tolerance", written(step.tolerance)},
                      {"target", written(numbers_of(step))},
                      {"friction", written(numbers_of(step.pick.friction))},
@@ -182,6 +183,8 @@ Json unfolding_json(const ViewerState& state)
             json["thinning"] = figure.thinning;
             json["strain_equivalent"] = figure.strain_equivalent;
             json["reason"] = after.reason;
+            json["reach_mm"] = after.reach.farthest_mm;
+            json["faces_without_room"] = after.reach.without_room;
             if (figure.hinge)
                 json["hinge"] = {{"distance_mm", figure.hinge->distance_mm},
                                  {"angle_deg", figure.hinge->angle_deg},

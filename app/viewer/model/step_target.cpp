@@ -22,27 +22,6 @@ void require_direction(const Eigen::Vector3d& v, const char* what)
         throw InputError(std::string("The ") + what + " of a target needs a length above 0.");
 }
 
-struct Same {
-    bool operator()(const PlaneFace& a, const PlaneFace& b) const { return a.origin == b.origin && a.axes == b.axes; }
-    bool operator()(const CylinderFace& a, const CylinderFace& b) const
-    {
-        return a.origin == b.origin && a.axis == b.axis && a.towards == b.towards && a.radius == b.radius &&
-               a.bulges == b.bulges;
-    }
-    bool operator()(const ConeFace& a, const ConeFace& b) const
-    {
-        return a.apex == b.apex && a.axis == b.axis && a.towards == b.towards && a.half_angle == b.half_angle &&
-               a.bulges == b.bulges;
-    }
-    bool operator()(const HeightFace& a, const HeightFace& b) const
-    {
-        return a.origin == b.origin && a.axes == b.axes && a.corner == b.corner && a.spacing == b.spacing &&
-               a.coefficient.rows() == b.coefficient.rows() && a.coefficient.cols() == b.coefficient.cols() &&
-               a.coefficient == b.coefficient;
-    }
-    template <class A, class B> bool operator()(const A&, const B&) const { return false; }
-};
-
 } // namespace
 
 TargetKind kind_of(const StepTarget& target)
@@ -138,11 +117,6 @@ std::optional<BinderFace> planned_target(const TriMesh& before, const PlannedSte
             target = fit->face;
     }
     return target && step.offset_mm != 0 ? moved_out(*target, step.offset_mm) : target;
-}
-
-bool same_target(const std::optional<BinderFace>& a, const std::optional<BinderFace>& b)
-{
-    return a && b ? std::visit(Same{}, *a, *b) : !a && !b;
 }
 
 PlaneThrough plane_through(const TriMesh& mesh, const std::vector<int>& faces)

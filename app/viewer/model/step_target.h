@@ -55,9 +55,6 @@ StepTarget numbers_of(const PlannedStep& step);
 /// @param before the part as it is then; @throws InputError as moved_out()
 std::optional<BinderFace> planned_target(const TriMesh& before, const PlannedStep& step);
 
-/// Whether two targets are the same to the last digit.
-bool same_target(const std::optional<BinderFace>& a, const std::optional<BinderFace>& b);
-
 /// The plane through faces with the least mean square distance, area by area, and how well it goes through them.
 struct PlaneThrough {
     TargetPlane plane;  ///< its normal on the outer side of the faces

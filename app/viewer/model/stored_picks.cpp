@@ -71,6 +71,7 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
                                {},
                                step->within_mm,
                                step->offset_mm,
+                               step->extent_mm,
                                step->tolerance,
                                step->most_energy_steps,
                                step->most_newton_steps,

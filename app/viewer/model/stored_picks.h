@@ -56,7 +56,7 @@ struct StoredStep {
     std::string name;
     std::vector<int> fixed, freed, carrying, rubbing; ///< into StoredSteps::patch
     double within_mm = 0, offset_mm = 0;
-    std::optional<double> tolerance;
+    std::optional<double> extent_mm, tolerance;
     std::optional<int> most_energy_steps, most_newton_steps;
     StepTarget target;
     std::optional<StepFriction> friction; ///< on the rubbing patches, on all that it moves if there are none

@@ -20,17 +20,6 @@ bool same_sheet(const FlattenOptions& a, const FlattenOptions& b)
            a.process.rolling == b.process.rolling;
 }
 
-/// Whether two steps do the same, whatever they are called.
-bool same_work(const PlannedStep& a, const PlannedStep& b)
-{
-    return &a == &b ||
-           (same_target(a.pick.target, b.pick.target) && a.kind == b.kind && a.within_mm == b.within_mm &&
-            a.offset_mm == b.offset_mm && a.tolerance == b.tolerance && a.most_energy_steps == b.most_energy_steps &&
-            a.most_newton_steps == b.most_newton_steps && a.pick.fixed == b.pick.fixed &&
-            a.pick.freed == b.pick.freed && a.pick.carrying == b.pick.carrying &&
-            a.pick.friction == b.pick.friction);
-}
-
 /// Whether the last run was about this part in this sheet.
 bool run_is_about(const Document& document)
 {
@@ -105,8 +94,10 @@ std::string_view name(StepStatus status)
 StepStatus step_status(const Document& document, size_t step)
 {
     const size_t done = steps_done(document);
-    if (step < done)
-        return document.unfolding->run.states[step].converged ? StepStatus::done : StepStatus::poor;
+    if (step < done) {
+        const UnfoldState& state = document.unfolding->run.states[step];
+        return state.converged && state.friction_share == 1 ? StepStatus::done : StepStatus::poor;
+    }
     if (!document.unfolding)
         return StepStatus::missing;
     const StepsRun& last = *document.unfolding;

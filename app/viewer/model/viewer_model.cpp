@@ -105,7 +105,8 @@ void ViewerModel::run_to(Stage to, const std::string& title)
     }
     const std::optional<Stage> from = first_stale(state_.document);
     std::optional<BlankOfSteps>& steps = state_.document.session.options.steps;
-    if (steps && from && *from <= Stage::solve && to >= Stage::solve && !holds(state_.document, *steps)) {
+    if (steps && from && *from <= Stage::solve && to >= Stage::solve &&
+        (*from == Stage::read || !holds(state_.document, *steps))) { // what is read may be another part
         steps.reset();
         say(Severity::hint,
             "The steps, the part or its sheet have changed since their blank was taken: the part is unfolded in "

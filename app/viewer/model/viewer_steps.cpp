@@ -148,6 +148,15 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
                 fmt::format("The step \"{}\" did not converge: {}. Its best shape is kept; a larger tolerance or other "
                             "faces may help.",
                             state.name, state.reason));
+        else if (state.friction_share < 1)
+            say(Severity::warning, fmt::format("The step \"{}\" has {:.2g} % of its friction: {}.", state.name,
+                                               100 * state.friction_share, state.reason));
+    for (const UnfoldState& state : run.states)
+        if (state.reach.without_room > 0)
+            say(Severity::warning,
+                fmt::format("In the step \"{}\" {} beyond the end of the target, up to {:.4g} mm from what carries it.",
+                            state.name, counted(size_t(state.reach.without_room), "face reaches", "faces reach"),
+                            state.reach.farthest_mm));
     if (!run.failure.empty()) {
         const size_t failed = run.states.size();
         say(Severity::error,

@@ -103,10 +103,10 @@ bool friction_editor(Frame& frame, std::optional<StepFriction>& friction)
     int by_pressure = friction->pressure_MPa.has_value();
     double amount = by_pressure ? *friction->pressure_MPa : *friction->force_N / 1000;
     ImGui::SetNextItemWidth(width);
-    changed |= typed_number(frame, "##amount", amount, "%.4g");
+    bool other_amount = typed_number(frame, "##amount", amount, "%.4g");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
-    changed |= ImGui::Combo("##unit", &by_pressure, "kN\0MPa\0");
+    other_amount |= ImGui::Combo("##unit", &by_pressure, "kN\0MPa\0");
     tooltip("kN: the whole force square to the target. MPa: pressure on the sheet.");
     ImGui::SetNextItemWidth(width);
     changed |= typed_number(frame, "Coefficient", friction->friction, "%.3g");
@@ -115,11 +115,13 @@ bool friction_editor(Frame& frame, std::optional<StepFriction>& friction)
     changed |= ImGui::Checkbox("On both sides", &both);
     tooltip("A pad presses from above and rubs as well");
     friction->sides = both ? 2 : 1;
-    amount = std::clamp(amount, 1e-6, 1e5);
     friction->friction = std::clamp(friction->friction, 0., 10.);
-    friction->force_N = by_pressure ? std::nullopt : std::optional(1000 * amount);
-    friction->pressure_MPa = by_pressure ? std::optional(amount) : std::nullopt;
-    return changed;
+    if (other_amount) { // else it stays to the last digit: kN and back does not
+        amount = std::clamp(amount, 1e-6, 1e5);
+        friction->force_N = by_pressure ? std::nullopt : std::optional(1000 * amount);
+        friction->pressure_MPa = by_pressure ? std::optional(amount) : std::nullopt;
+    }
+    return changed || other_amount;
 }
 
 std::string own_name(const std::string& name) { return name; }
@@ -144,13 +146,32 @@ void region_combo(Frame& frame, const char* label, int& chosen, const std::strin
     ImGui::EndCombo();
 }
 
+bool extent_editor(Frame& frame, std::optional<double>& extent_mm, float width)
+{
+    double length = extent_mm.value_or(0);
+    ImGui::SetNextItemWidth(width);
+    const bool changed = typed_number(frame, "Extent, mm", length, "%.4g");
+    if (changed)
+        extent_mm = length > 0 ? std::optional(length) : std::nullopt;
+    tooltip(
+        "How far the target goes on beyond the yellow faces. 0: as far as the sheet does. Faces that come to lie farther out "
+        "are told.");
+    return changed;
+}
+
 } // namespace
 
 void step_editor(Frame& frame, int number)
 {
     const PlannedStep& step = *frame.state.document.steps[size_t(number)];
-    ChangeStep edited{
-        number, step.name, step.offset_mm, step.within_mm, step.tolerance, {}, numbers_of(step.pick.friction)};
+    ChangeStep edited{number,
+                      step.name,
+                      step.offset_mm,
+                      step.within_mm,
+                      step.extent_mm,
+                      step.tolerance,
+                      {},
+                      numbers_of(step.pick.friction)};
     ImGui::SetNextItemWidth(-1);
     bool changed = typed_text(frame, "##name", edited.name, "name");
     const float width = 86 * frame.ui.scale;
@@ -167,6 +188,8 @@ void step_editor(Frame& frame, int number)
                 "How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is "
                 "none, a smooth face through them.");
         }
+        if (!carrying_faces(step).empty())
+            changed |= extent_editor(frame, edited.extent_mm, width);
         changed |= friction_editor(frame, edited.friction);
     }
     if (step.kind != UnfoldKind::unroll) {

@@ -78,6 +78,14 @@ std::vector<FaceRegion> picks_of(const PlannedStep& step)
     return picks;
 }
 
+Eigen::AlignedBox2d developed_box(const BinderFace& face, const Eigen::Matrix3Xd& places)
+{
+    Eigen::AlignedBox2d box;
+    for (const auto place : places.colwise())
+        box.extend(developed(face, place));
+    return box;
+}
+
 std::vector<int> vertices_of(const Eigen::Matrix3Xi& triangle, const std::vector<int>& faces)
 {
     std::vector<char> used(size_t(triangle.maxCoeff()) + 1, 0);
@@ -91,6 +99,13 @@ std::vector<int> vertices_of(const Eigen::Matrix3Xi& triangle, const std::vector
     return vertex;
 }
 
+/// A target that ends: a patch around what carries it.
+TriMesh ended_patch(const BinderFace& face, const TriMesh& before, const PlannedStep& step)
+{
+    const std::vector<int> carrying = vertices_of(before.triangle, carrying_faces(step));
+    return patch_around(face, before.position(Eigen::all, carrying), *step.extent_mm);
+}
+
 /// The face on which a step will lay its faces, as far as that is known before; null: it is fitted to a smooth one, or there is none.
 std::shared_ptr<const SceneMesh> target_to_be(const TriMesh& before, const PlannedStep& step)
 {
@@ -100,6 +115,8 @@ std::shared_ptr<const SceneMesh> target_to_be(const TriMesh& before, const Plann
         const std::optional<BinderFace> face = planned_target(before, step);
         if (!face)
             return nullptr;
+        if (step.extent_mm)
+            return std::make_shared<SceneMesh>(scene_mesh(ended_patch(*face, before, step)));
         const Eigen::Matrix3Xd freed = before.position(Eigen::all, vertices_of(before.triangle, step.pick.freed));
         double height = 0; // so far it may come to lie from where it stands now
         for (const auto x : freed.colwise())
@@ -129,6 +146,9 @@ std::shared_ptr<const SceneMesh> target_of(const ViewerState& state, const Plann
         const UnfoldState& after = run->run.states[number];
         if (!after.on)
             return nullptr;
+        if (step.extent_mm)
+            return std::make_shared<SceneMesh>(
+                scene_mesh(ended_patch(after.on->face, {after.position, run->part->mesh.triangle}, step)));
         return std::make_shared<SceneMesh>(scene_mesh(target_patch(
             after.on->face, after.position(Eigen::all, vertices_of(run->part->mesh.triangle, step.pick.freed)))));
     });
@@ -199,12 +219,16 @@ void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, s
 TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm)
 {
     constexpr double margin = 0.08; // of the diagonal of what lies on it
+    const double size = developed_box(face, places).diagonal().norm();
+    return patch_around(face, places, beyond_mm + margin * (size + beyond_mm));
+}
+
+TriMesh patch_around(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm)
+{
     constexpr int cells = 40;
-    Eigen::AlignedBox2d box;
-    for (const auto place : places.colwise())
-        box.extend(developed(face, place));
-    const double around = beyond_mm + margin * (box.diagonal().norm() + beyond_mm);
-    const Eigen::Vector2d from = box.min().array() - around, step = (box.sizes().array() + 2 * around) / double(cells);
+    const Eigen::AlignedBox2d box = developed_box(face, places);
+    const Eigen::Vector2d from = box.min().array() - beyond_mm,
+                          step = (box.sizes().array() + 2 * beyond_mm) / double(cells);
     TriMesh patch{Eigen::Matrix3Xd(3, (cells + 1) * (cells + 1)), Eigen::Matrix3Xi(3, 2 * cells * cells)};
     int next = 0;
     for (int j = 0; j <= cells; ++j)

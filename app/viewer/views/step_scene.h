@@ -28,4 +28,7 @@ void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, s
 /// @param beyond_mm so much farther to all sides
 TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm = 0);
 
+/// The same without a margin: just so much farther to all sides.
+TriMesh patch_around(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm);
+
 } // namespace spia::viewer

@@ -60,6 +60,8 @@ void expect_same(const UnfoldState& a, const UnfoldState& b)
     EXPECT_EQ(a.converged, b.converged);
     EXPECT_EQ(a.reason, b.reason);
     EXPECT_EQ(a.friction_share, b.friction_share);
+    EXPECT_EQ(a.system, b.system);
+    EXPECT_EQ(a.trusted_strain, b.trusted_strain);
     EXPECT_EQ(a.necking, b.necking);
     EXPECT_EQ(a.overlap.places, b.overlap.places);
     EXPECT_EQ(a.overlap.first, b.overlap.first);
@@ -88,6 +90,8 @@ TEST_F(UnfoldStates, AreReadBackToTheLastBit)
     run.states[0].reason = "because";
     run.states[0].necking = 7;
     run.states[0].friction_share = 0.75;
+    run.states[0].system = SolvedSystem::relaxed;
+    run.states[0].trusted_strain = 0.25;
     run.states[0].overlap = {3, {1, 2, 3}};
     run.states[0].reach = {4.5, 6};
     write();

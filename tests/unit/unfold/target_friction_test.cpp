@@ -379,16 +379,17 @@ TEST(TargetFriction, BadValuesAreRefusedWithStepAndMember)
     };
     EXPECT_EQ(refusal(rubbing(1)), "none");
     EXPECT_EQ(refusal(ContactRegion{"", {}, 1, {}, -0.1, 2}),
-              "step \"wall\": friction: the coefficient is -0.1; it must not be negative");
-    EXPECT_EQ(refusal(rubbing(1, 3)), "step \"wall\": friction: sides is 3; it must be 1 or 2");
-    EXPECT_EQ(refusal(rubbing(0)), "step \"wall\": friction: pressure_MPa is 0; it must be positive");
+              "step \"wall\": its friction: friction -0.1 on 2 sides; friction must not be negative, sides 1 or 2");
+    EXPECT_EQ(refusal(rubbing(1, 3)),
+              "step \"wall\": its friction: friction 0.12 on 3 sides; friction must not be negative, sides 1 or 2");
+    EXPECT_EQ(refusal(rubbing(0)), "the pressure of step \"wall\": its friction is 0 MPa; it must be positive");
     EXPECT_EQ(refusal(ContactRegion{"", {}, {}, -5, 0.1, 2}),
-              "step \"wall\": friction: force_N is -5; it must be positive");
+              "the force of step \"wall\": its friction is -5 N; it must be positive");
     EXPECT_EQ(refusal(ContactRegion{"", {}, {}, {}, 0.1, 2}),
-              "step \"wall\": friction: it needs either a pressure_MPa or a force_N");
+              "step \"wall\": its friction needs either a force or a pressure");
     EXPECT_EQ(refusal(ContactRegion{"", {strip.pick.fixed[0]}, 1, {}, 0.1, 2}),
-              "step \"wall\": friction: face 0 of its faces is not freed");
-    EXPECT_NE(refusal(rubbing(1), UnfoldKind::flatten).find("step \"wall\": friction: only a step that lays"),
+              "step \"wall\": its friction: face 0 rubs but is not freed; free it, too, or leave it out");
+    EXPECT_NE(refusal(rubbing(1), UnfoldKind::flatten).find("step \"wall\": its friction: only a step that lays"),
               std::string::npos);
     EXPECT_NE(refusal(ContactRegion{"", {}, {}, 500, 0.1, 2}).find("a force cannot press there; give a pressure"),
               std::string::npos)

@@ -238,7 +238,7 @@ TEST_F(Target, ProjectsAndScriptsKeepIt)
     };
     const auto before = document.steps[0]->pick.target;
     perform(R"({"do": "change_step", "step": 0, "name": "named"})");
-    EXPECT_TRUE(same_target(document.steps[0]->pick.target, before)) << "what is not given stays";
+    EXPECT_TRUE(document.steps[0]->pick.target == before) << "what is not given stays";
     EXPECT_EQ(steps_done(document), 1u);
     perform(
         R"({"do": "change_step", "step": 0, "target": {"cylinder": {"origin": [0, 0, 0], "axis": [0, 2, 0], "radius": 40}}})");
@@ -255,7 +255,7 @@ TEST_F(Target, ProjectsAndScriptsKeepIt)
             state),
         InputError);
     for (const Action& action :
-         {Action(ChangeStep{1, "b", 0, 0, {}, StepTarget{.cone = TargetCone{{1, 2, 3}, {0, 1, 0}, 12}}}),
+         {Action(ChangeStep{1, "b", 0, 0, {}, {}, StepTarget{.cone = TargetCone{{1, 2, 3}, {0, 1, 0}, 12}}}),
           Action(AddStep{1, 2, "c", {.plane = TargetPlane{{1, 2, 3}, {0, 1, 0}}}}), Action(SetTargetPlane{2, 1}),
           Action(SetCarrying{3, {}}), Action(OpenSteps{"a.json"}), Action(SaveSteps{"b.json"})})
         EXPECT_EQ(to_json(action_from_json(to_json(action), state)), to_json(action)) << to_json(action);

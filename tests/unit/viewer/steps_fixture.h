@@ -67,7 +67,14 @@ struct UnfoldingSteps : ModelFixture {
     ChangeStep change_of(int step) const
     {
         const PlannedStep& now = *document.steps[size_t(step)];
-        return {step, now.name, now.offset_mm, now.within_mm, now.tolerance, {}, numbers_of(now.pick.friction)};
+        return {step,
+                now.name,
+                now.offset_mm,
+                now.within_mm,
+                now.extent_mm,
+                now.tolerance,
+                {},
+                numbers_of(now.pick.friction)};
     }
     /// Faces of the channel by what their normals say: the middle is horizontal.
     FaceSet with_height(double least, double greatest) const

@@ -33,7 +33,7 @@ TEST_F(UnfoldingSteps, ScriptsSayTheSameActions)
     EXPECT_EQ(report["steps"][3]["strain_equivalent"], document.unfolding->figure[3].strain_equivalent);
     EXPECT_GT(report["blank"]["size"][0], 100 + 2 * 30) << "with the lips it is wider than bottom and walls";
     for (const Action& action : {Action(ProposeSteps{7}), Action(RunSteps{}), Action(AddStep{2, 1, "a", {}}),
-                                 Action(ChangeStep{1, "b", -2.5, 0.5, 1e-6, {}}), Action(RemoveStep{3}),
+                                 Action(ChangeStep{1, "b", -2.5, 0.5, 12.5, 1e-6, {}}), Action(RemoveStep{3}),
                                  Action(MoveStep{1, 2}), Action(ShowStep{1, 0.5})})
         EXPECT_EQ(to_json(action_from_json(to_json(action), state)), to_json(action)) << to_json(action);
     perform(R"({"do": "remove_step", "step": 4})");
