@@ -60,7 +60,7 @@ int main(int count, char** values)
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 poorer result with --strict, 2 the input is at fault, 3 no solution, 4 a file cannot "
-        "be read or written, 130 cancelled.");
+        "be read or written, 130 cancelled (`unfold` leaves the states of the steps that are done).");
     int threads = 0;
 
     cli::RunArguments run;
@@ -345,8 +345,8 @@ int main(int count, char** values)
         return failed(no_solution, error.what());
     } catch (const ExchangeError& error) {
         return failed(bad_file, error.what());
-    } catch (const Cancelled&) {
-        return failed(cancelled, "cancelled; files that were finished stay");
+    } catch (const Cancelled& error) {
+        return failed(cancelled, fmt::format("{}; files that were finished stay", error.what()).c_str());
     } catch (const std::bad_alloc&) {
         return failed(no_solution, "there is not enough memory for this part");
     } catch (const std::exception& error) {

@@ -20,7 +20,6 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/report.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
@@ -143,6 +142,12 @@ std::filesystem::path states_file(const UnfoldArguments& arguments)
     return arguments.folder / (stem_of(arguments) + "-states.cbor");
 }
 
+/// Where the steps of --auto are written.
+std::filesystem::path script_file(const UnfoldArguments& arguments)
+{
+    return arguments.folder / (stem_of(arguments) + "-script.json");
+}
+
 /// What --redo means; 0: as many states as hold. @throws InputError if it is neither auto nor the number of a step
 size_t redone_from(const std::string& text)
 {
@@ -190,26 +195,103 @@ void keep_edited(const std::filesystem::path& file, const std::string& proposal)
         fmt::print("  note: the script that was there is kept as {}\n", aside.string());
 }
 
-std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
+bool states_are_written(const UnfoldArguments& arguments, const UnfoldRun& run)
+{
+    return !arguments.folder.empty() && !run.states.empty() &&
+           std::count(arguments.formats.begin(), arguments.formats.end(), "states");
+}
+
+/// Whether the file of states holds for these steps what a run that was broken off has, or more.
+bool holds_as_much(const UnfoldArguments& arguments, const PartFile& part, const FlattenOptions& options,
+                   const UnfoldScript& steps, const UnfoldRun& run)
+{
+    try {
+        return read_unfold_states(states_file(arguments), part.mesh, options, steps).keep >= run.states.size();
+    } catch (const InputError&) { // none is there, or it is of no use
+        return false;
+    }
+}
+
+/// What a later run can go on from, as soon as the steps are done or broken off: the states, and the script of --auto. What an
+/// earlier run wrote beside them goes.
+/// @param kept states that are in their file already
+std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments, const PartFile& part,
                                                const BendMap& map, const FlattenOptions& options,
-                                               const UnfoldScript& steps, const UnfoldRun& run, size_t kept,
-                                               const PolishedBlank* polished)
+                                               const UnfoldScript& steps, const UnfoldRun& run, size_t kept)
 {
     if (arguments.folder.empty())
         return {};
+    std::vector<std::filesystem::path> files;
     remove_unfolding(arguments.folder, stem_of(arguments));
-    auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
-                                 polished ? &polished->whole : nullptr, arguments.formats);
-    if (std::count(arguments.formats.begin(), arguments.formats.end(), "states") && run.states.size() > kept) {
+    if (states_are_written(arguments, run) && run.states.size() > kept) {
         files.push_back(states_file(arguments));
         write_unfold_states(files.back(), part.mesh, options, steps, run);
     }
     if (arguments.automatic) {
-        files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
+        files.push_back(script_file(arguments));
         keep_edited(files.back(), unfold_script_json(map, steps));
         write_atomically(files.back(), unfold_script_json(map, steps, part.source_face));
     }
     return files;
+}
+
+/// What a run that a step broke off leaves; empty: nothing.
+std::string kept_in_words(const UnfoldArguments& arguments, const UnfoldRun& run)
+{
+    return states_are_written(arguments, run)
+               ? fmt::format("; the states of the {} steps before it are kept: --redo auto goes on from there",
+                             run.states.size())
+               : std::string();
+}
+
+/// Of a run that was cancelled: leaves its states and says how to go on.
+[[noreturn]] void keep_cancelled(const UnfoldArguments& arguments, const PartFile& part, const BendMap& map,
+                                 const FlattenOptions& options, const UnfoldScript& steps, const UnfoldRun& run)
+{
+    std::string what = fmt::format("cancelled after {} of {} steps", run.states.size(), steps.size());
+    if (!states_are_written(arguments, run))
+        throw Cancelled(what);
+    if (!holds_as_much(arguments, part, options, steps, run))
+        for (const auto& file : keep_states(arguments, part, map, options, steps, run, 0))
+            fmt::print("wrote     {}\n", file.string());
+    throw Cancelled(fmt::format("{}; to go on from their states: --script {} --out {} --redo auto", what,
+                                (arguments.automatic ? script_file(arguments) : arguments.script).string(),
+                                arguments.folder.string()));
+}
+
+/// The steps and what they gave.
+struct RunSteps {
+    UnfoldScript steps;
+    std::vector<std::string> findings; ///< what of the script made no sense
+    UnfoldRun run;
+    size_t kept = 0; ///< states that are in their file already
+};
+
+RunSteps run_steps(const UnfoldArguments& arguments, const PartFile& part, const BendMap& map,
+                   const FlattenOptions& options)
+{
+    RunSteps done;
+    JobDisplay display{"unfold"};
+    const auto clock = std::chrono::steady_clock::now();
+    if (arguments.automatic) {
+        UnfoldedByItself unfolded =
+            unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
+        for (const std::string& note : unfolded.sequence.notes)
+            fmt::print("  note: {}\n", note);
+        done.steps = std::move(unfolded.sequence.steps);
+        done.run = std::move(unfolded.run);
+    } else {
+        ReadScript script = read_unfold_script(arguments.script, part, map);
+        done.steps = std::move(script.steps);
+        done.findings = std::move(script.findings);
+        if (done.steps.empty())
+            throw InputError(fmt::format("no step of the script makes sense on this part; {}", done.findings.front()));
+        const KeptStates kept = kept_states(arguments, part, options, done.steps);
+        done.run = run_unfolding(part.mesh, done.steps, options, display.progress(), &kept.run, kept.keep);
+        done.kept = kept.keep;
+    }
+    display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+    return done;
 }
 
 /// What is drawn on the blank or on the part, carried over to the other one.
@@ -308,35 +390,25 @@ int unfold(const UnfoldArguments& arguments)
         fmt::print("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
     print_map(map);
-    UnfoldScript steps;
-    std::vector<std::string> findings;
-    UnfoldRun run;
-    size_t redone = 0; // states that are in their file already
-    JobDisplay display{"unfold"};
-    const auto clock = std::chrono::steady_clock::now();
-    if (arguments.automatic) {
-        UnfoldedByItself unfolded =
-            unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
-        for (const std::string& note : unfolded.sequence.notes)
-            fmt::print("  note: {}\n", note);
-        steps = std::move(unfolded.sequence.steps);
-        run = std::move(unfolded.run);
-    } else {
-        ReadScript script = read_unfold_script(arguments.script, part, map);
-        steps = std::move(script.steps);
-        findings = std::move(script.findings);
-        if (steps.empty())
-            throw InputError(fmt::format("no step of the script makes sense on this part; {}", findings.front()));
-        const KeptStates kept = kept_states(arguments, part, options, steps);
-        run = run_unfolding(part.mesh, steps, options, display.progress(), &kept.run, kept.keep);
-        redone = kept.keep;
+    RunSteps done;
+    try {
+        done = run_steps(arguments, part, map, options);
+    } catch (const UnfoldingCancelled& cancelled) {
+        keep_cancelled(arguments, part, map, options, cancelled.steps, cancelled.done);
     }
-    display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+    const UnfoldScript& steps = done.steps;
+    const UnfoldRun& run = done.run;
+    std::vector<std::string>& findings = done.findings;
+    const auto kept = keep_states(arguments, part, map, options, steps, run, done.kept);
     std::optional<PolishedBlank> polished;
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
-    auto files = write_files(arguments, part, map, options, steps, run, redone, both);
+    std::vector<std::filesystem::path> files;
+    if (!arguments.folder.empty())
+        files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
+                                polished ? &polished->whole : nullptr, arguments.formats);
+    files.insert(files.end(), kept.begin(), kept.end());
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
     std::optional<SurfaceOfSteps> surface;
@@ -366,8 +438,8 @@ int unfold(const UnfoldArguments& arguments)
     for (const std::string& text : poorer)
         fmt::print("WARNING   {}\n", text);
     if (!run.failure.empty())
-        throw SolveError(
-            fmt::format("step {} \"{}\": {}", run.states.size() + 1, steps[run.states.size()].name, run.failure));
+        throw SolveError(fmt::format("step {} \"{}\": {}{}", run.states.size() + 1, steps[run.states.size()].name,
+                                     run.failure, kept_in_words(arguments, run)));
     return arguments.strict && !poorer.empty() ? 1 : 0;
 }
 

@@ -255,7 +255,8 @@ void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t 
 
 bool creased(const BinderFit& target, double diagonal)
 {
-    constexpr double far = 2e-4, turned = 0.2; // of the part; radians: what carries a proposed step may be turned as far
+    constexpr double far = 2e-4,
+                     turned = 0.2; // of the part; radians: what carries a proposed step may be turned as far
     return target.distance_mm > far * diagonal || target.angle > turned;
 }
 
@@ -315,9 +316,9 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         const auto clock = std::chrono::steady_clock::now();
         const PlannedStep& step = script[k];
         const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
-        own.checkpoint(0, step.name);
         UnfoldState next{step.name, state.position, state.face, state.step, {}, {}, true, {}, 0, {}, 0};
         try {
+            own.checkpoint(0, step.name);
             if (step.kind == UnfoldKind::unroll)
                 unroll(part, step, options, next);
             else
@@ -326,6 +327,8 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
             run.failure = error.what();
         } catch (const SolveError& error) {
             run.failure = error.what();
+        } catch (const Cancelled&) {
+            throw UnfoldingCancelled(script, std::move(run));
         }
         if (!run.failure.empty())
             return run;
