@@ -262,6 +262,35 @@ std::vector<std::string> read_friction(const Json& json, const Place& place, con
     return picked.missing;
 }
 
+/// What a pick names, as it names it: "region 4, lip" or "3 faces".
+std::string in_words(const Json& pick)
+{
+    std::vector<std::string> words;
+    if (pick.contains("regions"))
+        words = pick["regions"].get<std::vector<std::string>>();
+    constexpr size_t most = 6;
+    if (words.size() > most)
+        words = {words[0], words[1], words[2], fmt::format("{} more", words.size() - 3)};
+    if (pick.contains("faces"))
+        words.push_back(pick["faces"].size() == 1 ? fmt::format("face {}", pick["faces"][0].get<double>())
+                                                  : fmt::format("{} faces", pick["faces"].size()));
+    if (pick.contains("box"))
+        words.emplace_back("what is in a box");
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// What a step without a name is called: what it does. @param json with the members of its kind
+std::string step_in_words(const Json& json, UnfoldKind kind)
+{
+    switch (kind) {
+    case UnfoldKind::flatten: return "flatten the whole part";
+    case UnfoldKind::unroll: return "unroll from " + in_words(json["carrying"]);
+    case UnfoldKind::lay: break;
+    }
+    return fmt::format("{} onto {}", in_words(json["freed"]),
+                       in_words(json.contains("carrying") ? json["carrying"] : json["fixed"]));
+}
+
 UnfoldKind kind_in(const Json& json, const Place& place)
 {
     const std::string wanted = text_in(json, place, "kind", "lay");
@@ -295,6 +324,9 @@ std::string read_step(const Json& json, const Place& place, const PartFile& part
                carrying = read("carrying", step.kind == UnfoldKind::unroll);
     if (step.kind == UnfoldKind::flatten && carrying)
         place.member("carrying").fail("has no meaning: nothing stays when the whole part is flattened");
+    step.name = text_in(json, place, "name", {});
+    if (step.name.empty())
+        step.name = step_in_words(json, step.kind);
     if (lays) {
         step.pick.freed = freed->faces;
         step.pick.fixed = fixed->faces;
@@ -351,11 +383,10 @@ ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile&
     ReadScript script;
     const NamedRegions regions(json, top, part, map, script.findings);
     find(json, top, "steps", true);
-    each_of(json, top, "steps", [&](const Json& each, const Place& place, const std::string& otherwise) {
+    each_of(json, top, "steps", [&](const Json& each, const Place& place, const std::string&) {
         PlannedStep step;
         std::vector<std::string> left_out;
         const std::string why = read_step(each, place, part, map, regions, step, left_out);
-        step.name = text_in(each, place, "name", otherwise);
         if (!why.empty())
             script.findings.push_back(fmt::format("step \"{}\" is left out: {}", step.name, why));
         else {
