@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/cli/terminal.h"
 #include "engine/compare/compare.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
@@ -37,9 +38,9 @@ void add_thickness(CLI::App* command, std::optional<double>& thickness, const ch
 
 enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
 
-int failed(ExitCode code, const char* what)
+int failed(ExitCode code, std::string_view what)
 {
-    fmt::print(stderr, "spia: {}\n", what);
+    fmt::print(stderr, "spia: {}\n", spia::cli::shown(what));
     return code;
 }
 
@@ -346,11 +347,11 @@ int main(int count, char** values)
     } catch (const ExchangeError& error) {
         return failed(bad_file, error.what());
     } catch (const Cancelled& error) {
-        return failed(cancelled, fmt::format("{}; files that were finished stay", error.what()).c_str());
+        return failed(cancelled, fmt::format("{}; files that were finished stay", error.what()));
     } catch (const std::bad_alloc&) {
         return failed(no_solution, "there is not enough memory for this part");
     } catch (const std::exception& error) {
-        return failed(internal, (std::string("an error of the program itself: ") + error.what()).c_str());
+        return failed(internal, (std::string("an error of the program itself: ") + error.what()));
     }
     return fine;
 }

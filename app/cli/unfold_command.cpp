@@ -19,6 +19,7 @@
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/line_file.h"
+#include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
@@ -59,58 +60,56 @@ PartFile part_of(const UnfoldArguments& arguments)
 
 void print_map(const BendMap& map)
 {
-    fmt::print("part      {} regions, {} bends{}\n", map.regions.size(), map.bends.size(),
-               map.smoothed ? ", its noise smoothed for this" : "");
+    say("part      {} regions, {} bends{}\n", map.regions.size(), map.bends.size(),
+        map.smoothed ? ", its noise smoothed for this" : "");
     constexpr size_t most = 12;
     for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
         const Bend& bend = map.bends[k];
-        fmt::print("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm\n",
-                   map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
-                   bend.angle * degrees, bend.radius, bend.length);
+        say("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm\n",
+            map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
+            bend.angle * degrees, bend.radius, bend.length);
     }
     if (map.bends.size() > most)
-        fmt::print("          and {} more\n", map.bends.size() - most);
+        say("          and {} more\n", map.bends.size() - most);
 }
 
 void print_states(const UnfoldRun& run, double diagonal)
 {
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
-        fmt::print("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1,
-                   state.name, state.plain, state.face.strain_equivalent.maxCoeff(),
-                   100 * state.face.thinning.minCoeff(), 100 * state.face.thinning.maxCoeff(),
-                   state.converged ? "" : ", NOT converged");
+        say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1, state.name,
+            state.plain, state.face.strain_equivalent.maxCoeff(), 100 * state.face.thinning.minCoeff(),
+            100 * state.face.thinning.maxCoeff(), state.converged ? "" : ", NOT converged");
         if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
-            fmt::print("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
-                       state.on->distance_mm, state.on->angle * degrees);
+            say("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
+                state.on->distance_mm, state.on->angle * degrees);
         if (state.friction_share < 1)
-            fmt::print("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
+            say("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
-            fmt::print("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n",
-                       state.overlap.places, state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
+            say("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n", state.overlap.places,
+                state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
     }
     if (!run.blank)
         return;
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    fmt::print("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
+    say("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
 }
 
 void print_blank(const char* what, const BlankFigures& blank)
 {
-    fmt::print(
-        "  {:<9} equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %, distortion {:.3g} angular, {:.3g} area{}\n",
+    say("  {:<9} equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %, distortion {:.3g} angular, {:.3g} area{}\n",
         what, blank.strain, 100 * blank.least_thinning, 100 * blank.most_thinning, blank.distortion.angular_rms,
         blank.distortion.area_rms, blank.converged ? "" : ", NOT converged");
 }
 
 void print_polish(const PolishedBlank& polished)
 {
-    fmt::print("polish    outlines up to {:.4g} mm apart, {:.4g} mm in the mean; {}\n", polished.outline_distance_mm,
-               polished.outline_distance_mean_mm, polished.whole.report.reason);
+    say("polish    outlines up to {:.4g} mm apart, {:.4g} mm in the mean; {}\n", polished.outline_distance_mm,
+        polished.outline_distance_mean_mm, polished.whole.report.reason);
     print_blank("steps", polished.steps);
     print_blank("whole", polished.polished);
     for (const std::string& text : polished.worse)
-        fmt::print("  the blank of the whole is worse: {}\n", text);
+        say("  the blank of the whole is worse: {}\n", text);
 }
 
 /// Both blanks are wanted: where the whole cannot be solved that of the steps stays.
@@ -175,8 +174,7 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
                                      from, kept.keep, kept.why));
     if (from > 0)
         kept.keep = from - 1;
-    fmt::print("kept      {} states of an earlier run{}\n", kept.keep,
-               from == 0 && !kept.why.empty() ? "; " + kept.why : "");
+    say("kept      {} states of an earlier run{}\n", kept.keep, from == 0 && !kept.why.empty() ? "; " + kept.why : "");
     return kept;
 }
 
@@ -192,7 +190,7 @@ void keep_edited(const std::filesystem::path& file, const std::string& proposal)
     std::error_code failed;
     std::filesystem::rename(file, aside, failed);
     if (!failed)
-        fmt::print("  note: the script that was there is kept as {}\n", aside.string());
+        say("  note: the script that was there is kept as {}\n", aside.string());
 }
 
 bool states_are_written(const UnfoldArguments& arguments, const UnfoldRun& run)
@@ -253,7 +251,7 @@ std::string kept_in_words(const UnfoldArguments& arguments, const UnfoldRun& run
         throw Cancelled(what);
     if (!holds_as_much(arguments, part, options, steps, run))
         for (const auto& file : keep_states(arguments, part, map, options, steps, run, 0))
-            fmt::print("wrote     {}\n", file.string());
+            say("wrote     {}\n", file.string());
     throw Cancelled(fmt::format("{}; to go on from their states: --script {} --out {} --redo auto", what,
                                 (arguments.automatic ? script_file(arguments) : arguments.script).string(),
                                 arguments.folder.string()));
@@ -277,7 +275,7 @@ RunSteps run_steps(const UnfoldArguments& arguments, const PartFile& part, const
         UnfoldedByItself unfolded =
             unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
         for (const std::string& note : unfolded.sequence.notes)
-            fmt::print("  note: {}\n", note);
+            say("  note: {}\n", note);
         done.steps = std::move(unfolded.sequence.steps);
         done.run = std::move(unfolded.run);
     } else {
@@ -311,8 +309,8 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
         const MappedLines mapped = up ? to_part(part.mesh, flat, drawn.lines) : to_blank(part.mesh, flat, drawn.lines);
         for (const std::string& line : mapped.left_out)
             findings.push_back(fmt::format("{}: {}", file.string(), line));
-        fmt::print("lines     {} of {} of {} carried to the {}\n", mapped.lines.size(), drawn.lines.size(),
-                   file.string(), up ? "part" : "blank");
+        say("lines     {} of {} of {} carried to the {}\n", mapped.lines.size(), drawn.lines.size(), file.string(),
+            up ? "part" : "blank");
         if (mapped.lines.empty())
             continue;
         const std::string name =
@@ -366,6 +364,7 @@ int unfold(const UnfoldArguments& arguments)
         throw InputError("lines that are carried over need a place: give --out DIR");
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
         throw InputError("--redo goes on from an earlier run: give --script FILE and the --out DIR of that run");
+    require_file_name(arguments.name);
     redone_from(arguments.redo.empty() ? "auto" : arguments.redo);
     for (const auto& file : {arguments.to_part, arguments.to_blank})
         if (!file.empty())
@@ -382,12 +381,12 @@ int unfold(const UnfoldArguments& arguments)
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
     for (const std::string& line : reading_notes(part))
-        fmt::print("  {}\n", line);
+        say("  {}\n", line);
     options.thickness = sheet_thickness(arguments.thickness, part);
     if (!(options.thickness > 0) || !std::isfinite(options.thickness))
         throw InputError(fmt::format("the thickness is {} mm; it must be above 0", options.thickness));
     if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
-        fmt::print("  note: {}\n", text);
+        say("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
     print_map(map);
     RunSteps done;
@@ -430,13 +429,13 @@ int unfold(const UnfoldArguments& arguments)
     if (surface && surface->session.blank)
         print_summary(surface->session);
     for (const auto& file : files)
-        fmt::print("wrote     {}\n", file.string());
+        say("wrote     {}\n", file.string());
     auto poorer = shortcomings(run, bounding_diagonal(part.mesh), findings);
     if (surface)
         for (std::string& text : spia::shortcomings(surface->session))
             poorer.push_back(std::move(text));
     for (const std::string& text : poorer)
-        fmt::print("WARNING   {}\n", text);
+        say("WARNING   {}\n", text);
     if (!run.failure.empty())
         throw SolveError(fmt::format("step {} \"{}\": {}{}", run.states.size() + 1, steps[run.states.size()].name,
                                      run.failure, kept_in_words(arguments, run)));

@@ -110,6 +110,30 @@ grep -q "tear off face" "$out.log" || fail "the tear is not told"
 echo '{"steps": [{"freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/one.json"
 expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --strict
 grep -q "does not lie in a plane" "$out.log" || fail "the shortcoming is not told"
+# what names must not do
+expect_exit 2 "$spia" unfold "$part" --auto --out "$out/named" --name ../esc
+grep -q "\"../esc\" is no name of a file" "$out.log" || fail "a name that leads out of the folder is not refused in words"
+[ ! -e "$out/esc-blank.dxf" ] || fail "a name leads out of the folder"
+expect_exit 2 "$spia" run "$part" --out "$out/named" --name 'a\b'
+expect_exit 2 "$spia" run "$out/not-there.obj" --out "$out/named" --name a/b
+grep -q "is no name of a file" "$out.log" || fail "the name is refused after the part is read"
+esc=$'\033'
+echo '{"steps": [{"name": "a\u001b]0;owned\u0007\u009b2Jz\u00e9", "freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/escapes.json"
+expect_exit 0 "$spia" unfold "$part" --script "$out/escapes.json"
+! grep -q "$esc\|$(printf '\302\233')" "$out.log" || fail "a name sends control characters to the terminal"
+grep -qF 'a\x1b]0;owned\x07\xc2\x9b2Jzé' "$out.log" || { cat -v "$out.log"; fail "the name is not shown"; }
+expect_exit 0 python3 "$2/tests/cli/on_terminal.py" none SIGINT "$spia" unfold "$part" --script "$out/escapes.json"
+! grep -q "owned$(printf '\007')" "$out.log" || fail "the bar sends control characters to the terminal"
+expect_exit 2 "$spia" unfold "$part$esc[2J"
+expect_exit 4 "$spia" unfold "$part" --auto --out "$out/escapes.json/$esc[2J"
+! grep -q "$esc" "$out.log" || fail "a message sends control characters to the terminal"
+# what stands twice, or beyond all bounds
+sed 's/"fixed"/"name": "b", "fixed"/' "$out/escapes.json" > "$out/double.json"
+expect_exit 2 "$spia" unfold "$part" --script "$out/double.json"
+grep -qF "$out/double.json: /steps/0/name is there twice" "$out.log" || { cat "$out.log"; fail "a member that is there twice is taken"; }
+echo '{"lines": [{"points": [[0, 0], [1e400, 0]]}]}' > "$out/huge.json"
+expect_exit 2 "$spia" unfold "$part" --auto --out "$out/named" --to-part "$out/huge.json"
+grep -q "huge.json: .*1e400" "$out.log" || fail "a number beyond all bounds is not told with the file"
 # what a shorter script leaves of a longer one, and what hides its faults
 mkdir -p "$out/less"
 cp "$out/auto/"*.json "$out/less/"
