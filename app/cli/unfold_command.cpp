@@ -24,6 +24,7 @@
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
+#include "engine/pipeline/unfold_shortcomings.h"
 #include "engine/pipeline/unfold_states.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/polish.h"
@@ -322,36 +323,6 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
     }
 }
 
-std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, const std::vector<std::string>& findings)
-{
-    std::vector<std::string> poorer = findings;
-    for (const UnfoldState& state : run.states)
-        if (!state.converged)
-            poorer.push_back(fmt::format("step \"{}\" did not converge: {}", state.name, state.reason));
-        else if (state.friction_share < 1)
-            poorer.push_back(fmt::format("step \"{}\" has {:.2g} % of its friction: {}", state.name,
-                                         100 * state.friction_share, state.reason));
-    for (const UnfoldState& state : run.states)
-        if (state.on && creased(*state.on, diagonal))
-            poorer.push_back(
-                fmt::format("step \"{}\" bends the sheet at its hinge: the target is {:.3g} mm beside the fixed "
-                            "faces and turned by {:.1f} deg against them",
-                            state.name, state.on->distance_mm, state.on->angle * degrees));
-    if (!run.states.empty() && run.states.back().necking > 0)
-        poorer.push_back(
-            fmt::format("{} triangles are strained beyond what the hardening curve is trusted to: extrapolated, "
-                        "the sheet would neck or tear there",
-                        run.states.back().necking));
-    if (!run.states.empty() && run.states.back().overlap.places > 0)
-        poorer.push_back(fmt::format("{} lies on itself at {} places", run.blank ? "the blank" : "the last state",
-                                     run.states.back().overlap.places));
-    if (run.flipped > 0)
-        poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
-    if (!run.blank && run.failure.empty())
-        poorer.push_back("after the last step the part does not lie in a plane");
-    return poorer;
-}
-
 } // namespace
 
 int unfold(const UnfoldArguments& arguments)
@@ -430,7 +401,7 @@ int unfold(const UnfoldArguments& arguments)
         print_summary(surface->session);
     for (const auto& file : files)
         say("wrote     {}\n", file.string());
-    auto poorer = shortcomings(run, bounding_diagonal(part.mesh), findings);
+    auto poorer = spia::shortcomings(run, bounding_diagonal(part.mesh), findings);
     if (surface)
         for (std::string& text : spia::shortcomings(surface->session))
             poorer.push_back(std::move(text));

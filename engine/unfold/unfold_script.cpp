@@ -126,7 +126,8 @@ void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& 
                     sheet_of(options.material, options.thickness, options.curve, options.process, part, plane.axes));
     state.necking = state.face.necking.sum();
     state.plain = name(face);
-    state.overlap = landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part));
+    state.overlap =
+        landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part), step.pick.freed);
 }
 
 /// How far beside the target what lies on it is: as far as what carries it, and no less than rounding.
@@ -169,7 +170,7 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     }
     state.necking = result.necking_triangles;
     state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
-                                   carried_within(state.position, part, step, result));
+                                   carried_within(state.position, part, step, result), step.pick.freed);
 }
 
 /// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.

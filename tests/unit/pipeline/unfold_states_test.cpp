@@ -62,6 +62,7 @@ void expect_same(const UnfoldState& a, const UnfoldState& b)
     EXPECT_EQ(a.friction_share, b.friction_share);
     EXPECT_EQ(a.necking, b.necking);
     EXPECT_EQ(a.overlap.places, b.overlap.places);
+    EXPECT_EQ(a.overlap.landed, b.overlap.landed);
     EXPECT_EQ(a.overlap.first, b.overlap.first);
     EXPECT_EQ(a.seconds, b.seconds);
     ASSERT_EQ(a.on.has_value(), b.on.has_value());
@@ -86,7 +87,7 @@ TEST_F(UnfoldStates, AreReadBackToTheLastBit)
     run.states[0].reason = "because";
     run.states[0].necking = 7;
     run.states[0].friction_share = 0.75;
-    run.states[0].overlap = {3, {1, 2, 3}};
+    run.states[0].overlap = {3, {1, 2, 3}, 2};
     write();
     const KeptStates kept = read(steps);
     ASSERT_EQ(kept.keep, steps.size());
