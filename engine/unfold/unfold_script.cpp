@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/forming/flips.h"
@@ -16,6 +15,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/unfold/fit_height.h"
 #include "engine/unfold/turn_binder.h"
+#include "engine/unfold/upright.h"
 
 namespace spia {
 namespace {
@@ -173,27 +173,6 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
                                    carried_within(state.position, part, step, result), step.pick.freed);
 }
 
-/// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
-Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat)
-{
-    const std::vector<int> loop = boundary_loops(part).front();
-    const Eigen::Matrix2Xd rim = flat(Eigen::all, loop);
-    Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
-    double least = std::numeric_limits<double>::infinity();
-    for (Eigen::Index k = 0; k < rim.cols(); ++k) {
-        const Eigen::Vector2d x = (rim.col((k + 1) % rim.cols()) - rim.col(k)).normalized();
-        Eigen::Matrix2d turn;
-        turn << x[0], x[1], -x[1], x[0];
-        const Eigen::Matrix2Xd turned = turn * rim;
-        const Eigen::Vector2d size = turned.rowwise().maxCoeff() - turned.rowwise().minCoeff();
-        if (size.prod() >= least * (1 - 1e-9))
-            continue;
-        least = size.prod();
-        best = size[0] >= size[1] ? turn : Eigen::Matrix2d((Eigen::Matrix2d() << 0, 1, -1, 0).finished() * turn);
-    }
-    return best * flat;
-}
-
 /// The part in the plane in which it lies, seen from the outer side.
 std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& position, int& flipped)
 {
@@ -207,7 +186,7 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     Eigen::Matrix2Xd seen(2, position.cols());
     seen.row(0) = u.transpose() * arm;
     seen.row(1) = normal.cross(u).transpose() * arm;
-    Blank blank{upright(part, seen)};
+    Blank blank{upright(boundary_loops(part).front(), seen)};
     flipped = flipped_triangles(part.triangle, blank.position);
     return blank;
 }
