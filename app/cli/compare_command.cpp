@@ -55,14 +55,13 @@ int compare(const CompareArguments& arguments)
     if (!arguments.json.empty())
         write_atomically(arguments.json, comparison_json(arguments.part, part.mesh, rows, reading_notes(part)));
     if (!arguments.markdown)
-        fmt::print("{}: {} triangles, {} vertices\n", arguments.part.string(), part.mesh.triangles(),
-                   part.mesh.vertices());
+        say("{}: {} triangles, {} vertices\n", arguments.part.string(), part.mesh.triangles(), part.mesh.vertices());
     for (const std::string& line : reading_notes(part))
-        fmt::print("{}{}\n", arguments.markdown ? "- " : "  ", line);
+        say("{}{}\n", arguments.markdown ? "- " : "  ", line);
     if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
-        fmt::print("{}note: {}\n", arguments.markdown ? "- " : "  ", text);
-    fmt::print("\n");
-    fmt::print("{}", comparison_table(rows, arguments.markdown ? TableStyle::markdown : TableStyle::text));
+        say("{}note: {}\n", arguments.markdown ? "- " : "  ", text);
+    say("\n");
+    say("{}", comparison_table(rows, arguments.markdown ? TableStyle::markdown : TableStyle::text));
     const bool none = std::all_of(rows.begin(), rows.end(), [](const auto& row) { return !row.failure.empty(); });
     return none ? 3 : 0;
 }

@@ -18,12 +18,12 @@ void print_parts(const DeckOrigin& deck)
 {
     for (const DeckPart& part : deck.parts)
         if (part.elements + part.broken > 0)
-            fmt::print("part            {}\n", in_words(part));
+            say("part            {}\n", in_words(part));
     constexpr size_t most = 20;
     for (size_t k = 0; k < std::min(most, deck.sets.size()); ++k)
-        fmt::print("element set     {}\n", deck.sets[k]);
+        say("element set     {}\n", deck.sets[k]);
     if (deck.sets.size() > most)
-        fmt::print("element sets    and {} more\n", deck.sets.size() - most);
+        say("element sets    and {} more\n", deck.sets.size() - most);
 }
 
 } // namespace
@@ -47,32 +47,29 @@ int info(const InfoArguments& arguments)
     const auto number = [](const std::optional<int>& value) {
         return value ? std::to_string(*value) : "no meaning here";
     };
-    fmt::print("file            {} ({}, 1 unit = {} mm)\n", arguments.part.string(), part.format,
-               millimetres(part.unit));
-    fmt::print("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices,
-               part.file_faces);
+    say("file            {} ({}, 1 unit = {} mm)\n", arguments.part.string(), part.format, millimetres(part.unit));
+    say("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices, part.file_faces);
     if (part.deck)
         print_parts(*part.deck);
-    fmt::print("components      {}\n", doctor.components);
-    fmt::print("boundary loops  {}\n", number(doctor.boundary_loops));
-    fmt::print("genus           {}\n", number(doctor.genus));
+    say("components      {}\n", doctor.components);
+    say("boundary loops  {}\n", number(doctor.boundary_loops));
+    say("genus           {}\n", number(doctor.genus));
     if (doctor.healthy()) {
         const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
-        fmt::print("part            {} triangles, {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm2\n", part.mesh.triangles(),
-                   size[0], size[1], size[2], area(part.mesh));
+        say("part            {} triangles, {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm2\n", part.mesh.triangles(), size[0],
+            size[1], size[2], area(part.mesh));
     }
     for (const std::string& note : part.notes)
-        fmt::print("note            {}\n", note);
+        say("note            {}\n", note);
     for (const Finding& finding : doctor.findings) {
         const char* severity = finding.severity == Severity::note       ? "note"
                                : finding.severity == Severity::repaired ? "repaired"
                                                                         : "FATAL";
-        fmt::print("{:<15} {}\n", severity, finding.text);
+        say("{:<15} {}\n", severity, finding.text);
         if (!finding.advice.empty())
-            fmt::print("{:<15} -> {}\n", "", finding.advice);
+            say("{:<15} -> {}\n", "", finding.advice);
     }
-    fmt::print("{}\n",
-               doctor.healthy() ? "This part can be unfolded." : "This part is refused for the FATAL reasons above.");
+    say("{}\n", doctor.healthy() ? "This part can be unfolded." : "This part is refused for the FATAL reasons above.");
     return doctor.healthy() ? 0 : 2;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/cli/terminal.h"
 #include "engine/compare/compare.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
@@ -37,9 +38,9 @@ void add_thickness(CLI::App* command, std::optional<double>& thickness, const ch
 
 enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
 
-int failed(ExitCode code, const char* what)
+int failed(ExitCode code, std::string_view what)
 {
-    fmt::print(stderr, "spia: {}\n", what);
+    fmt::print(stderr, "spia: {}\n", spia::cli::shown(what));
     return code;
 }
 
@@ -60,7 +61,7 @@ int main(int count, char** values)
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 poorer result with --strict, 2 the input is at fault, 3 no solution, 4 a file cannot "
-        "be read or written, 130 cancelled.");
+        "be read or written, 130 cancelled (`unfold` leaves the states of the steps that are done).");
     int threads = 0;
 
     cli::RunArguments run;
@@ -345,12 +346,12 @@ int main(int count, char** values)
         return failed(no_solution, error.what());
     } catch (const ExchangeError& error) {
         return failed(bad_file, error.what());
-    } catch (const Cancelled&) {
-        return failed(cancelled, "cancelled; files that were finished stay");
+    } catch (const Cancelled& error) {
+        return failed(cancelled, fmt::format("{}; files that were finished stay", error.what()));
     } catch (const std::bad_alloc&) {
         return failed(no_solution, "there is not enough memory for this part");
     } catch (const std::exception& error) {
-        return failed(internal, (std::string("an error of the program itself: ") + error.what()).c_str());
+        return failed(internal, (std::string("an error of the program itself: ") + error.what()));
     }
     return fine;
 }

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "app/cli/commands.h"
+#include "app/cli/terminal.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_fit.h"
@@ -29,24 +30,24 @@ MaterialFitOptions options(const FitArguments& arguments)
 
 void print_test(const TensileTest& test)
 {
-    fmt::print("modulus   {:.0f} MPa, {}\n", test.young_MPa, test.measured_young ? "measured" : "given");
-    fmt::print("strength  Rp0.2 {:.1f} MPa, Rm {:.1f} MPa, uniform strain {:.4f} (logarithmic)\n",
-               test.proof_stress_MPa, test.tensile_strength_MPa, test.uniform_strain);
-    fmt::print("fitted    {} points of plastic strain {:.4f} to {:.4f}\n", test.plastic_strain.size(),
-               test.plastic_strain[0], test.plastic_strain[test.plastic_strain.size() - 1]);
+    say("modulus   {:.0f} MPa, {}\n", test.young_MPa, test.measured_young ? "measured" : "given");
+    say("strength  Rp0.2 {:.1f} MPa, Rm {:.1f} MPa, uniform strain {:.4f} (logarithmic)\n", test.proof_stress_MPa,
+        test.tensile_strength_MPa, test.uniform_strain);
+    say("fitted    {} points of plastic strain {:.4f} to {:.4f}\n", test.plastic_strain.size(), test.plastic_strain[0],
+        test.plastic_strain[test.plastic_strain.size() - 1]);
     for (const std::string& note : test.notes)
-        fmt::print("  note: {}\n", note);
+        say("  note: {}\n", note);
 }
 
 void print_fits(const std::vector<LawFit>& fits, const LawFit& taken)
 {
-    fmt::print("{:<16} {:>8}  {}\n", "law", "rms MPa", "fit");
+    say("{:<16} {:>8}  {}\n", "law", "rms MPa", "fit");
     for (const LawFit& fit : fits) {
         if (fit.law)
-            fmt::print("{:<16} {:>8.3f}  {}{}\n", fit.name, fit.rms_MPa, in_words(*fit.law),
-                       &fit == &taken ? "   <- taken" : "");
+            say("{:<16} {:>8.3f}  {}{}\n", fit.name, fit.rms_MPa, in_words(*fit.law),
+                &fit == &taken ? "   <- taken" : "");
         else
-            fmt::print("{:<16} {:>8}  none: {}\n", fit.name, "-", fit.reason);
+            say("{:<16} {:>8}  none: {}\n", fit.name, "-", fit.reason);
     }
 }
 
@@ -63,7 +64,7 @@ int fit_material(const FitArguments& arguments)
 
     print_test(fit.test);
     print_fits(fit.fits, fit.fits[fit.taken]);
-    fmt::print("wrote     {}\n", arguments.out.string());
+    say("wrote     {}\n", arguments.out.string());
     return 0;
 }
 

@@ -1,4 +1,5 @@
 #include "app/cli/print_summary.h"
+#include "app/cli/terminal.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -15,30 +16,29 @@ void print_spots(const Zones& zones, const PartFile& part)
     for (size_t k = 0; k < std::min(most, zones.spots.size()); ++k) {
         const WorstSpot& spot = zones.spots[k];
         const bool by_curve = spot.zone >= Zone::marginal;
-        fmt::print("{} {:<18} face {} at {:.4g}, {:.4g}, {:.4g} mm: {} {:+.1f} %, strains {:.3f} and {:.3f}\n",
-                   k == 0 ? "worst    " : "         ", name(spot.zone), part.source_face[size_t(spot.face)],
-                   spot.position[0], spot.position[1], spot.position[2],
-                   by_curve                                ? "left to the curve"
-                   : spot.zone == Zone::excessive_thinning ? "thinning"
-                                                           : "thickening",
-                   100 * spot.value, spot.strain_major, spot.strain_minor);
+        say("{} {:<18} face {} at {:.4g}, {:.4g}, {:.4g} mm: {} {:+.1f} %, strains {:.3f} and {:.3f}\n",
+            k == 0 ? "worst    " : "         ", name(spot.zone), part.source_face[size_t(spot.face)], spot.position[0],
+            spot.position[1], spot.position[2],
+            by_curve                                ? "left to the curve"
+            : spot.zone == Zone::excessive_thinning ? "thinning"
+                                                    : "thickening",
+            100 * spot.value, spot.strain_major, spot.strain_minor);
     }
 }
 
 void print_limits(const LimitsResult& limits, const PartFile& part)
 {
     if (limits.curve)
-        fmt::print("limits    FLC0 {:.1f} %, {}\n", 100 * engineering_strain(limits.curve->at_plane_strain()),
-                   limits.curve->formula.substr(0, limits.curve->formula.find(':')));
+        say("limits    FLC0 {:.1f} %, {}\n", 100 * engineering_strain(limits.curve->at_plane_strain()),
+            limits.curve->formula.substr(0, limits.curve->formula.find(':')));
     else
-        fmt::print("limits    no forming limit curve\n");
+        say("limits    no forming limit curve\n");
     for (const Zone zone : all_zones)
         if (const ZoneShare& share = limits.zones.share[size_t(zone)]; share.faces > 0)
-            fmt::print("          {:<18} {:>7} faces, {:5.1f} % of the area\n", name(zone), share.faces,
-                       100 * share.share);
+            say("          {:<18} {:>7} faces, {:5.1f} % of the area\n", name(zone), share.faces, 100 * share.share);
     print_spots(limits.zones, part);
     for (const std::string& note : limits.notes)
-        fmt::print("  note: {}\n", note);
+        say("  note: {}\n", note);
 }
 
 } // namespace
@@ -48,39 +48,39 @@ void print_summary(const Session& session)
     const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
-    fmt::print("part      {} triangles, {} boundary loops, {:.6g} mm2\n", part.triangles(), boundary_loops(part).size(),
-               area(part));
+    say("part      {} triangles, {} boundary loops, {:.6g} mm2\n", part.triangles(), boundary_loops(part).size(),
+        area(part));
     for (const std::string& line : in_words(applied_process(session)))
-        fmt::print("process   {}\n", line);
+        say("process   {}\n", line);
     if (flat.report.process_share < 1)
-        fmt::print("process   of these forces {:.2g} % are in the blank\n", 100 * flat.report.process_share);
+        say("process   of these forces {:.2g} % are in the blank\n", 100 * flat.report.process_share);
     if (session.options.steps && !session.options.steps->polish)
-        fmt::print("blank     {:.6g} x {:.6g} mm, {}\n", size[0], size[1], flat.report.reason);
+        say("blank     {:.6g} x {:.6g} mm, {}\n", size[0], size[1], flat.report.reason);
     else
-        fmt::print("blank     {:.6g} x {:.6g} mm{}, {} energy and {} Newton steps, {}\n", size[0], size[1],
-                   session.options.steps ? " of the steps, polished" : "", flat.report.energy.size(),
-                   flat.report.newton.size(),
-                   flat.report.whole()     ? "converged"
-                   : flat.report.converged ? fmt::format("converged ({})", name(flat.report.system))
-                                           : "NOT converged");
-    fmt::print("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
-               100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
-               flat.face.strain_equivalent.maxCoeff());
+        say("blank     {:.6g} x {:.6g} mm{}, {} energy and {} Newton steps, {}\n", size[0], size[1],
+            session.options.steps ? " of the steps, polished" : "", flat.report.energy.size(),
+            flat.report.newton.size(),
+            flat.report.whole()     ? "converged"
+            : flat.report.converged ? fmt::format("converged ({})", name(flat.report.system))
+                                    : "NOT converged");
+    say("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
+        100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
+        flat.face.strain_equivalent.maxCoeff());
     if (flat.skins)
-        fmt::print("skins     major strain up to {:.3f} outside, {:.3f} inside\n",
-                   flat.skins->outer.strain_major.maxCoeff(), flat.skins->inner.strain_major.maxCoeff());
+        say("skins     major strain up to {:.3f} outside, {:.3f} inside\n", flat.skins->outer.strain_major.maxCoeff(),
+            flat.skins->inner.strain_major.maxCoeff());
     print_limits(*session.limits, *session.part);
     if (!session.grid)
         return;
     const GridResult& grid = session.grid->result;
-    fmt::print("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
-               grid.planar.rows, name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
+    say("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns, grid.planar.rows,
+        name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
     if (!session.surface)
         return;
     const Deviation& deviation = session.surface->deviation;
-    fmt::print("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
-               session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
-               std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
+    say("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
+        session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
+        std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
 }
 
 } // namespace spia::cli

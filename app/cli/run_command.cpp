@@ -99,7 +99,8 @@ int run(const RunArguments& arguments)
     session.file = arguments.part;
     session.options = options(arguments);
     const OutputOptions wanted = output_options(arguments);
-    std::exception_ptr error; // of a stage after the solver: the blank is worth writing all the same
+    require_file_name(wanted.name); // before the work
+    std::exception_ptr error;       // of a stage after the solver: the blank is worth writing all the same
     std::optional<Failure> failure;
     for (const Stage stage : chain) {
         JobDisplay display{std::string(name(stage))};
@@ -123,9 +124,9 @@ int run(const RunArguments& arguments)
                              session.options.flatten.thickness, assets() / "materials");
         if (stage == Stage::read) {
             for (const std::string& line : reading_notes(*session.part))
-                fmt::print("  {}\n", line);
+                say("  {}\n", line);
             if (const std::string text = thickness_in_words(arguments.thickness, *session.part); !text.empty())
-                fmt::print("  note: {}\n", text);
+                say("  note: {}\n", text);
             require_possible(session);
             require_place(session, arguments.folder, arguments.formats, arguments.json, wanted);
         }
@@ -140,10 +141,10 @@ int run(const RunArguments& arguments)
 
     print_summary(session);
     for (const auto& file : files)
-        fmt::print("wrote     {}\n", file.string());
+        say("wrote     {}\n", file.string());
     const auto poorer = shortcomings(session);
     for (const std::string& text : poorer)
-        fmt::print("WARNING   {}\n", text);
+        say("WARNING   {}\n", text);
     if (error)
         std::rethrow_exception(error);
     return arguments.strict && !poorer.empty() ? 1 : 0;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
@@ -19,6 +20,23 @@ std::shared_ptr<std::atomic<bool>>& flag()
     return cancel;
 }
 std::atomic<bool>* flag_of_handler = nullptr; // a handler may touch nothing but lock-free atomics
+
+/// Bytes of the character at the beginning; 0: none of UTF-8.
+size_t utf8_length(std::string_view text)
+{
+    const auto first = static_cast<unsigned char>(text[0]);
+    const size_t length = first < 0x80                    ? 1
+                          : first >= 0xc2 && first < 0xe0 ? 2
+                          : first >= 0xe0 && first < 0xf0 ? 3
+                          : first >= 0xf0 && first < 0xf5 ? 4
+                                                          : 0;
+    if (length == 0 || length > text.size())
+        return 0;
+    for (size_t k = 1; k < length; ++k)
+        if ((static_cast<unsigned char>(text[k]) & 0xc0) != 0x80)
+            return 0;
+    return length;
+}
 
 extern "C" void on_signal(int signal)
 {
@@ -38,6 +56,24 @@ std::shared_ptr<const std::atomic<bool>> cancelled_by_user()
     return flag();
 }
 
+std::string shown(std::string_view text)
+{
+    std::string result;
+    for (size_t at = 0; at < text.size();) {
+        const size_t length = utf8_length(text.substr(at));
+        const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[at + k]); };
+        const bool control = length == 0 || (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7f) && byte(0) != '\n') ||
+                             (length == 2 && byte(0) == 0xc2 && byte(1) < 0xa0);
+        if (control)
+            for (size_t k = 0; k < std::max<size_t>(1, length); ++k)
+                result += fmt::format("\\x{:02x}", byte(k));
+        else
+            result += text.substr(at, length);
+        at += std::max<size_t>(1, length);
+    }
+    return result;
+}
+
 JobDisplay::JobDisplay(std::string title) : title_(std::move(title)) {}
 
 Progress JobDisplay::progress() const
@@ -48,7 +84,7 @@ Progress JobDisplay::progress() const
         [title = title_](double fraction, std::string_view step) {
             const int full = int(fraction * bar_width);
             fmt::print(stderr, "\r\033[K{:<6} [{}{}] {:3.0f} %  {}", title, std::string(size_t(full), '#'),
-                       std::string(size_t(bar_width - full), ' '), 100 * fraction, step);
+                       std::string(size_t(bar_width - full), ' '), 100 * fraction, shown(step));
             std::fflush(stderr);
         },
         cancelled_by_user());

@@ -19,10 +19,12 @@
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/line_file.h"
+#include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
+#include "engine/pipeline/unfold_shortcomings.h"
 #include "engine/pipeline/unfold_states.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/polish.h"
@@ -59,58 +61,56 @@ PartFile part_of(const UnfoldArguments& arguments)
 
 void print_map(const BendMap& map)
 {
-    fmt::print("part      {} regions, {} bends{}\n", map.regions.size(), map.bends.size(),
-               map.smoothed ? ", its noise smoothed for this" : "");
+    say("part      {} regions, {} bends{}\n", map.regions.size(), map.bends.size(),
+        map.smoothed ? ", its noise smoothed for this" : "");
     constexpr size_t most = 12;
     for (size_t k = 0; k < std::min(most, map.bends.size()); ++k) {
         const Bend& bend = map.bends[k];
-        fmt::print("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm\n",
-                   map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
-                   bend.angle * degrees, bend.radius, bend.length);
+        say("          {:<8} {:>12} - {:<12} {:7.1f} deg, radius {:7.4g} mm, length {:7.4g} mm\n",
+            map.name(int(map.regions.size() + k)), map.name(bend.a), bend.b >= 0 ? map.name(bend.b) : "edge",
+            bend.angle * degrees, bend.radius, bend.length);
     }
     if (map.bends.size() > most)
-        fmt::print("          and {} more\n", map.bends.size() - most);
+        say("          and {} more\n", map.bends.size() - most);
 }
 
 void print_states(const UnfoldRun& run, double diagonal)
 {
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
-        fmt::print("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1,
-                   state.name, state.plain, state.face.strain_equivalent.maxCoeff(),
-                   100 * state.face.thinning.minCoeff(), 100 * state.face.thinning.maxCoeff(),
-                   state.converged ? "" : ", NOT converged");
+        say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1, state.name,
+            state.plain, state.face.strain_equivalent.maxCoeff(), 100 * state.face.thinning.minCoeff(),
+            100 * state.face.thinning.maxCoeff(), state.converged ? "" : ", NOT converged");
         if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
-            fmt::print("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
-                       state.on->distance_mm, state.on->angle * degrees);
+            say("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
+                state.on->distance_mm, state.on->angle * degrees);
         if (state.friction_share < 1)
-            fmt::print("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
+            say("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
-            fmt::print("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n",
-                       state.overlap.places, state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
+            say("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n", state.overlap.places,
+                state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
     }
     if (!run.blank)
         return;
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    fmt::print("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
+    say("blank     {:.6g} x {:.6g} mm, {} flipped triangles\n", size[0], size[1], run.flipped);
 }
 
 void print_blank(const char* what, const BlankFigures& blank)
 {
-    fmt::print(
-        "  {:<9} equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %, distortion {:.3g} angular, {:.3g} area{}\n",
+    say("  {:<9} equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %, distortion {:.3g} angular, {:.3g} area{}\n",
         what, blank.strain, 100 * blank.least_thinning, 100 * blank.most_thinning, blank.distortion.angular_rms,
         blank.distortion.area_rms, blank.converged ? "" : ", NOT converged");
 }
 
 void print_polish(const PolishedBlank& polished)
 {
-    fmt::print("polish    outlines up to {:.4g} mm apart, {:.4g} mm in the mean; {}\n", polished.outline_distance_mm,
-               polished.outline_distance_mean_mm, polished.whole.report.reason);
+    say("polish    outlines up to {:.4g} mm apart, {:.4g} mm in the mean; {}\n", polished.outline_distance_mm,
+        polished.outline_distance_mean_mm, polished.whole.report.reason);
     print_blank("steps", polished.steps);
     print_blank("whole", polished.polished);
     for (const std::string& text : polished.worse)
-        fmt::print("  the blank of the whole is worse: {}\n", text);
+        say("  the blank of the whole is worse: {}\n", text);
 }
 
 /// Both blanks are wanted: where the whole cannot be solved that of the steps stays.
@@ -142,6 +142,12 @@ std::filesystem::path states_file(const UnfoldArguments& arguments)
     return arguments.folder / (stem_of(arguments) + "-states.cbor");
 }
 
+/// Where the steps of --auto are written.
+std::filesystem::path script_file(const UnfoldArguments& arguments)
+{
+    return arguments.folder / (stem_of(arguments) + "-script.json");
+}
+
 /// What --redo means; 0: as many states as hold. @throws InputError if it is neither auto nor the number of a step
 size_t redone_from(const std::string& text)
 {
@@ -169,8 +175,7 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
                                      from, kept.keep, kept.why));
     if (from > 0)
         kept.keep = from - 1;
-    fmt::print("kept      {} states of an earlier run{}\n", kept.keep,
-               from == 0 && !kept.why.empty() ? "; " + kept.why : "");
+    say("kept      {} states of an earlier run{}\n", kept.keep, from == 0 && !kept.why.empty() ? "; " + kept.why : "");
     return kept;
 }
 
@@ -186,29 +191,106 @@ void keep_edited(const std::filesystem::path& file, const std::string& proposal)
     std::error_code failed;
     std::filesystem::rename(file, aside, failed);
     if (!failed)
-        fmt::print("  note: the script that was there is kept as {}\n", aside.string());
+        say("  note: the script that was there is kept as {}\n", aside.string());
 }
 
-std::vector<std::filesystem::path> write_files(const UnfoldArguments& arguments, const PartFile& part,
+bool states_are_written(const UnfoldArguments& arguments, const UnfoldRun& run)
+{
+    return !arguments.folder.empty() && !run.states.empty() &&
+           std::count(arguments.formats.begin(), arguments.formats.end(), "states");
+}
+
+/// Whether the file of states holds for these steps what a run that was broken off has, or more.
+bool holds_as_much(const UnfoldArguments& arguments, const PartFile& part, const FlattenOptions& options,
+                   const UnfoldScript& steps, const UnfoldRun& run)
+{
+    try {
+        return read_unfold_states(states_file(arguments), part.mesh, options, steps).keep >= run.states.size();
+    } catch (const InputError&) { // none is there, or it is of no use
+        return false;
+    }
+}
+
+/// What a later run can go on from, as soon as the steps are done or broken off: the states, and the script of --auto. What an
+/// earlier run wrote beside them goes.
+/// @param kept states that are in their file already
+std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments, const PartFile& part,
                                                const BendMap& map, const FlattenOptions& options,
-                                               const UnfoldScript& steps, const UnfoldRun& run, size_t kept,
-                                               const PolishedBlank* polished)
+                                               const UnfoldScript& steps, const UnfoldRun& run, size_t kept)
 {
     if (arguments.folder.empty())
         return {};
+    std::vector<std::filesystem::path> files;
     remove_unfolding(arguments.folder, stem_of(arguments));
-    auto files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
-                                 polished ? &polished->whole : nullptr, arguments.formats);
-    if (std::count(arguments.formats.begin(), arguments.formats.end(), "states") && run.states.size() > kept) {
+    if (states_are_written(arguments, run) && run.states.size() > kept) {
         files.push_back(states_file(arguments));
         write_unfold_states(files.back(), part.mesh, options, steps, run);
     }
     if (arguments.automatic) {
-        files.push_back(arguments.folder / (stem_of(arguments) + "-script.json"));
+        files.push_back(script_file(arguments));
         keep_edited(files.back(), unfold_script_json(map, steps));
         write_atomically(files.back(), unfold_script_json(map, steps, part.source_face));
     }
     return files;
+}
+
+/// What a run that a step broke off leaves; empty: nothing.
+std::string kept_in_words(const UnfoldArguments& arguments, const UnfoldRun& run)
+{
+    return states_are_written(arguments, run)
+               ? fmt::format("; the states of the {} steps before it are kept: --redo auto goes on from there",
+                             run.states.size())
+               : std::string();
+}
+
+/// Of a run that was cancelled: leaves its states and says how to go on.
+[[noreturn]] void keep_cancelled(const UnfoldArguments& arguments, const PartFile& part, const BendMap& map,
+                                 const FlattenOptions& options, const UnfoldScript& steps, const UnfoldRun& run)
+{
+    std::string what = fmt::format("cancelled after {} of {} steps", run.states.size(), steps.size());
+    if (!states_are_written(arguments, run))
+        throw Cancelled(what);
+    if (!holds_as_much(arguments, part, options, steps, run))
+        for (const auto& file : keep_states(arguments, part, map, options, steps, run, 0))
+            say("wrote     {}\n", file.string());
+    throw Cancelled(fmt::format("{}; to go on from their states: --script {} --out {} --redo auto", what,
+                                (arguments.automatic ? script_file(arguments) : arguments.script).string(),
+                                arguments.folder.string()));
+}
+
+/// The steps and what they gave.
+struct RunSteps {
+    UnfoldScript steps;
+    std::vector<std::string> findings; ///< what of the script made no sense
+    UnfoldRun run;
+    size_t kept = 0; ///< states that are in their file already
+};
+
+RunSteps run_steps(const UnfoldArguments& arguments, const PartFile& part, const BendMap& map,
+                   const FlattenOptions& options)
+{
+    RunSteps done;
+    JobDisplay display{"unfold"};
+    const auto clock = std::chrono::steady_clock::now();
+    if (arguments.automatic) {
+        UnfoldedByItself unfolded =
+            unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
+        for (const std::string& note : unfolded.sequence.notes)
+            say("  note: {}\n", note);
+        done.steps = std::move(unfolded.sequence.steps);
+        done.run = std::move(unfolded.run);
+    } else {
+        ReadScript script = read_unfold_script(arguments.script, part, map);
+        done.steps = std::move(script.steps);
+        done.findings = std::move(script.findings);
+        if (done.steps.empty())
+            throw InputError(fmt::format("no step of the script makes sense on this part; {}", done.findings.front()));
+        const KeptStates kept = kept_states(arguments, part, options, done.steps);
+        done.run = run_unfolding(part.mesh, done.steps, options, display.progress(), &kept.run, kept.keep);
+        done.kept = kept.keep;
+    }
+    display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+    return done;
 }
 
 /// What is drawn on the blank or on the part, carried over to the other one.
@@ -228,8 +310,8 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
         const MappedLines mapped = up ? to_part(part.mesh, flat, drawn.lines) : to_blank(part.mesh, flat, drawn.lines);
         for (const std::string& line : mapped.left_out)
             findings.push_back(fmt::format("{}: {}", file.string(), line));
-        fmt::print("lines     {} of {} of {} carried to the {}\n", mapped.lines.size(), drawn.lines.size(),
-                   file.string(), up ? "part" : "blank");
+        say("lines     {} of {} of {} carried to the {}\n", mapped.lines.size(), drawn.lines.size(), file.string(),
+            up ? "part" : "blank");
         if (mapped.lines.empty())
             continue;
         const std::string name =
@@ -239,42 +321,6 @@ void carry_lines(const UnfoldArguments& arguments, const PartFile& part, const U
         for (const auto& written : write_line_files(arguments.folder, name, mapped.lines, formats))
             files.push_back(written);
     }
-}
-
-std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, const std::vector<std::string>& findings)
-{
-    std::vector<std::string> poorer = findings;
-    for (const UnfoldState& state : run.states)
-        if (!state.converged)
-            poorer.push_back(fmt::format("step \"{}\" did not converge: {}", state.name, state.reason));
-        else if (state.friction_share < 1)
-            poorer.push_back(fmt::format("step \"{}\" has {:.2g} % of its friction: {}", state.name,
-                                         100 * state.friction_share, state.reason));
-    for (const UnfoldState& state : run.states)
-        if (state.on && creased(*state.on, diagonal))
-            poorer.push_back(
-                fmt::format("step \"{}\" bends the sheet at its hinge: the target is {:.3g} mm beside the fixed "
-                            "faces and turned by {:.1f} deg against them",
-                            state.name, state.on->distance_mm, state.on->angle * degrees));
-    for (const UnfoldState& state : run.states)
-        if (state.reach.without_room > 0)
-            poorer.push_back(
-                fmt::format("step \"{}\": {} faces reach beyond the end of the target, up to {:.4g} mm from "
-                            "what carries it",
-                            state.name, state.reach.without_room, state.reach.farthest_mm));
-    if (!run.states.empty() && run.states.back().necking > 0)
-        poorer.push_back(
-            fmt::format("{} triangles are strained beyond what the hardening curve is trusted to: extrapolated, "
-                        "the sheet would neck or tear there",
-                        run.states.back().necking));
-    if (!run.states.empty() && run.states.back().overlap.places > 0)
-        poorer.push_back(fmt::format("{} lies on itself at {} places", run.blank ? "the blank" : "the last state",
-                                     run.states.back().overlap.places));
-    if (run.flipped > 0)
-        poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
-    if (!run.blank && run.failure.empty())
-        poorer.push_back("after the last step the part does not lie in a plane");
-    return poorer;
 }
 
 } // namespace
@@ -289,6 +335,7 @@ int unfold(const UnfoldArguments& arguments)
         throw InputError("lines that are carried over need a place: give --out DIR");
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
         throw InputError("--redo goes on from an earlier run: give --script FILE and the --out DIR of that run");
+    require_file_name(arguments.name);
     redone_from(arguments.redo.empty() ? "auto" : arguments.redo);
     for (const auto& file : {arguments.to_part, arguments.to_blank})
         if (!file.empty())
@@ -305,43 +352,33 @@ int unfold(const UnfoldArguments& arguments)
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
     for (const std::string& line : reading_notes(part))
-        fmt::print("  {}\n", line);
+        say("  {}\n", line);
     options.thickness = sheet_thickness(arguments.thickness, part);
     if (!(options.thickness > 0) || !std::isfinite(options.thickness))
         throw InputError(fmt::format("the thickness is {} mm; it must be above 0", options.thickness));
     if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
-        fmt::print("  note: {}\n", text);
+        say("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
     print_map(map);
-    UnfoldScript steps;
-    std::vector<std::string> findings;
-    UnfoldRun run;
-    size_t redone = 0; // states that are in their file already
-    JobDisplay display{"unfold"};
-    const auto clock = std::chrono::steady_clock::now();
-    if (arguments.automatic) {
-        UnfoldedByItself unfolded =
-            unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
-        for (const std::string& note : unfolded.sequence.notes)
-            fmt::print("  note: {}\n", note);
-        steps = std::move(unfolded.sequence.steps);
-        run = std::move(unfolded.run);
-    } else {
-        ReadScript script = read_unfold_script(arguments.script, part, map);
-        steps = std::move(script.steps);
-        findings = std::move(script.findings);
-        if (steps.empty())
-            throw InputError(fmt::format("no step of the script makes sense on this part; {}", findings.front()));
-        const KeptStates kept = kept_states(arguments, part, options, steps);
-        run = run_unfolding(part.mesh, steps, options, display.progress(), &kept.run, kept.keep);
-        redone = kept.keep;
+    RunSteps done;
+    try {
+        done = run_steps(arguments, part, map, options);
+    } catch (const UnfoldingCancelled& cancelled) {
+        keep_cancelled(arguments, part, map, options, cancelled.steps, cancelled.done);
     }
-    display.done(std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+    const UnfoldScript& steps = done.steps;
+    const UnfoldRun& run = done.run;
+    std::vector<std::string>& findings = done.findings;
+    const auto kept = keep_states(arguments, part, map, options, steps, run, done.kept);
     std::optional<PolishedBlank> polished;
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
-    auto files = write_files(arguments, part, map, options, steps, run, redone, both);
+    std::vector<std::filesystem::path> files;
+    if (!arguments.folder.empty())
+        files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
+                                polished ? &polished->whole : nullptr, arguments.formats);
+    files.insert(files.end(), kept.begin(), kept.end());
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
     std::optional<SurfaceOfSteps> surface;
@@ -363,16 +400,16 @@ int unfold(const UnfoldArguments& arguments)
     if (surface && surface->session.blank)
         print_summary(surface->session);
     for (const auto& file : files)
-        fmt::print("wrote     {}\n", file.string());
-    auto poorer = shortcomings(run, bounding_diagonal(part.mesh), findings);
+        say("wrote     {}\n", file.string());
+    auto poorer = spia::shortcomings(run, bounding_diagonal(part.mesh), findings);
     if (surface)
         for (std::string& text : spia::shortcomings(surface->session))
             poorer.push_back(std::move(text));
     for (const std::string& text : poorer)
-        fmt::print("WARNING   {}\n", text);
+        say("WARNING   {}\n", text);
     if (!run.failure.empty())
-        throw SolveError(
-            fmt::format("step {} \"{}\": {}", run.states.size() + 1, steps[run.states.size()].name, run.failure));
+        throw SolveError(fmt::format("step {} \"{}\": {}{}", run.states.size() + 1, steps[run.states.size()].name,
+                                     run.failure, kept_in_words(arguments, run)));
     return arguments.strict && !poorer.empty() ? 1 : 0;
 }
 

@@ -26,7 +26,7 @@ struct ExchangeError : Error {
 
 /// The user asked the job to stop (exit code 130).
 struct Cancelled : Error {
-    Cancelled() : Error("cancelled") {}
+    explicit Cancelled(const std::string& what = "cancelled") : Error(what) {}
 };
 
 } // namespace spia

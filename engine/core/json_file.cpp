@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "engine/core/error.h"
 
@@ -18,12 +20,61 @@ std::string plain(const Json::exception& error)
     return end == std::string::npos ? text : text.substr(end + 2);
 }
 
+/// Sees that no object has a member twice: the library would take the last one without a word.
+class MembersOnce {
+public:
+    explicit MembersOnce(const std::string& file) : file_(file) {}
+
+    void see(Json::parse_event_t event, const Json& value)
+    {
+        using Event = Json::parse_event_t;
+        if (event == Event::array_end || event == Event::object_end) {
+            open_.pop_back();
+            return;
+        }
+        if (event == Event::key) {
+            open_.back().at = value.get<std::string>();
+            if (!open_.back().keys.insert(open_.back().at).second)
+                throw InputError(fmt::format("{}: {} is there twice; leave one of them", file_, place()));
+            return;
+        }
+        if (!open_.empty() && open_.back().is_array)
+            open_.back().at = std::to_string(open_.back().entries++);
+        if (event == Event::array_start || event == Event::object_start)
+            open_.push_back({event == Event::array_start, 0, {}, {}});
+    }
+
+private:
+    struct Open {
+        bool is_array;
+        size_t entries;
+        std::string at; ///< the member or entry that is being read
+        std::set<std::string> keys;
+    };
+
+    std::string place() const
+    {
+        std::string text;
+        for (const Open& open : open_)
+            text += "/" + open.at;
+        return text;
+    }
+
+    const std::string& file_;
+    std::vector<Open> open_;
+};
+
 } // namespace
 
 Json parse_json(std::string_view text, const std::string& name, bool comments)
 {
     try {
-        return Json::parse(text, nullptr, true, comments);
+        MembersOnce once(name);
+        const auto see = [&](int, Json::parse_event_t event, Json& value) {
+            once.see(event, value);
+            return true;
+        };
+        return Json::parse(text, see, true, comments);
     } catch (const Json::exception& error) {
         throw InputError(fmt::format("{}: {}", name, plain(error)));
     }

@@ -154,6 +154,7 @@ public:
     DxfLines done()
     {
         finish();
+        number_lines();
         for (const auto& [type, count] : other_)
             result_.left_out.push_back(fmt::format("{} {}", count, type));
         return std::move(result_);
@@ -207,6 +208,20 @@ private:
         if (closed && (points.front() - points.back()).norm() <= rounding * size)
             points.back() = points.front();
         add(entity, std::move(points), false);
+    }
+
+    /// A DXF file has no names for lines: several of a layer are told apart by their numbers on it, in the order of the file. "0" is
+    /// the layer of what was put on none.
+    void number_lines()
+    {
+        std::map<std::string, int> on_layer, number;
+        for (const SheetLine& line : result_.lines)
+            ++on_layer[line.name];
+        for (SheetLine& line : result_.lines)
+            if (const std::string layer = line.name; layer == "0")
+                line.name = fmt::format("line {}", ++number[layer]);
+            else if (on_layer[layer] > 1)
+                line.name = fmt::format("{} line {}", layer, ++number[layer]);
     }
 
     /// The polyline whose vertices have come.

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/json_file.h"
 
 namespace spia {
 namespace {
-
-using Json = nlohmann::json;
 
 /// Reads numbers of one JSON object and says which key of which file is at fault.
 class Reader {
@@ -153,7 +151,7 @@ Material read_material(const std::filesystem::path& file)
     if (!stream)
         throw InputError(
             fmt::format("cannot open the material file {}; `spia materials` lists the built-in grades", file.string()));
-    const Json json = Json::parse(stream, nullptr, false);
+    const Json json = read_json(file);
     if (!json.is_object())
         throw InputError(
             fmt::format("{} is no JSON object; see assets/materials/README.md for the form", file.string()));

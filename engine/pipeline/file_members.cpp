@@ -51,6 +51,13 @@ std::string text_in(const Json& json, const Place& place, std::string_view name,
     return value ? text(*value, place.member(name)) : otherwise;
 }
 
+std::string entry_name(std::string_view list, size_t index)
+{
+    if (list.ends_with('s'))
+        list.remove_suffix(1);
+    return fmt::format("{} {}", list, index + 1);
+}
+
 Eigen::Vector3d vector(const Json& json, const Place& place)
 {
     if (!json.is_array() || json.size() != 3)

@@ -39,6 +39,9 @@ std::vector<int> chosen_faces(const std::vector<char>& chosen);
 /// By "faces" and by "box"; both together are united. At least one face.
 std::vector<int> faces_in(const Json& json, const Place& place, const PartFile& part);
 
+/// What an entry without a name is called: "line 3" of "lines".
+std::string entry_name(std::string_view list, size_t index);
+
 /// Reads the entries of a list member, each at its place; without a name an entry is called as its list and number.
 template <class Read> void each_of(const Json& json, const Place& place, std::string_view name, const Read& read)
 {
@@ -49,7 +52,7 @@ template <class Read> void each_of(const Json& json, const Place& place, std::st
     if (!list->is_array())
         at.fail("must be a list [ ]");
     for (size_t i = 0; i < list->size(); ++i)
-        read((*list)[i], at.entry(i), fmt::format("{} {}", name, i + 1));
+        read((*list)[i], at.entry(i), entry_name(name, i));
 }
 
 } // namespace spia::members

@@ -43,9 +43,7 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     if (std::find(output_formats().begin(), output_formats().end(), format) == output_formats().end())
         throw InputError(
             fmt::format("the format \"{}\" is not known; known are {}", format, fmt::join(output_formats(), ", ")));
-    if (options.name.find_first_of(std::string_view("/\\\0", 3)) != std::string::npos || options.name == "." ||
-        options.name == "..")
-        throw InputError(fmt::format("\"{}\" is no name of a file; leave out folders", options.name));
+    require_file_name(options.name);
     if (format == "csv") {
         if (options.csv == CsvTables{false, false, false})
             throw InputError("nothing is chosen of the CSV tables; take fields, outline or faces");
@@ -65,6 +63,12 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
 }
 
 } // namespace
+
+void require_file_name(const std::string& name)
+{
+    if (name.find_first_of(std::string_view("/\\\0", 3)) != std::string::npos || name == "." || name == "..")
+        throw InputError(fmt::format("\"{}\" is no name of a file; leave out folders", name));
+}
 
 const std::vector<std::string>& output_formats()
 {

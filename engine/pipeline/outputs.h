@@ -30,6 +30,9 @@ struct OutputOptions {
     friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
 };
 
+/// @throws InputError if a name that was asked for leads out of the folder or is none: it has a path separator, say
+void require_file_name(const std::string& name);
+
 /// The files that write_outputs() would write now, in the order of `formats`: PART.iges, PART.step, PART.glb, PART.vtu,
 /// PART.dxf, PART.png, and for csv the tables fields.csv, outline.csv and faces.csv (with a name: NAME-fields.csv
 /// ...). IGES and STEP need a surface, a GLB file one of its nodes; without it they are left out.

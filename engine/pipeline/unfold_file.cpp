@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "engine/mesh/box_tree.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/pipeline/file_members.h"
 #include "engine/unfold/given_face.h"
@@ -24,7 +25,7 @@ class NamedRegions {
 public:
     NamedRegions(const Json& json, const Place& place, const PartFile& part, const BendMap& map,
                  std::vector<std::string>& findings)
-        : part_(part.mesh), map_(map)
+        : part_(part.mesh), map_(map), tree_(part.mesh)
     {
         for (int label = 0; label <= map.label.maxCoeff(); ++label)
             own_[map.name(label)] = label;
@@ -83,7 +84,7 @@ private:
         };
         std::vector<double> distance(size_t(map_.label.maxCoeff() + 1), most_mm);
         int closest = 0;
-        for (int f = 0; f < part_.triangles(); ++f) {
+        for (const int f : faces_around(where, near * map_.side)) {
             const Eigen::Matrix3d x = part_.position(Eigen::all, part_.triangle.col(f));
             double& least = distance[size_t(map_.label[f])];
             least = std::min(least, (x * closest_on_triangle(x, where) - where).norm());
@@ -106,14 +107,39 @@ private:
         }
         if (distance[size_t(closest)] > near * map_.side)
             return fmt::format("the part has nothing at its place, the nearest is {:.3g} mm away",
-                               distance[size_t(closest)]);
+                               ClosestPointSearch(part_).nearest(where).distance);
         if (!is_kind(closest))
             return fmt::format("at its place there is a {} now", kind == "bend" ? "region" : "bend");
         return fmt::format("it had {:.4g} mm2, at its place there are {:.4g} mm2 now", *area, map_.area_of(closest));
     }
 
+    /// Those whose boxes are within a distance, ascending.
+    FaceSet faces_around(const Eigen::Vector3d& where, double mm) const
+    {
+        constexpr double rounding = 1e-9;
+        const double reach = mm * (1 + rounding) + rounding * where.cwiseAbs().maxCoeff();
+        FaceSet faces;
+        std::vector<int> open = {0};
+        while (!open.empty()) {
+            const int k = open.back();
+            open.pop_back();
+            const BoxTree::Node& node = tree_.node[size_t(k)];
+            if (node.box.squaredExteriorDistance(where) > reach * reach)
+                continue;
+            for (int i = node.first; i < node.first + node.count; ++i)
+                faces.push_back(tree_.face[size_t(i)]);
+            if (node.count == 0) {
+                open.push_back(node.second);
+                open.push_back(k + 1);
+            }
+        }
+        std::sort(faces.begin(), faces.end());
+        return faces;
+    }
+
     const TriMesh& part_;
     const BendMap& map_;
+    BoxTree tree_;
     std::map<std::string, int> named_, own_;
 };
 
@@ -149,9 +175,11 @@ Pick pick_in(const Json& json, const Place& place, const PartFile& part, const B
             else
                 pick.labels.push_back(label);
         }
+        std::vector<char> named(size_t(map.label.maxCoeff() + 1), 0);
+        for (const int label : pick.labels)
+            named[size_t(label)] = 1;
         for (int f = 0; f < part.mesh.triangles(); ++f)
-            for (const int label : pick.labels)
-                chosen[size_t(f)] |= char(map.label[f] == label);
+            chosen[size_t(f)] |= named[size_t(map.label[f])];
     }
     pick.faces = chosen_faces(chosen);
     if (pick.faces.empty() && pick.missing.empty())
@@ -263,6 +291,35 @@ std::vector<std::string> read_friction(const Json& json, const Place& place, con
     return picked.missing;
 }
 
+/// What a pick names, as it names it: "region 4, lip" or "3 faces".
+std::string in_words(const Json& pick)
+{
+    std::vector<std::string> words;
+    if (pick.contains("regions"))
+        words = pick["regions"].get<std::vector<std::string>>();
+    constexpr size_t most = 6;
+    if (words.size() > most)
+        words = {words[0], words[1], words[2], fmt::format("{} more", words.size() - 3)};
+    if (pick.contains("faces"))
+        words.push_back(pick["faces"].size() == 1 ? fmt::format("face {}", pick["faces"][0].get<double>())
+                                                  : fmt::format("{} faces", pick["faces"].size()));
+    if (pick.contains("box"))
+        words.emplace_back("what is in a box");
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// What a step without a name is called: what it does. @param json with the members of its kind
+std::string step_in_words(const Json& json, UnfoldKind kind)
+{
+    switch (kind) {
+    case UnfoldKind::flatten: return "flatten the whole part";
+    case UnfoldKind::unroll: return "unroll from " + in_words(json["carrying"]);
+    case UnfoldKind::lay: break;
+    }
+    return fmt::format("{} onto {}", in_words(json["freed"]),
+                       in_words(json.contains("carrying") ? json["carrying"] : json["fixed"]));
+}
+
 UnfoldKind kind_in(const Json& json, const Place& place)
 {
     const std::string wanted = text_in(json, place, "kind", "lay");
@@ -296,6 +353,9 @@ std::string read_step(const Json& json, const Place& place, const PartFile& part
                carrying = read("carrying", step.kind == UnfoldKind::unroll);
     if (step.kind == UnfoldKind::flatten && carrying)
         place.member("carrying").fail("has no meaning: nothing stays when the whole part is flattened");
+    step.name = text_in(json, place, "name", {});
+    if (step.name.empty())
+        step.name = step_in_words(json, step.kind);
     if (lays) {
         step.pick.freed = freed->faces;
         step.pick.fixed = fixed->faces;
@@ -352,11 +412,10 @@ ReadScript read_unfold_script(const std::filesystem::path& file, const PartFile&
     ReadScript script;
     const NamedRegions regions(json, top, part, map, script.findings);
     find(json, top, "steps", true);
-    each_of(json, top, "steps", [&](const Json& each, const Place& place, const std::string& otherwise) {
+    each_of(json, top, "steps", [&](const Json& each, const Place& place, const std::string&) {
         PlannedStep step;
         std::vector<std::string> left_out;
         const std::string why = read_step(each, place, part, map, regions, step, left_out);
-        step.name = text_in(each, place, "name", otherwise);
         if (!why.empty())
             script.findings.push_back(fmt::format("step \"{}\" is left out: {}", step.name, why));
         else {

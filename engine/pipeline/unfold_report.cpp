@@ -7,6 +7,7 @@
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/unfold_file.h"
+#include "engine/pipeline/unfold_shortcomings.h"
 
 namespace spia {
 namespace {
@@ -212,7 +213,7 @@ Json state_json(const UnfoldState& state)
                  {"thinning_min", state.face.thinning.minCoeff()},
                  {"necking_triangles", state.necking},
                  {"friction_share", state.friction_share},
-                 {"overlap", {{"places", state.overlap.places}}},
+                 {"overlap", {{"places", state.overlap.places}, {"landed", state.overlap.landed}}},
                  {"seconds", state.seconds}};
     if (state.overlap.places > 0)
         json["overlap"]["first_mm"] = xyz(state.overlap.first);
@@ -296,7 +297,8 @@ std::string unfold_report_json(const std::filesystem::path& input, const PartFil
         {"steps", steps.size()},
         {"states", states},
         {"failure", run.failure.empty() ? Json(nullptr) : Json(run.failure)},
-        {"findings", findings}};
+        {"findings", findings},
+        {"shortcomings", shortcomings(run, bounding_diagonal(part.mesh), findings)}};
     if (run.blank) {
         const Eigen::Vector2d size =
             run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();

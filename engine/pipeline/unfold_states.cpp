@@ -17,7 +17,7 @@
 namespace spia {
 namespace {
 
-constexpr std::string_view schema = "spia.unfold-states/1";
+constexpr std::string_view schema = "spia.unfold-states/2";
 
 template <class Derived> Json numbers(const Eigen::PlainObjectBase<Derived>& values)
 {
@@ -211,6 +211,7 @@ Json state_json(const UnfoldState& state)
                  {"reason", state.reason},
                  {"beyond", state.necking},
                  {"overlap", state.overlap.places},
+                 {"overlap_landed", state.overlap.landed},
                  {"overlap_first", numbers(state.overlap.first)},
                  {"reach_mm", state.reach.farthest_mm},
                  {"without_room", state.reach.without_room},
@@ -247,6 +248,7 @@ UnfoldState state_of(const Json& json, const TriMesh& part, const std::string& n
     state.friction_share = number(json, "friction_share");
     state.necking = count(json, "beyond");
     state.overlap.places = count(json, "overlap");
+    state.overlap.landed = count(json, "overlap_landed");
     take(json, "overlap_first", 3, 1, state.overlap.first);
     state.reach = {number(json, "reach_mm"), count(json, "without_room")};
     state.seconds = number(json, "seconds");

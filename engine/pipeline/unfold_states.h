@@ -15,7 +15,7 @@ struct KeptStates {
 };
 
 /// Writes the states of a run with all that they hang on, so that read_unfold_states() can tell which of them hold for a script:
-/// the part, the sheet, the options, each step with its faces. CBOR (RFC 8949), schema spia.unfold-states/1, numbers in full; behind
+/// the part, the sheet, the options, each step with its faces. CBOR (RFC 8949), schema spia.unfold-states/2, numbers in full; behind
 /// it a checksum of four bytes.
 /// @throws ExchangeError as write_atomically()
 void write_unfold_states(const std::filesystem::path& file, const TriMesh& part, const FlattenOptions& options,

@@ -131,16 +131,13 @@ Bands find_bands(const TriMesh& part, const SheetTurns& turns, const std::vector
         k = k < 0 ? -1 : order[size_t(k)];
     const std::vector<double> area = areas_of(turns, bands.of, pairs.size());
     const std::vector<Eigen::Vector3d> place = places(part, turns, bands.of, pairs.size());
+    std::vector<int> faces(pairs.size(), 0);
+    for (const int k : bands.of)
+        if (k >= 0)
+            ++faces[size_t(k)];
     for (size_t k = 0; k < pairs.size(); ++k) {
         const auto n = size_t(order[k]);
-        bands.bends[n] = {pairs[k].first,
-                          pairs[k].second,
-                          int(std::count(bands.of.begin(), bands.of.end(), int(n))),
-                          area[n],
-                          0,
-                          0,
-                          0,
-                          place[n]};
+        bands.bends[n] = {pairs[k].first, pairs[k].second, faces[n], area[n], 0, 0, 0, place[n]};
     }
     measure_bends(turns, region, bands.of, ways, bands.bends);
     return bands;

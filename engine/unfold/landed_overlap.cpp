@@ -1,9 +1,11 @@
 #include "engine/unfold/landed_overlap.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/mesh/disjoint_sets.h"
@@ -22,6 +24,7 @@ struct Landed {
     std::vector<int> source; ///< #V, of the part
     std::vector<int> piece;  ///< #V, the first face of the sheet that hangs together
     Eigen::Matrix2Xd flat;   ///< 2 by #V, mm
+    std::vector<int> face;   ///< #F, of the part
 };
 
 std::vector<int> faces_on(const TriMesh& now, const BinderFace& target, double within_mm)
@@ -94,6 +97,7 @@ Landed developed_faces(const TriMesh& now, const BinderFace& target, const std::
         }
         landed.mesh.triangle.reshaped()[Eigen::Index(c)] = number[root];
     }
+    landed.face = whole;
     landed.mesh.position = now.position(Eigen::all, landed.source);
     landed.flat.resize(2, landed.mesh.vertices());
     for (int v = 0; v < landed.mesh.vertices(); ++v)
@@ -101,10 +105,39 @@ Landed developed_faces(const TriMesh& now, const BinderFace& target, const std::
     return landed;
 }
 
-/// A vertex of every piece that lies within another one, though no outline of it meets another's.
-std::vector<int> nested(const Landed& landed, const std::set<int>& crossing)
+/// Which of the landed sheet a step has moved.
+struct Moved {
+    std::vector<char> face, vertex;        ///< #F; #V: a face around it
+    std::set<int> piece;                   ///< with such a face
+    std::set<std::pair<int, int>> outline; ///< edges of such faces, low vertex first
+
+    Moved(const Landed& landed, int faces_of_part, const std::vector<int>& moved)
+        : face(landed.face.size(), 0), vertex(landed.source.size(), 0)
+    {
+        std::vector<char> of_part(size_t(faces_of_part), 0);
+        for (const int f : moved)
+            of_part[size_t(f)] = 1;
+        for (size_t f = 0; f < face.size(); ++f) {
+            face[f] = of_part[size_t(landed.face[f])];
+            if (face[f])
+                for (const int v : landed.mesh.triangle.col(Eigen::Index(f))) {
+                    vertex[size_t(v)] = 1;
+                    piece.insert(landed.piece[size_t(v)]);
+                }
+        }
+        const std::vector<EdgeUse> uses = edge_uses(landed.mesh.triangle);
+        for_each_edge(uses, [&](size_t begin, size_t end) {
+            if (end - begin == 1 && face[size_t(uses[begin].face)])
+                outline.insert({uses[begin].low, uses[begin].high});
+        });
+    }
+    bool edge(const std::array<int, 2>& e) const { return outline.count(std::minmax(e[0], e[1])) > 0; }
+};
+
+/// A vertex of every piece that lies within another one, though no outline of it meets another's, and the face it lies on.
+std::vector<std::pair<int, int>> nested(const Landed& landed, const std::set<int>& crossing)
 {
-    std::vector<int> found;
+    std::vector<std::pair<int, int>> found;
     std::set<int> seen = crossing;
     const PlanarLocator locator(landed.flat, landed.mesh.triangle);
     std::map<int, int> fans;
@@ -121,7 +154,7 @@ std::vector<int> nested(const Landed& landed, const std::set<int>& crossing)
             const Eigen::Vector2d a = landed.flat.col(t[0]), b = landed.flat.col(t[1]), c = landed.flat.col(t[2]);
             if (landed.piece[size_t(t[0])] != landed.piece[size_t(v)] && orient2d(a, b, x) >= 0 &&
                 orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0) {
-                found.push_back(v);
+                found.emplace_back(v, place.face);
                 break;
             }
         }
@@ -131,7 +164,8 @@ std::vector<int> nested(const Landed& landed, const std::set<int>& crossing)
 
 } // namespace
 
-LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, double within_mm)
+LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, double within_mm,
+                             const std::vector<int>& moved)
 {
     LandedOverlap result;
     const std::vector<int> faces = faces_on(now, target, within_mm);
@@ -141,9 +175,11 @@ LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, doubl
     if (landed.mesh.triangles() == 0)
         return result;
     const Overlap over = overlap(landed.mesh, landed.flat);
-    const auto take = [&](const Eigen::Vector3d& place) {
+    const Moved by_step(landed, now.triangles(), moved);
+    const auto take = [&](const Eigen::Vector3d& place, bool of_moved) {
         if (result.places++ == 0)
             result.first = place;
+        result.landed += of_moved;
     };
     std::set<int> crossing;
     for (const OutlineCrossing& pair : over.crossings) {
@@ -156,12 +192,14 @@ LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, doubl
             continue;
         if (landed.piece[size_t(a)] != landed.piece[size_t(c)])
             crossing.insert({landed.piece[size_t(a)], landed.piece[size_t(c)]});
-        take((landed.mesh.position.col(a) + landed.mesh.position.col(b)) / 2);
+        take((landed.mesh.position.col(a) + landed.mesh.position.col(b)) / 2,
+             by_step.edge({a, b}) || by_step.edge({c, d}));
     }
     for (const int v : over.wound)
-        take(landed.mesh.position.col(v));
-    for (const int v : nested(landed, crossing))
-        take(landed.mesh.position.col(v));
+        take(landed.mesh.position.col(v), by_step.vertex[size_t(v)]);
+    for (const auto& [v, face] : nested(landed, crossing))
+        take(landed.mesh.position.col(v),
+             by_step.piece.count(landed.piece[size_t(v)]) > 0 || by_step.face[size_t(face)]);
     return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "engine/mesh/tri_mesh.h"
 #include "engine/unfold/binder_face.h"
@@ -12,6 +13,7 @@ struct LandedOverlap {
         0; ///< pairs of edges of the outlines that meet, vertices whose faces go around them more than once, and pieces
            ///< that lie within another
     Eigen::Vector3d first = Eigen::Vector3d::Zero(); ///< mm, one of them; zero where there is none
+    int landed = 0; ///< of these places, those of faces that were moved there; the others were there before
 };
 
 /// Judged exactly in the development of the target (overlap.h) over all faces that lie on it with their outer side outside; each
@@ -19,6 +21,8 @@ struct LandedOverlap {
 /// are left out.
 /// @param now       the part in a state
 /// @param within_mm how far beside the target a vertex may be that lies on it
-LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, double within_mm);
+/// @param moved     faces that the step has laid there
+LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, double within_mm,
+                             const std::vector<int>& moved = {});
 
 } // namespace spia

@@ -2,13 +2,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/forming/flatten_from.h"
 #include "engine/forming/flips.h"
+#include "engine/mesh/segment_distance.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -41,25 +42,18 @@ void lay_onto(const TriMesh& part, const Eigen::Matrix2Xd& other, Eigen::Matrix2
     X = (Eigen::Rotation2Dd(angle).toRotationMatrix() * (X.colwise() - from)).colwise() + to;
 }
 
-double distance(const Eigen::Vector2d& p, const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& X)
-{
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& loop : loops)
-        for (size_t i = 0; i < loop.size(); ++i) {
-            const Eigen::Vector2d a = X.col(loop[i]), way = X.col(loop[(i + 1) % loop.size()]) - a;
-            const double t = std::clamp((p - a).dot(way) / std::max(way.squaredNorm(), 1e-300), 0.0, 1.0);
-            least = std::min(least, (p - a - t * way).squaredNorm());
-        }
-    return std::sqrt(least);
-}
-
 void measure_outlines(const TriMesh& part, const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b, PolishedBlank& result)
 {
     const auto loops = boundary_loops(part);
+    std::vector<std::array<int, 2>> edges;
+    for (const auto& loop : loops)
+        for (size_t i = 0; i < loop.size(); ++i)
+            edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    const SegmentDistance to_a(a, edges), to_b(b, edges);
     double most = 0, sum = 0, count = 0;
     for (const auto& loop : loops)
         for (const int v : loop)
-            for (const double off : {distance(a.col(v), loops, b), distance(b.col(v), loops, a)}) {
+            for (const double off : {to_b(a.col(v)), to_a(b.col(v))}) {
                 most = std::max(most, off);
                 sum += off;
                 ++count;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <fmt/core.h>
-#include <limits>
 #include <map>
 
 #include "engine/core/error.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/segment_distance.h"
 
 namespace spia {
 namespace {
@@ -70,13 +70,6 @@ Eigen::Matrix3Xd in_space(const Eigen::Matrix2Xd& flat)
     Eigen::Matrix3Xd space = Eigen::Matrix3Xd::Zero(3, flat.cols());
     space.topRows(2) = flat;
     return space;
-}
-
-double distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    const Eigen::Vector2d along = b - a;
-    const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    return (p - a - t * along).norm();
 }
 
 /// Where a value of the vertices is one half, in straight pieces through the faces.
@@ -158,6 +151,9 @@ std::vector<SheetLine> bend_lines(const TriMesh& part, const BendMap& map, const
             border[std::minmax({map.label[uses[begin].face], map.label[uses[end - 1].face]})].push_back(
                 {uses[begin].low, uses[begin].high});
     });
+    std::vector<FaceSet> faces_of(map.regions.size() + map.bends.size());
+    for (int f = 0; f < part.triangles(); ++f)
+        faces_of[size_t(map.label[f])].push_back(f);
     std::vector<SheetLine> lines;
     const auto add = [&](const std::string& name, const std::vector<Segment>& segments) {
         for (const auto& chain : chained(segments))
@@ -177,19 +173,14 @@ std::vector<SheetLine> bend_lines(const TriMesh& part, const BendMap& map, const
         const std::vector<Segment>&from = border[{bend.a, label}], &to = border[{bend.b, label}];
         if (from.empty() || to.empty())
             continue;
-        const FaceSet faces = map.faces_of(label);
+        const FaceSet& faces = faces_of[size_t(label)];
+        const SegmentDistance to_from(flat, from), to_to(flat, to);
         std::map<int, double> share; // 0 at region a, 1 at region b
         for (const int f : faces)
             for (const int v : part.triangle.col(f)) {
                 if (share.count(v))
                     continue;
-                const auto nearest = [&](const std::vector<Segment>& segments) {
-                    double least = std::numeric_limits<double>::infinity();
-                    for (const Segment& s : segments)
-                        least = std::min(least, distance(flat.col(v), flat.col(s[0]), flat.col(s[1])));
-                    return least;
-                };
-                const double a = nearest(from), b = nearest(to);
+                const double a = to_from(flat.col(v)), b = to_to(flat.col(v));
                 share[v] = a + b > 0 ? a / (a + b) : 0.5;
             }
         for (SheetLine& line : half_way(map.name(label), part, faces, flat, share))

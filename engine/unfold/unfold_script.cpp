@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <numbers>
 
 #include "engine/core/error.h"
@@ -18,6 +17,7 @@
 #include "engine/unfold/fit_height.h"
 #include "engine/unfold/target_friction.h"
 #include "engine/unfold/turn_binder.h"
+#include "engine/unfold/upright.h"
 
 namespace spia {
 namespace {
@@ -121,7 +121,8 @@ void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& 
                     sheet_of(options.material, options.thickness, options.curve, options.process, part, plane.axes));
     state.necking = state.face.necking.sum();
     state.plain = name(face);
-    state.overlap = landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part));
+    state.overlap =
+        landed_overlap({state.position, part.triangle}, plane, own_plane * bounding_diagonal(part), step.pick.freed);
 }
 
 /// How far beside the target what lies on it is: as far as what carries it, and no less than rounding.
@@ -166,30 +167,9 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     }
     state.necking = result.necking_triangles;
     state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
-                                   carried_within(state.position, part, step, result));
+                                   carried_within(state.position, part, step, result), step.pick.freed);
     if (step.kind == UnfoldKind::lay && !carrying_faces(step).empty())
         state.reach = target_reach({state.position, part.triangle}, carrying_faces(step), result.freed, step.extent_mm);
-}
-
-/// Turned so that the box around the blank is the smallest with a side along an edge of the outline; the longer side is x.
-Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat)
-{
-    const std::vector<int> loop = boundary_loops(part).front();
-    const Eigen::Matrix2Xd rim = flat(Eigen::all, loop);
-    Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
-    double least = std::numeric_limits<double>::infinity();
-    for (Eigen::Index k = 0; k < rim.cols(); ++k) {
-        const Eigen::Vector2d x = (rim.col((k + 1) % rim.cols()) - rim.col(k)).normalized();
-        Eigen::Matrix2d turn;
-        turn << x[0], x[1], -x[1], x[0];
-        const Eigen::Matrix2Xd turned = turn * rim;
-        const Eigen::Vector2d size = turned.rowwise().maxCoeff() - turned.rowwise().minCoeff();
-        if (size.prod() >= least * (1 - 1e-9))
-            continue;
-        least = size.prod();
-        best = size[0] >= size[1] ? turn : Eigen::Matrix2d((Eigen::Matrix2d() << 0, 1, -1, 0).finished() * turn);
-    }
-    return best * flat;
 }
 
 /// The part in the plane in which it lies, seen from the outer side.
@@ -205,7 +185,7 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     Eigen::Matrix2Xd seen(2, position.cols());
     seen.row(0) = u.transpose() * arm;
     seen.row(1) = normal.cross(u).transpose() * arm;
-    Blank blank{upright(part, seen)};
+    Blank blank{upright(boundary_loops(part).front(), seen)};
     flipped = flipped_triangles(part.triangle, blank.position);
     return blank;
 }
@@ -318,6 +298,7 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         next.face = state.face;
         next.step = state.step;
         try {
+            own.checkpoint(0, step.name);
             if (step.kind == UnfoldKind::unroll)
                 unroll(part, step, options, next);
             else
@@ -326,6 +307,8 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
             run.failure = error.what();
         } catch (const SolveError& error) {
             run.failure = error.what();
+        } catch (const Cancelled&) {
+            throw UnfoldingCancelled(script, std::move(run));
         }
         if (!run.failure.empty())
             return run;

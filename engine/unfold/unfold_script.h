@@ -1,8 +1,10 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/core/error.h"
 #include "engine/unfold/landed_overlap.h"
 #include "engine/unfold/sequence.h"
 #include "engine/unfold/target_reach.h"
@@ -43,9 +45,18 @@ struct UnfoldRun {
     int flipped = 0;                 ///< triangles of the blank
 };
 
+/// The user asked to stop: what was done until then.
+struct UnfoldingCancelled : Cancelled {
+    UnfoldingCancelled(UnfoldScript script, UnfoldRun run) : steps(std::move(script)), done(std::move(run)) {}
+
+    UnfoldScript steps; ///< all that were to be done
+    UnfoldRun done;     ///< the states of the leading ones; no blank
+};
+
 /// Runs all steps; of a step that has no result the run keeps the states before it.
 /// @param before of a run of the same part whose first `keep` steps are those of this script: they are not solved again
 /// @param progress one checkpoint per iteration; cancelling takes effect at the next one
+/// @throws UnfoldingCancelled with the states of the steps before
 /// @throws InputError if there is no step, an option or the friction of a step is not as described or there are fewer steps before
 ///                    than to keep
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,

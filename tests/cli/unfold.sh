@@ -50,6 +50,37 @@ grep -q "kept      3 states" "$out.log" || fail "not three states are kept"
 expect_exit 0 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/again" --redo 2 --strict
 grep -q "kept      1 states" "$out.log" || fail "not the first state alone is kept"
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "redone steps give other bits"
+# broken off at the second of three steps: the first one is not lost
+fender=$2/assets/parts/fender.obj
+expect_exit 0 "$spia" unfold "$fender" --auto --out "$out/whole"
+for signal in SIGINT SIGTERM; do
+    rm -rf "$out/broken"
+    expect_exit 130 python3 "$2/tests/cli/on_terminal.py" "region 2, region 3 onto" $signal "$spia" unfold "$fender" --auto --out "$out/broken"
+    grep -q "cancelled after 1 of 3 steps; to go on from their states: --script $out/broken/fender-script.json --out $out/broken --redo auto" "$out.log" ||
+        { cat "$out.log"; fail "a cancelled run does not say what it leaves"; }
+done
+[ "$(ls "$out/broken" | tr '\n' ' ')" = "fender-script.json fender-states.cbor " ] || fail "a cancelled run leaves something else: $(ls "$out/broken")"
+expect_exit 0 "$spia" unfold "$fender" --script "$out/broken/fender-script.json" --out "$out/broken" --redo auto
+grep -q "kept      1 states of an earlier run; step 2 was not done" "$out.log" || fail "the state of a cancelled run is not kept"
+cmp "$out/whole/fender-step3.vtu" "$out/broken/fender-step3.vtu" || fail "a run that was broken off gives other bits"
+expect_exit 130 python3 "$2/tests/cli/on_terminal.py" "region 2, region 3 onto" SIGINT "$spia" unfold "$fender" --script "$out/whole/fender-script.json" --out "$out/whole"
+[ -s "$out/whole/fender-step3.vtu" ] || fail "a cancelled run that adds nothing removes what was there"
+expect_exit 0 "$spia" unfold "$fender" --script "$out/whole/fender-script.json" --out "$out/whole" --redo auto
+grep -q "kept      3 states" "$out.log" || fail "a cancelled run with fewer states takes the place of one with more"
+expect_exit 130 python3 "$2/tests/cli/on_terminal.py" polish SIGINT "$spia" unfold "$fender" --auto --polish --out "$out/unpolished"
+expect_exit 0 "$spia" unfold "$fender" --script "$out/unpolished/fender-script.json" --out "$out/unpolished" --redo auto
+grep -q "kept      3 states" "$out.log" || fail "the polish was cancelled, and the states are gone"
+# broken off by a step that has no result
+python3 - "$out/whole/fender-script.json" "$out/far.json" <<'END'
+import json, sys
+script = json.load(open(sys.argv[1]))
+script["steps"][1]["target"] = {"cylinder": {"origin": [1e5, 0, 0], "axis": [0, 0, 1], "radius": 1}}
+json.dump(script, open(sys.argv[2], "w"))
+END
+expect_exit 3 "$spia" unfold "$fender" --script "$out/far.json" --out "$out/failed"
+grep -q "step 2 .*the states of the 1 steps before it are kept: --redo auto" "$out.log" || { cat "$out.log"; fail "the failed step does not say what is kept"; }
+expect_exit 0 "$spia" unfold "$fender" --script "$out/whole/fender-script.json" --out "$out/failed" --redo auto
+grep -q "kept      1 states" "$out.log" || fail "the state before a failed step is not kept"
 expect_exit 0 "$spia" unfold "$part" --auto --polish --out "$out/polished" --json "$out/polished.json" --strict
 for file in blank.dxf polished.dxf polished.vtu; do [ -s "$out/polished/lipped-channel-$file" ] || fail "no $file"; done
 grep -q "outline_distance_mm" "$out/polished.json" || fail "the two blanks are not compared"
@@ -79,6 +110,30 @@ grep -q "tear off face" "$out.log" || fail "the tear is not told"
 echo '{"steps": [{"freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/one.json"
 expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --strict
 grep -q "does not lie in a plane" "$out.log" || fail "the shortcoming is not told"
+# what names must not do
+expect_exit 2 "$spia" unfold "$part" --auto --out "$out/named" --name ../esc
+grep -q "\"../esc\" is no name of a file" "$out.log" || fail "a name that leads out of the folder is not refused in words"
+[ ! -e "$out/esc-blank.dxf" ] || fail "a name leads out of the folder"
+expect_exit 2 "$spia" run "$part" --out "$out/named" --name 'a\b'
+expect_exit 2 "$spia" run "$out/not-there.obj" --out "$out/named" --name a/b
+grep -q "is no name of a file" "$out.log" || fail "the name is refused after the part is read"
+esc=$'\033'
+echo '{"steps": [{"name": "a\u001b]0;owned\u0007\u009b2Jz\u00e9", "freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/escapes.json"
+expect_exit 0 "$spia" unfold "$part" --script "$out/escapes.json"
+! grep -q "$esc\|$(printf '\302\233')" "$out.log" || fail "a name sends control characters to the terminal"
+grep -qF 'a\x1b]0;owned\x07\xc2\x9b2Jzé' "$out.log" || { cat -v "$out.log"; fail "the name is not shown"; }
+expect_exit 0 python3 "$2/tests/cli/on_terminal.py" none SIGINT "$spia" unfold "$part" --script "$out/escapes.json"
+! grep -q "owned$(printf '\007')" "$out.log" || fail "the bar sends control characters to the terminal"
+expect_exit 2 "$spia" unfold "$part$esc[2J"
+expect_exit 4 "$spia" unfold "$part" --auto --out "$out/escapes.json/$esc[2J"
+! grep -q "$esc" "$out.log" || fail "a message sends control characters to the terminal"
+# what stands twice, or beyond all bounds
+sed 's/"fixed"/"name": "b", "fixed"/' "$out/escapes.json" > "$out/double.json"
+expect_exit 2 "$spia" unfold "$part" --script "$out/double.json"
+grep -qF "$out/double.json: /steps/0/name is there twice" "$out.log" || { cat "$out.log"; fail "a member that is there twice is taken"; }
+echo '{"lines": [{"points": [[0, 0], [1e400, 0]]}]}' > "$out/huge.json"
+expect_exit 2 "$spia" unfold "$part" --auto --out "$out/named" --to-part "$out/huge.json"
+grep -q "huge.json: .*1e400" "$out.log" || fail "a number beyond all bounds is not told with the file"
 # what a shorter script leaves of a longer one, and what hides its faults
 mkdir -p "$out/less"
 cp "$out/auto/"*.json "$out/less/"

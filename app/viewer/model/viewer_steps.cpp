@@ -154,9 +154,9 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
             say(Severity::warning,
-                fmt::format("In the step \"{}\" {} beyond the end of the target, up to {:.4g} mm from what carries it.",
-                            state.name, counted(size_t(state.reach.without_room), "face reaches", "faces reach"),
-                            state.reach.farthest_mm));
+                fmt::format(
+                    "In the step \"{}\" {} reach beyond the end of the target, up to {:.4g} mm from what carries it.",
+                    state.name, counted(size_t(state.reach.without_room), "face"), state.reach.farthest_mm));
     if (!run.failure.empty()) {
         const size_t failed = run.states.size();
         say(Severity::error,

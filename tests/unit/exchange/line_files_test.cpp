@@ -81,7 +81,7 @@ TEST(LineFiles, DxfLinesComeBackBitForBitInTheirLayers)
         const DxfLines read = read_dxf(folder / "x.dxf");
         EXPECT_TRUE(read.left_out.empty());
         ASSERT_EQ(read.lines.size(), 2u);
-        EXPECT_EQ(read.lines[0].name, "bend 1_ region 2");
+        EXPECT_EQ(read.lines[0].name.substr(0, 16), "bend 1_ region 2");
         for (size_t k = 0; k < 2; ++k) {
             EXPECT_EQ(read.lines[k].closed, lines[k].closed);
             ASSERT_EQ(read.lines[k].point.cols(), lines[k].point.cols());
@@ -100,6 +100,19 @@ TEST(LineFiles, DxfLinesComeBackBitForBitInTheirLayers)
         for (size_t k = 0; k < 2; ++k)
             EXPECT_LT((inch.lines[k].point - lines[k].point).cwiseAbs().maxCoeff(), 1e-12);
     }
+}
+
+TEST(LineFiles, LinesOfALayerAreToldApartByNumbers)
+{
+    const ScratchFolder folder;
+    const DxfLines read =
+        read_text(folder, dxf_of(entity("0 CIRCLE 8 holes 10 7 20 8 40 5") + entity("0 LINE 8 0 10 1 20 2 11 4 21 6") +
+                                 entity("0 LINE 8 slot 10 1 20 2 11 4 21 6") +
+                                 entity("0 CIRCLE 8 holes 10 1 20 8 40 5") + entity("0 LINE 8 0 10 1 20 2 11 5 21 6")));
+    std::vector<std::string> names;
+    for (const SheetLine& line : read.lines)
+        names.push_back(line.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"holes line 1", "line 1", "slot", "holes line 2", "line 2"}));
 }
 
 TEST(LineFiles, CirclesArcsAndBulgesAreRound)

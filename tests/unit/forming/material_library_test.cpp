@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 const fs::path shipped = fs::path(SPIA_SOURCE_DIR) / "assets/materials";
@@ -452,9 +453,15 @@ TEST(MaterialLibrary, AFileThatIsNoJsonObjectIsRefusedByItsName)
     for (const std::string& content : contents) {
         put(file, content);
         EXPECT_THAT(complaint([&] { find_material(file.string(), shipped); }),
-                    AllOf(HasSubstr(file.string()), HasSubstr("is no JSON object")))
+                    AllOf(HasSubstr(file.string()),
+                          AnyOf(HasSubstr("is no JSON object"), HasSubstr("parse error"), HasSubstr("it is empty"))))
             << content;
     }
+    std::string twice = good;
+    twice.insert(twice.rfind('}'), ", \"name\": \"other\"");
+    put(file, twice);
+    EXPECT_EQ(complaint([&] { find_material(file.string(), shipped); }),
+              file.string() + ": /name is there twice; leave one of them");
 }
 
 } // namespace spia

@@ -99,11 +99,38 @@ TEST_F(UnfoldFile, APickUnitesRegionsFacesAndABox)
     const ReadScript whole = read(R"({"steps": [{"freed": {"box": [[-60, -60, 0.1], [60, 60, 99]]},
         "fixed": {"regions": ["region 1"]}, "target": {"plane": {"origin": [0, 0, 0], "normal": [0, 0, -3]}}}]})");
     ASSERT_EQ(whole.steps.size(), 1u);
-    EXPECT_EQ(whole.steps[0].name, "steps 1");
+    EXPECT_EQ(whole.steps[0].name, "what is in a box onto region 1");
     EXPECT_EQ(int(whole.steps[0].pick.freed.size()), part.mesh.triangles() - map.regions[0].faces);
     ASSERT_TRUE(whole.steps[0].pick.target);
     const Eigen::Vector3d normal = outer_normal(*whole.steps[0].pick.target, {5, 5, 5});
     EXPECT_NEAR((normal + Eigen::Vector3d::UnitZ()).norm(), 0, 1e-12);
+}
+
+TEST_F(UnfoldFile, AStepWithoutANameIsCalledByWhatItDoes)
+{
+    const auto named = [&](const std::string& members) {
+        return read(R"({"steps": [{)" + members + "}]}").steps.at(0).name;
+    };
+    const std::string lip = R"("freed": {"regions": ["region 6"]}, "fixed": {"regions": ["region 2"]})";
+    EXPECT_EQ(named(lip), "region 6 onto region 2");
+    EXPECT_EQ(named(R"("name": "", )" + lip), "region 6 onto region 2");
+    EXPECT_EQ(named(R"("name": "the lip", )" + lip), "the lip");
+    EXPECT_EQ(named(R"("freed": {"regions": ["region 6", "region 7"]}, "fixed": {"regions": ["region 2", "region 3"]},
+                       "carrying": {"regions": ["region 3"]})"),
+              "region 6, region 7 onto region 3");
+    EXPECT_EQ(named(R"("kind": "flatten")"), "flatten the whole part");
+    EXPECT_EQ(named(R"("kind": "unroll", "carrying": {"regions": ["region 1"], "faces": [0, 1]})"),
+              "unroll from region 1, 2 faces");
+    const ReadScript left = read(R"({"regions": [{"name": "far", "at": [900, 0, 0]}],
+        "steps": [{"freed": {"regions": ["far"]}, "fixed": {"regions": ["region 2"]}}, {)" +
+                                 lip + "}]}");
+    EXPECT_EQ(left.findings.back(), "step \"far onto region 2\" is left out: nothing of what it moves is there");
+}
+
+TEST_F(UnfoldFile, ANumberBeyondAllBoundsIsToldWithTheFile)
+{
+    EXPECT_EQ(fault(R"({"steps": [{"freed": {"faces": [1e400]}, "fixed": {"regions": ["region 2"]}}]})"),
+              ": number overflow parsing '1e400'");
 }
 
 TEST_F(UnfoldFile, FrictionIsReadAndWrittenBackAsItIs)
@@ -137,8 +164,9 @@ TEST_F(UnfoldFile, FrictionIsReadAndWrittenBackAsItIs)
         "fixed": {"regions": ["region 2"]}, "friction": {"coefficient": 0.1, "pressure_MPa": 1, "regions": ["far"]}}]})");
     ASSERT_EQ(gone.steps.size(), 1u);
     EXPECT_FALSE(gone.steps[0].pick.friction);
-    EXPECT_NE(std::find(gone.findings.begin(), gone.findings.end(), "step \"steps 1\": friction without far"),
-              gone.findings.end());
+    EXPECT_NE(
+        std::find(gone.findings.begin(), gone.findings.end(), "step \"region 6 onto region 2\": friction without far"),
+        gone.findings.end());
 }
 
 TEST_F(UnfoldFile, CylinderAndConeAreTargets)

@@ -64,6 +64,7 @@ void expect_same(const UnfoldState& a, const UnfoldState& b)
     EXPECT_EQ(a.trusted_strain, b.trusted_strain);
     EXPECT_EQ(a.necking, b.necking);
     EXPECT_EQ(a.overlap.places, b.overlap.places);
+    EXPECT_EQ(a.overlap.landed, b.overlap.landed);
     EXPECT_EQ(a.overlap.first, b.overlap.first);
     EXPECT_EQ(a.reach.farthest_mm, b.reach.farthest_mm);
     EXPECT_EQ(a.reach.without_room, b.reach.without_room);
@@ -92,7 +93,7 @@ TEST_F(UnfoldStates, AreReadBackToTheLastBit)
     run.states[0].friction_share = 0.75;
     run.states[0].system = SolvedSystem::relaxed;
     run.states[0].trusted_strain = 0.25;
-    run.states[0].overlap = {3, {1, 2, 3}};
+    run.states[0].overlap = {3, {1, 2, 3}, 2};
     run.states[0].reach = {4.5, 6};
     write();
     const KeptStates kept = read(steps);

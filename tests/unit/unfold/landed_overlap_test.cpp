@@ -35,8 +35,8 @@ TriMesh together(const TriMesh& a, const TriMesh& b)
 
 int places(const TriMesh& a, const TriMesh& b) { return landed_overlap(together(a, b), ground, 1e-9).places; }
 
-/// A plate with a slot from its front edge and a flap bent up from either side of the slot.
-TriMesh slotted(double flap)
+/// A plate with a slot from its front edge and a flap bent up from either side of the slot; one more along the edge at the back.
+TriMesh slotted(double flap, double back = 0)
 {
     const double h = 20; // half the width of the slot
     std::vector<Patch> patches = {{{{{-60, -40, 0}, {-h, -40, 0}, {-h, 20, 0}, {-60, 20, 0}}}, 8, 12},
@@ -46,7 +46,20 @@ TriMesh slotted(double flap)
                                   {{{{h, 20, 0}, {60, 20, 0}, {60, 40, 0}, {h, 40, 0}}}, 8, 4},
                                   {{{{-h, -40, 0}, {-h, -40, flap}, {-h, 10, flap}, {-h, 10, 0}}}, 4, 10},
                                   {{{{h, 10, 0}, {h, 10, flap}, {h, -40, flap}, {h, -40, 0}}}, 4, 10}};
+    if (back > 0)
+        for (const auto& [from, to] : {std::pair(-60., -h), {-h, h}, {h, 60.}})
+            patches.push_back({{{{from, 40, 0}, {to, 40, 0}, {to, 40, back}, {from, 40, back}}}, 8, 4});
     return shapes::patchwork(patches);
+}
+
+/// Faces whose middles a test holds for.
+template <class Where> FaceSet faces_where(const TriMesh& mesh, const Where& where)
+{
+    FaceSet faces;
+    for (int f = 0; f < mesh.triangles(); ++f)
+        if (where(Eigen::Vector3d(mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean())))
+            faces.push_back(f);
+    return faces;
 }
 
 UnfoldRun automatic(const TriMesh& part)
@@ -101,6 +114,53 @@ TEST(LandedOverlap, FacesThatMeetInACornerDoNotLieOnEachOther)
     const TriMesh corner = shapes::patchwork({{{{{0, 0, 0}, {30, 0, 0}, {30, 30, 0}, {0, 30, 0}}}, 3, 3},
                                               {{{{30, 30, 0}, {60, 30, 0}, {60, 60, 0}, {30, 60, 0}}}, 3, 3}});
     EXPECT_EQ(landed_overlap(corner, ground, 1e-9).places, 0);
+}
+
+TEST(LandedOverlap, CountsAsLandedOnlyPlacesOfFacesThatWereMoved)
+{
+    const auto counts = [](const TriMesh& mesh, const FaceSet& moved) {
+        const LandedOverlap over = landed_overlap(mesh, ground, 1e-9, moved);
+        return std::pair(over.places, over.landed);
+    };
+    const TriMesh base = rectangle(0, 0, 100, 60), across = rectangle(90, 10, 50, 20),
+                  within = rectangle(31, 17, 11, 8);
+    const int half = base.triangles();
+    for (const TriMesh& other : {across, within}) {
+        const TriMesh both = together(base, other);
+        const auto [all, none] = counts(both, {});
+        EXPECT_GT(all, 0);
+        EXPECT_EQ(none, 0);
+        EXPECT_EQ(counts(both, faces_where(both, [](auto&&) { return true; })), std::pair(all, all));
+        FaceSet first, second;
+        for (int f = 0; f < both.triangles(); ++f)
+            (f < half ? first : second).push_back(f);
+        EXPECT_EQ(counts(both, first), std::pair(all, all)) << "either of the two may have come";
+        EXPECT_EQ(counts(both, second), std::pair(all, all));
+    }
+    const TriMesh three = together(together(base, across), rectangle(200, 0, 10, 10));
+    const FaceSet third = faces_where(three, [](const Eigen::Vector3d& x) { return x.x() > 150; });
+    EXPECT_EQ(counts(three, third), std::pair(places(base, across), 0));
+}
+
+TEST(LandedOverlap, ALaterStepElsewhereOnTheTargetIsNotToBlame)
+{
+    const TriMesh part = slotted(25, 15);
+    FlattenOptions options;
+    options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    const FaceSet plate = faces_where(part, [](const Eigen::Vector3d& x) { return x.z() < 1e-9; });
+    UnfoldScript steps(2);
+    steps[0].name = "flaps";
+    steps[0].pick.freed = faces_where(part, [](const Eigen::Vector3d& x) { return x.z() > 0 && x.y() < 39; });
+    steps[0].pick.fixed = plate;
+    steps[1].name = "back";
+    steps[1].pick.freed = faces_where(part, [](const Eigen::Vector3d& x) { return x.z() > 0 && x.y() > 39; });
+    steps[1].pick.fixed = plate;
+    const UnfoldRun run = run_unfolding(part, steps, options);
+    ASSERT_EQ(run.states.size(), 2U) << run.failure;
+    EXPECT_GT(run.states[0].overlap.places, 0);
+    EXPECT_EQ(run.states[0].overlap.landed, run.states[0].overlap.places);
+    EXPECT_EQ(run.states[1].overlap.places, run.states[0].overlap.places);
+    EXPECT_EQ(run.states[1].overlap.landed, 0);
 }
 
 TEST(LandedOverlap, GoesAroundACylinderOnce)

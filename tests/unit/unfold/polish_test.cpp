@@ -1,7 +1,10 @@
 #include "engine/unfold/polish.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/forming/flatten_from.h"
@@ -99,6 +102,48 @@ TEST(Polish, TellsHowFarTheOutlinesAreApart)
     EXPECT_EQ(run.blank->position.row(0), 1.02 * part.flat.row(0)); // that of the steps is kept
     EXPECT_GT(polished.steps.distortion.angular_rms, 1e-3);
     EXPECT_LT(polished.polished.distortion.angular_rms, 1e-9);
+}
+
+TEST(Polish, TheOutlineDistancesAreThoseOfEveryVertexFromEveryEdge)
+{
+    const TriMesh part = shapes::round_cup({.triangles = 1500});
+    UnfoldRun run = automatic(part);
+    const Eigen::Matrix2Xd middle = run.blank->position.rowwise().mean().replicate(1, part.vertices());
+    Eigen::Matrix2Xd& before = run.blank->position;
+    for (int v = 0; v < part.vertices(); ++v) // one side stands out
+        before(0, v) += 0.1 * std::max(0.0, before(0, v) - middle(0, v));
+    const PolishedBlank polished = polish(part, run, steel());
+    const Eigen::Matrix2Xd& after = polished.whole.blank.position;
+    std::vector<std::pair<int, int>> rim; // edges of one face
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = part.triangle(k, f), b = part.triangle((k + 1) % 3, f);
+            int faces = 0;
+            for (const auto& t : part.triangle.colwise())
+                faces += (t.array() == a).any() && (t.array() == b).any();
+            if (faces == 1)
+                rim.emplace_back(a, b);
+        }
+    const auto off = [&](const Eigen::Vector2d& p, const Eigen::Matrix2Xd& X) {
+        double least = 1e9;
+        for (const auto& [a, b] : rim) {
+            const double length = (X.col(b) - X.col(a)).norm(),
+                         along = (p - X.col(a)).dot(X.col(b) - X.col(a)) / length;
+            const Eigen::Vector2d foot =
+                X.col(a) + std::min(length, std::max(0.0, along)) / length * (X.col(b) - X.col(a));
+            least = std::min(least, (p - foot).norm());
+        }
+        return least;
+    };
+    double most_before = 0, most_after = 0, sum = 0;
+    for (const auto& [v, next] : rim) {
+        most_before = std::max(most_before, off(before.col(v), after));
+        most_after = std::max(most_after, off(after.col(v), before));
+        sum += off(before.col(v), after) + off(after.col(v), before);
+    }
+    EXPECT_GT(std::abs(most_before - most_after), 1e-6) << "else either way would do";
+    EXPECT_NEAR(polished.outline_distance_mm, std::max(most_before, most_after), 1e-9);
+    EXPECT_NEAR(polished.outline_distance_mean_mm, sum / (2 * double(rim.size())), 1e-9);
 }
 
 TEST(Polish, SaysInWhatItIsWorse)
