@@ -92,7 +92,7 @@ struct FitArguments {
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
 
-/// The thickness of the flat sheet in mm: as asked for, else that of the deck, else 1.
+/// The thickness of the flat sheet in mm: as asked for, else that of the deck, else 1. @throws InputError unless it is above 0
 double sheet_thickness(const std::optional<double>& asked, const PartFile& part);
 /// Where it is from; empty if that needs no word.
 std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part);

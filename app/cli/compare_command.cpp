@@ -29,9 +29,6 @@ int compare(const CompareArguments& arguments)
     read.seam = seam_options(arguments.seam);
     CompareOptions options;
     options.flatten.material = find_material(arguments.material, assets() / "materials");
-    if (const double t = arguments.thickness.value_or(1);
-        !(t > 0) || !std::isfinite(t)) // here, or it is a failure of one method only
-        throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", t));
     if (const std::vector<double>& d = arguments.direction; !d.empty()) {
         options.flatten.direction = Eigen::Vector3d(d[0], d[1], d[2]);
         if (!options.flatten.direction->allFinite() || !(options.flatten.direction->norm() > 0))

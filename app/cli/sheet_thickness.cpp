@@ -1,13 +1,22 @@
+#include <cmath>
 #include <fmt/core.h>
 
 #include "app/cli/commands.h"
+#include "engine/core/error.h"
 
 namespace spia::cli {
+namespace {
+
+constexpr double usual = 1; // mm
+
+} // namespace
 
 double sheet_thickness(const std::optional<double>& asked, const PartFile& part)
 {
-    constexpr double usual = 1;
-    return asked.value_or(part.thickness_mm.value_or(usual));
+    const double thickness = asked.value_or(part.thickness_mm.value_or(usual));
+    if (!(thickness > 0) || !std::isfinite(thickness))
+        throw InputError(fmt::format("the thickness is {} mm; it must be above 0", thickness));
+    return thickness;
 }
 
 std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part)
@@ -19,7 +28,10 @@ std::string thickness_in_words(const std::optional<double>& asked, const PartFil
         return fmt::format("the sheet is taken {:.6g} mm thick as in the deck (--thickness for another)",
                            *part.thickness_mm);
     if (!asked && part.deck)
-        return "the deck gives no thickness that could be taken: the sheet is taken 1 mm thick (--thickness for another)";
+        return fmt::format(
+            "the deck gives no thickness that could be taken: the sheet is taken {} mm thick (--thickness "
+            "for another)",
+            usual);
     return "";
 }
 

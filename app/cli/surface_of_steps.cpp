@@ -1,6 +1,7 @@
 #include "app/cli/surface_of_steps.h"
 
 #include <chrono>
+#include <fmt/core.h>
 
 #include "app/cli/terminal.h"
 #include "engine/core/error.h"
@@ -8,6 +9,30 @@
 #include "engine/pipeline/outputs.h"
 
 namespace spia::cli {
+namespace {
+
+std::filesystem::path report_file(const UnfoldArguments& arguments)
+{
+    return arguments.folder / ((arguments.name.empty() ? arguments.part.stem().string() : arguments.name) + ".json");
+}
+
+} // namespace
+
+void require_surface_place(const UnfoldArguments& arguments, const PartFile& part)
+{
+    if (arguments.surface.empty() || arguments.folder.empty())
+        return;
+    Session session;
+    session.file = arguments.part;
+    session.part = std::make_shared<PartFile>(part);
+    OutputOptions wanted;
+    wanted.name = arguments.name;
+    require_place(session, arguments.folder, arguments.surface_formats, arguments.json, wanted);
+    const auto report = report_file(arguments);
+    if (!arguments.json.empty() && same_place(arguments.json, report))
+        throw InputError(fmt::format("{} is where the report of the surface goes; give --json another name",
+                                     arguments.json.string()));
+}
 
 SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
                                 const FlattenOptions& options)
@@ -27,6 +52,7 @@ SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile
             throw;
         } catch (const std::exception& reason) { // what the steps gave is worth writing all the same
             made.failure = {stage, reason.what()};
+            made.error = std::current_exception();
             break;
         }
     }
@@ -44,8 +70,7 @@ std::vector<std::filesystem::path> write_surface(const UnfoldArguments& argument
     auto files = write_outputs(made.session, arguments.folder, arguments.surface_formats, wanted, display.progress());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     display.done(seconds);
-    const std::string stem = arguments.name.empty() ? arguments.part.stem().string() : arguments.name;
-    const auto report = arguments.folder / (stem + ".json");
+    const auto report = report_file(arguments);
     write_atomically(report, report_json(made.session, files, seconds, made.failure));
     files.push_back(report);
     return files;

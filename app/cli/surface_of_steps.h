@@ -1,4 +1,5 @@
 #pragma once
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -13,7 +14,12 @@ namespace spia::cli {
 struct SurfaceOfSteps {
     Session session;                ///< as far as the stages went
     std::optional<Failure> failure; ///< of the stage that ended them
+    std::exception_ptr error;       ///< its own; null: none failed
 };
+
+/// Finds out before the work what would keep the surface and its report from being written.
+/// @throws InputError, ExchangeError as require_place()
+void require_surface_place(const UnfoldArguments& arguments, const PartFile& part);
 
 /// Runs the chain from the blank of the steps on. @param run with a blank
 SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,

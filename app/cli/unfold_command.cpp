@@ -175,7 +175,8 @@ KeptStates kept_states(const UnfoldArguments& arguments, const PartFile& part, c
                                      from, kept.keep, kept.why));
     if (from > 0)
         kept.keep = from - 1;
-    say("kept      {} states of an earlier run{}\n", kept.keep, from == 0 && !kept.why.empty() ? "; " + kept.why : "");
+    say("kept      {} state{} of an earlier run{}\n", kept.keep, kept.keep == 1 ? "" : "s",
+        from == 0 && !kept.why.empty() ? "; " + kept.why : "");
     return kept;
 }
 
@@ -188,10 +189,15 @@ void keep_edited(const std::filesystem::path& file, const std::string& proposal)
         return;
     std::filesystem::path aside = file;
     aside.replace_extension(".before.json");
+    for (int k = 2; std::filesystem::exists(aside); ++k) // which may be what was edited
+        aside = std::filesystem::path(file).replace_extension(fmt::format(".before-{}.json", k));
     std::error_code failed;
     std::filesystem::rename(file, aside, failed);
-    if (!failed)
-        say("  note: the script that was there is kept as {}\n", aside.string());
+    if (failed)
+        throw ExchangeError(
+            fmt::format("{} may have been edited and cannot be kept as {}: {}; choose another folder or name",
+                        file.string(), aside.string(), failed.message()));
+    say("  note: the script that was there is kept as {}\n", aside.string());
 }
 
 bool states_are_written(const UnfoldArguments& arguments, const UnfoldRun& run)
@@ -227,9 +233,10 @@ std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments,
         write_unfold_states(files.back(), part.mesh, options, steps, run);
     }
     if (arguments.automatic) {
+        const std::string proposal = unfold_script_json(map, steps, part.source_face);
         files.push_back(script_file(arguments));
-        keep_edited(files.back(), unfold_script_json(map, steps));
-        write_atomically(files.back(), unfold_script_json(map, steps, part.source_face));
+        keep_edited(files.back(), proposal);
+        write_atomically(files.back(), proposal);
     }
     return files;
 }
@@ -344,18 +351,12 @@ int unfold(const UnfoldArguments& arguments)
         prepare_folder(arguments.folder);
     if (!arguments.json.empty())
         require_writable(arguments.json);
-    if (!arguments.surface.empty() && !arguments.folder.empty() &&
-        std::filesystem::weakly_canonical(arguments.json) ==
-            std::filesystem::weakly_canonical(arguments.folder / (stem_of(arguments) + ".json")))
-        throw InputError(fmt::format("{} is where the report of the surface goes; give --json another name",
-                                     arguments.json.string()));
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
     for (const std::string& line : reading_notes(part))
         say("  {}\n", line);
+    require_surface_place(arguments, part);
     options.thickness = sheet_thickness(arguments.thickness, part);
-    if (!(options.thickness > 0) || !std::isfinite(options.thickness))
-        throw InputError(fmt::format("the thickness is {} mm; it must be above 0", options.thickness));
     if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
         say("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
@@ -389,8 +390,7 @@ int unfold(const UnfoldArguments& arguments)
         if (surface->failure)
             findings.push_back(fmt::format("the surface ends before the stage \"{}\": {}",
                                            name(surface->failure->stage), surface->failure->message));
-    } else if (!arguments.surface.empty())
-        findings.emplace_back("there is no surface, for there is no blank");
+    }
     if (!arguments.json.empty())
         write_atomically(arguments.json,
                          unfold_report_json(arguments.part, part, map, steps, run, findings, files, both));
@@ -410,6 +410,10 @@ int unfold(const UnfoldArguments& arguments)
     if (!run.failure.empty())
         throw SolveError(fmt::format("step {} \"{}\": {}{}", run.states.size() + 1, steps[run.states.size()].name,
                                      run.failure, kept_in_words(arguments, run)));
+    if (!arguments.surface.empty() && !surface)
+        throw SolveError("there is no surface, for the steps gave no blank");
+    if (surface && surface->error)
+        std::rethrow_exception(surface->error);
     return arguments.strict && !poorer.empty() ? 1 : 0;
 }
 

@@ -32,7 +32,6 @@ void triangulate(const TopoDS_Compound& shape, double deflection, double angle, 
     parameters.InParallel = false; // the order of its points must not depend on threads
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "triangulating the faces");
     const BRepMesh_IncrementalMesh mesh(shape, parameters, passed_on->Start());
-    passed_on->rethrow();
 }
 
 /// The points of all faces in a row, and which of them are one because an edge or a vertex of the shape is.
@@ -117,10 +116,8 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
     for (size_t f = 0; f < faces.size(); ++f) {
         TopLoc_Location place;
         const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
-        if (triangles.IsNull() || triangles->NbTriangles() == 0) {
-            result.missing.push_back(int(f));
+        if (triangles.IsNull())
             continue;
-        }
         for (int t = 1; t <= triangles->NbTriangles(); ++t) {
             std::array<int, 3> node{}, corner{};
             triangles->Triangle(t).Get(node[0], node[1], node[2]);

@@ -10,9 +10,8 @@
 namespace spia {
 
 struct FaceTriangles {
-    PolygonSoup soup;         ///< mm
-    std::vector<int> face;    ///< per triangle: index of its face
-    std::vector<int> missing; ///< faces that gave no triangle, ascending
+    PolygonSoup soup;      ///< mm
+    std::vector<int> face; ///< per triangle: index of its face
 };
 
 /// Triangulates faces and joins the triangles along the edges that faces share, by which point of the edge they have: no

@@ -88,7 +88,6 @@ SewnFaces healed(const SewnFaces& faces, const Progress& progress)
     ShapeFix_Shape fix(compound_of(faces.face));
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "healing the faces");
     fix.Perform(passed_on->Start());
-    passed_on->rethrow();
     return followed(faces, [&](const TopoDS_Face& face) { return fix.Context()->Apply(face); });
 }
 
@@ -100,7 +99,6 @@ SewnFaces sewn(const SewnFaces& faces, double tolerance, const Progress& progres
     const Handle(OcctProgress) passed_on =
         new OcctProgress(progress, fmt::format("sewing the faces at {} mm", tolerance));
     sewing.Perform(passed_on->Start());
-    passed_on->rethrow();
     SewnFaces result = followed(faces, [&](const TopoDS_Face& face) {
         const TopoDS_Shape modified = sewing.Modified(face);
         return modified.IsNull() ? TopoDS_Shape(face) : modified;

@@ -51,7 +51,6 @@ void read_model(XSControl_Reader& reader, const std::filesystem::path& path, Cad
         refuse("OpenCASCADE finds it damaged");
     const Handle(OcctProgress) passed_on = new OcctProgress(progress.part(0.4, 1), "making its faces");
     reader.TransferRoots(passed_on->Start());
-    passed_on->rethrow();
     result.shape = reader.OneShape();
 }
 
@@ -64,7 +63,6 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     std::istringstream stream(content);
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "reading the CAD model");
     BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
-    passed_on->rethrow();
 }
 
 void read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)

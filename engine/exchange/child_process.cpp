@@ -45,7 +45,8 @@ void bound_this_process()
     long pages = 0;
     std::ifstream("/proc/self/statm") >> pages; // in use already: with a sanitizer that is terabytes
     limit(RLIMIT_AS, rlim_t(pages) * rlim_t(::sysconf(_SC_PAGESIZE)) + (rlim_t(16) << 30));
-    limit(RLIMIT_CPU, 600);
+    constexpr rlimit cpu{600, 610}; // the kernel tells of the first; of the second it kills without a word
+    ::setrlimit(RLIMIT_CPU, &cpu);
     limit(RLIMIT_CORE, 0);
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDOUT_FILENO);
@@ -146,6 +147,9 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
     const int status = child.ended();
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         throw InputError("reading it was given up after ten minutes; export it again, or a part of it");
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        throw InputError(
+            "reading it was ended from outside, perhaps for want of memory; close other programs, or export a part of it");
     throw InputError(fmt::format("reading it crashed ({} {}): it is damaged; export it again",
                                  WIFSIGNALED(status) ? "signal" : "code",
                                  WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)));

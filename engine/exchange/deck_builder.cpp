@@ -127,6 +127,7 @@ void DeckBuilder::thickness_from_elements()
         double low = 1e300, high = 0;
     };
     std::vector<Range> range(deck_.parts.size());
+    int told = 0;
     for (size_t e = 0; e < shell_.size(); ++e) {
         Range& of_part = range[size_t(shell_[e].part)];
         const double t = thickness_[e] > 0 ? thickness_[e] : at(shell_[e].part).thickness.value_or(0);
@@ -139,11 +140,10 @@ void DeckBuilder::thickness_from_elements()
             continue;
         if (low == high)
             part.thickness = low;
-        else
+        else if (told++ < 20)
             deck_.notes.push_back(fmt::format(
-                "part {} {}: its elements have thicknesses of their own, from {:.4g} to {:.4g}; that of its "
-                "section is taken",
-                part.id.value_or(0), part.name, low, high));
+                "part {} {}: its elements have thicknesses of their own, from {:.4g} to {:.4g}; {} is taken",
+                part.id.value_or(0), part.name, low, high, part.thickness ? "that of its section" : "none"));
     }
 }
 

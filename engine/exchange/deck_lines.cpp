@@ -47,8 +47,6 @@ void DeckLines::open(const fs::path& path, std::string content)
 
 bool DeckLines::next()
 {
-    if (std::exchange(again_, false))
-        return true;
     while (open_.back().rest.empty()) {
         if (open_.size() == 1)
             return false;
@@ -78,13 +76,20 @@ void DeckLines::leave_file() { open_.back().rest = {}; }
 
 void DeckLines::add_folder(std::string_view name, bool relative)
 {
-    folders_.push_back(relative ? open_.front().path.parent_path() / fs::path(name) : fs::path(name));
+    constexpr size_t most = 100; // every file that is included is looked for in all of them
+    fs::path folder = relative ? open_.front().path.parent_path() / fs::path(name) : fs::path(name);
+    if (std::find(folders_.begin(), folders_.end(), folder) != folders_.end())
+        return;
+    if (folders_.size() == most)
+        fail(fmt::format("more than {} folders to look for included files", most));
+    folders_.push_back(std::move(folder));
 }
 
 void DeckLines::include(std::string_view name)
 {
     if (name.empty() || name.find('\0') != name.npos)
         fail("an included file has no name");
+    checkpoint();
     std::string slashes(name);
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     std::vector<fs::path> folders = {open_.back().path.parent_path(), open_.front().path.parent_path()};

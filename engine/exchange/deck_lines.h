@@ -21,7 +21,6 @@ public:
     bool next(); ///< goes to the next line, empty or not; false at the end of the deck
     std::string_view line() const { return line_; }             ///< without its end (LF or CR LF)
     std::string_view text() const { return *content_.front(); } ///< all of the deck, without the files it includes
-    void back() { again_ = true; }                              ///< next() gives this line once more
     void leave_file();                                          ///< skips the rest of the current file
     int depth() const { return int(open_.size()); }             ///< 1: the deck itself
 
@@ -55,7 +54,6 @@ private:
     std::set<std::filesystem::path> seen_;
     std::vector<std::filesystem::path> folders_;
     std::string_view line_;
-    bool again_ = false;
     Progress progress_;
     long lines_ = 0;
 };

@@ -154,8 +154,10 @@ private:
 
     void begin_set(const AbaqusKeyword& keyword)
     {
-        if (keyword.has("INSTANCE")) // of the assembly; the part has the same faces
+        if (keyword.has("INSTANCE")) { // its numbers are those of an instance, not of the part
+            deck_.count_skipped("*ELSET of an instance");
             return;
+        }
         set_ = keyword["ELSET"];
         if (set_.empty())
             lines_.fail("*ELSET does not say which ELSET");
@@ -184,6 +186,10 @@ private:
         sections_.push_back(
             {std::string(keyword["ELSET"]), std::string(keyword["MATERIAL"]), 0, keyword.has("COMPOSITE")});
         card_ = &AbaqusReader::section;
+        if (keyword.name == "SHELL GENERAL SECTION" && !keyword.has("MATERIAL") && !keyword.has("COMPOSITE")) {
+            card_ = nullptr; // what follows is its stiffness [Abaqus Keywords Reference, *SHELL GENERAL SECTION]
+            deck_.count_skipped("*SHELL GENERAL SECTION by its stiffness");
+        }
     }
 
     void section()

@@ -9,7 +9,6 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
-#include <map>
 #include <set>
 #include <spdlog/spdlog.h>
 #include <stdexcept>
@@ -21,6 +20,7 @@
 #include "engine/exchange/cad_shape.h"
 #include "engine/exchange/child_process.h"
 #include "engine/exchange/occt_session.h"
+#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/weld.h"
 
 namespace spia {
@@ -76,19 +76,14 @@ double diagonal_of(const TopoDS_Shape& shape)
 std::vector<int> overlapping(const CadContent& cad, double tolerance)
 {
     const Weld joined = weld(cad.soup, tolerance);
-    std::map<std::pair<int, int>, std::vector<int>> triangles_at;
-    for (int t = 0; t < cad.soup.polygons(); ++t)
-        for (size_t k = 0; k < 3; ++k) {
-            const auto corner = cad.soup.polygon(t);
-            const int a = joined.same_as[size_t(corner[k])], b = joined.same_as[size_t(corner[(k + 1) % 3])];
-            if (a != b)
-                triangles_at[std::minmax(a, b)].push_back(t);
-        }
+    const std::vector<EdgeUse> uses = edge_uses(
+        cad.soup.polygons(), [&](int t, int k) { return joined.same_as[size_t(cad.soup.polygon(t)[size_t(k)])]; });
     std::set<int> faces;
-    for (const auto& [edge, triangles] : triangles_at)
-        if (triangles.size() > 2)
-            for (const int t : triangles)
-                faces.insert(cad.face[size_t(t)]);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (uses[begin].low != uses[begin].high && end - begin > 2)
+            for (size_t k = begin; k < end; ++k)
+                faces.insert(cad.face[size_t(uses[k].face)]);
+    });
     return {faces.begin(), faces.end()};
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/core.h>
 #include <utility>
 
@@ -125,7 +126,8 @@ private:
             deck_.add_shell(deck_.part(shell_.part), shell_.id, shell_.corner);
     }
 
-    /// The mean over the corners.
+    /// The mean over the corners. One that is not given is zero, and zero is that of the section [LS-DYNA Keyword Manual Vol. I,
+    /// *ELEMENT_SHELL_THICKNESS], which is not known here: then the whole element has that of its section.
     void thickness(std::string_view line)
     {
         values_.cut(line, {16, 16, 16, 16, 16});
@@ -133,8 +135,10 @@ private:
         std::array<double, 4> thick = {};
         for (size_t k = 0; k < 4; ++k)
             thick[k] = values_.thickness(k).value_or(0);
-        deck_.add_shell(deck_.part(shell_.part), shell_.id, shell_.corner,
-                        mean(std::span(thick).first(triangle ? 3 : 4)));
+        const auto given = std::span(thick).first(triangle ? 3 : 4);
+        const auto zeros = std::count_if(given.begin(), given.end(), [](double t) { return !(t > 0); });
+        some_corners_ += zeros > 0 && zeros < std::ssize(given);
+        deck_.add_shell(deck_.part(shell_.part), shell_.id, shell_.corner, zeros == 0 ? mean(given) : 0);
         thickness_next_ = false;
     }
 
@@ -185,6 +189,10 @@ private:
         parts_.finish();
         if (const std::string names = values_.parameters.undefined(); !names.empty())
             deck_.note("thicknesses are missing because parameters are not defined: " + names);
+        if (some_corners_ > 0)
+            deck_.note(
+                fmt::format("{} shells have a thickness at some of their corners only: that of their section is taken",
+                            some_corners_));
         if (middle_nodes_ > 0)
             deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
         return deck_.finish("LS-DYNA keyword", lines_.notes);
@@ -202,7 +210,7 @@ private:
     DynaFormat child_format_ = DynaFormat::standard;
     Shell shell_ = {};
     bool with_thickness_ = false, thickness_next_ = false;
-    int cards_behind_ = 0, passed_over_ = 0, middle_nodes_ = 0;
+    int cards_behind_ = 0, passed_over_ = 0, middle_nodes_ = 0, some_corners_ = 0;
 };
 
 } // namespace

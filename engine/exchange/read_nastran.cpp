@@ -52,7 +52,7 @@ private:
             usual_system_ = lines_.whole_or_zero(entry_[1]);
         else if (name == "CORD2R" || name == "CORD2C" || name == "CORD2S")
             system(name.back());
-        else if (name.starts_with("MAT") && name.size() <= 5 && name != "MATT1")
+        else if (name.starts_with("MAT") && name.size() > 3 && name[3] >= '0' && name[3] <= '9') // MATS1 adds to MAT1
             material_[lines_.whole_or_zero(entry_[0])] = name;
         else if (is_solid_or_bar(name))
             deck_.count_other_elements(name);

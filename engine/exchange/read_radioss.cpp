@@ -114,9 +114,13 @@ private:
                 lines_.fail(fmt::format("cards of version {} are not read", version));
         } else if (count_ == 2) {
             cut(line, std::array{20, 20, 20});
-            for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::m})
-                if (fields_[1] == name(unit))
-                    deck_.set_unit(unit);
+            const std::string_view named = trimmed(fields_[1]);
+            for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::m, LengthUnit::inch})
+                if (same_letters(named, name(unit)) || (unit == LengthUnit::inch && same_letters(named, "in")))
+                    return deck_.set_unit(unit);
+            if (!named.empty())
+                deck_.note(
+                    fmt::format("its length unit \"{}\" is not known: it is read as mm unless one is given", named));
         }
     }
 

@@ -87,6 +87,13 @@ std::vector<fs::path> output_files(const Session& session, const fs::path& folde
     return files;
 }
 
+bool same_place(const fs::path& a, const fs::path& b)
+{
+    std::error_code ignored; // weakly_canonical() leaves a path relative of which nothing is there
+    const auto whole = [&](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
+    return whole(a) == whole(b) || fs::equivalent(a, b, ignored);
+}
+
 void require_place(const Session& session, const fs::path& folder, const std::vector<std::string>& formats,
                    const fs::path& other, const OutputOptions& options)
 {
@@ -95,22 +102,18 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
     if (failed || !fs::is_directory(folder))
         throw ExchangeError(fmt::format("cannot make the folder {}: {}; choose another one", folder.string(),
                                         failed ? failed.message() : "there is a file of that name"));
-    const auto same = [](const fs::path& a, const fs::path& b) {
-        std::error_code ignored;
-        return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
-    };
     std::vector<fs::path> files;
     for (const std::string& format : formats)
         for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
             files.push_back(folder / file);
     if (!other.empty()) {
         for (const fs::path& file : files)
-            if (same(file, other))
+            if (same_place(file, other))
                 throw ExchangeError(fmt::format("{} is wanted for two files; choose another name", other.string()));
         files.push_back(other);
     }
     for (const fs::path& file : files) {
-        if (same(file, session.file))
+        if (same_place(file, session.file))
             throw ExchangeError(fmt::format(
                 "{} is the part itself and would be overwritten; choose another folder or name", file.string()));
         require_writable(file);

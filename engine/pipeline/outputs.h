@@ -41,6 +41,9 @@ std::vector<std::filesystem::path> output_files(const Session& session, const st
                                                 const std::vector<std::string>& formats,
                                                 const OutputOptions& options = {});
 
+/// Whether two paths lead to one place, also where nothing is yet.
+bool same_place(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Finds out what would keep write_outputs() from writing, before the work that fills the files; makes the folder.
 /// @param other one more file that the caller will write; may be empty
 /// @throws InputError as output_files(); ExchangeError if a place cannot be written, or a file would take the place of

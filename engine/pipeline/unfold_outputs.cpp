@@ -75,7 +75,9 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
             old.push_back(entry.path());
     }
     for (const auto& file : old)
-        std::filesystem::remove(file, failed);
+        if (std::filesystem::remove(file, failed); failed)
+            throw ExchangeError(fmt::format("{} of an earlier run cannot be removed: {}; choose another folder or name",
+                                            file.string(), failed.message()));
 }
 
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,

@@ -48,11 +48,10 @@ grep -q "only 3 states of the earlier run hold, for step 4 has changed" "$out.lo
 expect_exit 0 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/auto" --redo auto --strict
 grep -q "kept      3 states" "$out.log" || fail "not three states are kept"
 expect_exit 0 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/again" --redo 2 --strict
-grep -q "kept      1 states" "$out.log" || fail "not the first state alone is kept"
+grep -q "kept      1 state " "$out.log" || fail "not the first state alone is kept"
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "redone steps give other bits"
 # broken off at the second of three steps: the first one is not lost
 fender=$2/assets/parts/fender.obj
-expect_exit 0 "$spia" unfold "$fender" --auto --out "$out/whole"
 for signal in SIGINT SIGTERM; do
     rm -rf "$out/broken"
     expect_exit 130 python3 "$2/tests/cli/on_terminal.py" "region 2, region 3 onto" $signal "$spia" unfold "$fender" --auto --out "$out/broken"
@@ -60,18 +59,20 @@ for signal in SIGINT SIGTERM; do
         { cat "$out.log"; fail "a cancelled run does not say what it leaves"; }
 done
 [ "$(ls "$out/broken" | tr '\n' ' ')" = "fender-script.json fender-states.cbor " ] || fail "a cancelled run leaves something else: $(ls "$out/broken")"
+cp "$out/broken/fender-script.json" "$out/three.json" # the first plan; the run itself would end with another one
+expect_exit 0 "$spia" unfold "$fender" --script "$out/three.json" --out "$out/whole"
 expect_exit 0 "$spia" unfold "$fender" --script "$out/broken/fender-script.json" --out "$out/broken" --redo auto
-grep -q "kept      1 states of an earlier run; step 2 was not done" "$out.log" || fail "the state of a cancelled run is not kept"
+grep -q "kept      1 state of an earlier run; step 2 was not done" "$out.log" || fail "the state of a cancelled run is not kept"
 cmp "$out/whole/fender-step3.vtu" "$out/broken/fender-step3.vtu" || fail "a run that was broken off gives other bits"
-expect_exit 130 python3 "$2/tests/cli/on_terminal.py" "region 2, region 3 onto" SIGINT "$spia" unfold "$fender" --script "$out/whole/fender-script.json" --out "$out/whole"
+expect_exit 130 python3 "$2/tests/cli/on_terminal.py" "region 2, region 3 onto" SIGINT "$spia" unfold "$fender" --script "$out/three.json" --out "$out/whole"
 [ -s "$out/whole/fender-step3.vtu" ] || fail "a cancelled run that adds nothing removes what was there"
-expect_exit 0 "$spia" unfold "$fender" --script "$out/whole/fender-script.json" --out "$out/whole" --redo auto
+expect_exit 0 "$spia" unfold "$fender" --script "$out/three.json" --out "$out/whole" --redo auto
 grep -q "kept      3 states" "$out.log" || fail "a cancelled run with fewer states takes the place of one with more"
 expect_exit 130 python3 "$2/tests/cli/on_terminal.py" polish SIGINT "$spia" unfold "$fender" --auto --polish --out "$out/unpolished"
 expect_exit 0 "$spia" unfold "$fender" --script "$out/unpolished/fender-script.json" --out "$out/unpolished" --redo auto
-grep -q "kept      3 states" "$out.log" || fail "the polish was cancelled, and the states are gone"
+grep -q "kept      2 states" "$out.log" || fail "the polish was cancelled, and the states are gone"
 # broken off by a step that has no result
-python3 - "$out/whole/fender-script.json" "$out/far.json" <<'END'
+python3 - "$out/three.json" "$out/far.json" <<'END'
 import json, sys
 script = json.load(open(sys.argv[1]))
 script["steps"][1]["target"] = {"cylinder": {"origin": [1e5, 0, 0], "axis": [0, 0, 1], "radius": 1}}
@@ -79,8 +80,8 @@ json.dump(script, open(sys.argv[2], "w"))
 END
 expect_exit 3 "$spia" unfold "$fender" --script "$out/far.json" --out "$out/failed"
 grep -q "step 2 .*the states of the 1 steps before it are kept: --redo auto" "$out.log" || { cat "$out.log"; fail "the failed step does not say what is kept"; }
-expect_exit 0 "$spia" unfold "$fender" --script "$out/whole/fender-script.json" --out "$out/failed" --redo auto
-grep -q "kept      1 states" "$out.log" || fail "the state before a failed step is not kept"
+expect_exit 0 "$spia" unfold "$fender" --script "$out/three.json" --out "$out/failed" --redo auto
+grep -q "kept      1 state " "$out.log" || fail "the state before a failed step is not kept"
 expect_exit 0 "$spia" unfold "$part" --auto --polish --out "$out/polished" --json "$out/polished.json" --strict
 for file in blank.dxf polished.dxf polished.vtu; do [ -s "$out/polished/lipped-channel-$file" ] || fail "no $file"; done
 grep -q "outline_distance_mm" "$out/polished.json" || fail "the two blanks are not compared"
@@ -145,8 +146,17 @@ expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --out "$out/less" 
 echo "// mine" >> "$out/less/lipped-channel-script.json"
 expect_exit 0 "$spia" unfold "$part" --auto --out "$out/less" --strict
 grep -q "// mine" "$out/less/lipped-channel-script.before.json" || fail "an edited script is gone"
+echo "// mine again" >> "$out/less/lipped-channel-script.json"
+expect_exit 0 "$spia" unfold "$part" --auto --out "$out/less"
+grep -q "// mine$" "$out/less/lipped-channel-script.before.json" || fail "a second edited script takes the place of the first"
+grep -q "// mine again" "$out/less/lipped-channel-script.before-2.json" || fail "a second edited script is gone"
 expect_exit 4 "$spia" unfold "$part" --auto --out "$out/one.json"
 expect_exit 2 "$spia" unfold "$part" --auto --out "$out/less" --surface --json "$out/less/lipped-channel.json"
+# files of the surface in the place of the part or of --json are refused before the work
+(cd "$out" && expect_exit 2 "$spia" unfold "$part" --auto --out . --surface --json lipped-channel.json)
+(cd "$out" && expect_exit 4 "$spia" unfold "$part" --auto --out . --surface --json lipped-channel.iges)
+! grep -q "step 1" "$out.log" || fail "the place of the report is looked at after the work"
+expect_exit 3 "$spia" unfold "$part" --script "$out/one.json" --out "$out/less" --surface
 expect_exit 2 "$spia" unfold "$part" --auto --thickness nan
 echo '{"lines": [{"closed": true, "points": [[0, 0], [20, 0], [20, 0], [20, 20], [0, 0]]}]}' > "$out/twice.json"
 expect_exit 0 "$spia" unfold "$part" --auto --out "$out/less" --to-part "$out/twice.json" --strict

@@ -73,6 +73,20 @@ TEST(AbaqusDeck, NamesBetweenQuotesMayHaveCommas)
     EXPECT_EQ(part(deck, 0).thickness, 2);
 }
 
+TEST(AbaqusDeck, ASectionByItsStiffnessHasNoThickness)
+{
+    const std::string skin = nodes + "*ELEMENT, ELSET=SKIN, TYPE=S3\n1,1,2,3\n*SHELL GENERAL SECTION, ELSET=SKIN";
+    const Deck stiff = read(skin + "\n230769., 69231., 230769., 0., 0., 80769.\n");
+    EXPECT_FALSE(part(stiff, 0).thickness) << "the first number is a stiffness";
+    EXPECT_TRUE(has_note(stiff, "*SHELL GENERAL SECTION by its stiffness"));
+    EXPECT_EQ(part(read(skin + ", MATERIAL=DC04\n.8\n"), 0).thickness, 0.8);
+}
+
+TEST(AbaqusDeck, SetsOfAnInstanceAreTold)
+{
+    EXPECT_TRUE(has_note(read(five + "*ELSET, ELSET=Roof, INSTANCE=Body-1\n1, 2\n"), "*ELSET of an instance"));
+}
+
 TEST(AbaqusDeck, ElementsWithoutASectionGoByTheirSet)
 {
     const Deck deck = read(five + "*ELEMENT, TYPE=S3\n20,1,2,3\n");

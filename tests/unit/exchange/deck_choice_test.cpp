@@ -169,8 +169,9 @@ TEST_F(PartOfDeck, OfSeveralPartsTheMessageListsThem)
     EXPECT_EQ(refusal(two, options).find("choose by id"), std::string::npos); // it has been chosen
     EXPECT_NE(refusal(two, options).find("separate pieces"), std::string::npos);
     options.parts = {"7"};
-    EXPECT_NE(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", options, "a.obj").find("from solver decks and CAD files only"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", options, "a.obj").find("from solver decks and CAD files only"),
+        std::string::npos);
 }
 
 TEST_F(PartOfDeck, ShellsTurnedOverAreTurnedBack)

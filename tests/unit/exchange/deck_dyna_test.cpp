@@ -49,6 +49,18 @@ TEST(DynaDeck, EveryOptionOfShellsHasItsCards)
     EXPECT_TRUE(has_note(deck, "from 1 to 3"));
 }
 
+TEST(DynaDeck, ACornerWithoutAThicknessHasThatOfTheSection)
+{
+    const std::string shells = four_nodes + "*ELEMENT_SHELL_THICKNESS\n1,5,1,2,3,4\n1.2,1.2,,\n";
+    const Deck alone = read(shells);
+    EXPECT_FALSE(alone.parts[0].thickness) << "and not the mean with zeros";
+    EXPECT_TRUE(has_note(alone, "1 shells have a thickness at some of their corners only"));
+    const Deck with = read(shells + "*PART\nside\n5,8\n*SECTION_SHELL\n8,2\n1.5,1.5,1.5,1.5\n");
+    EXPECT_EQ(with.parts[0].thickness, 1.5);
+    EXPECT_FALSE(
+        has_note(read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n1,5,1,2,3,4\n0,0,0,0\n"), "some of their corners"));
+}
+
 TEST(DynaDeck, ACardThatIsNotThereDoesNotCostAnElementOfTheNextBlock)
 {
     EXPECT_EQ(read(four_nodes + "*ELEMENT_SHELL_OFFSET\n1,5,1,2,3,4\n*ELEMENT_SHELL\n2,5,1,2,3,4\n").elements(), 2);

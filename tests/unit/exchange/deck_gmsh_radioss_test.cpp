@@ -77,6 +77,20 @@ TEST(RadiossDeck, ElementsHaveTheirOwnThicknessAndUnits)
     EXPECT_TRUE(has_note(deck, "/GRBRIC"));
 }
 
+TEST(RadiossDeck, ALengthUnitThatIsNotKnownIsTold)
+{
+    const auto with = [](const std::string& unit) {
+        return sample::read("a.rad", "/BEGIN\nrun\n      2022         0\n" +
+                                         fmt::format("{:>20}{:>20}{:>20}\n", "Mg", unit, "s") + cards +
+                                         "/SH3N/4\n         1         1         2         3\n");
+    };
+    EXPECT_EQ(with("MM").unit, LengthUnit::mm);
+    EXPECT_EQ(with("in").unit, LengthUnit::inch);
+    EXPECT_FALSE(with("furlong").unit);
+    EXPECT_TRUE(has_note(with("furlong"), "length unit \"furlong\" is not known"));
+    EXPECT_FALSE(has_note(with("cm"), "is not known"));
+}
+
 TEST(RadiossDeck, FilesAreIncluded)
 {
     const ScratchFolder scratch;

@@ -17,6 +17,13 @@ const std::string square =
 Deck read(const std::string& text) { return sample::read("a.bdf", text); }
 Eigen::Vector3d place(const Deck& deck, int v) { return deck.position[size_t(v)]; }
 
+TEST(NastranDeck, WhatAddsToAMaterialIsNotTheMaterial)
+{
+    const Deck deck = read(square + "PSHELL,7,3,1.2\nMAT1,3,206000.,,.3\nMATS1,3,,PLASTIC,0.,1,1,180.\nMATT8,3,5\n");
+    EXPECT_EQ(deck.parts[0].material, "MAT1");
+    EXPECT_TRUE(has_note(deck, "MATS1"));
+}
+
 TEST(NastranDeck, FieldsAreCutAsTheirLineSays)
 {
     const Deck deck = read("GRID           1       0-1072.75-1226.601.5+3\n" // small, no blanks between
