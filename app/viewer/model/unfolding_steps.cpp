@@ -62,6 +62,19 @@ StepFigures figures_of(const UnfoldState& state, const PlannedStep& step, const 
 
 } // namespace
 
+StepList step_list(UnfoldScript steps)
+{
+    StepList list;
+    for (PlannedStep& step : steps)
+        list.push_back(std::make_shared<PlannedStep>(std::move(step)));
+    return list;
+}
+
+std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known)
+{
+    return known && known->part == part ? known : std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
+}
+
 FlattenOptions sheet_of_steps(const FlattenOptions& wanted)
 {
     FlattenOptions sheet;
@@ -139,9 +152,7 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
     StepsOutcome outcome;
     try {
         progress.checkpoint(0, "finding the bends");
-        if (!bends || bends->part != part)
-            bends = std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
-        outcome.bends = bends;
+        outcome.bends = bends = bends_of(part, std::move(bends));
         progress.checkpoint(0.7, "ordering the steps");
         SequenceOptions options;
         if (keep) {
@@ -154,9 +165,7 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
         UnfoldSequence sequence = propose_sequence(part->mesh, bends->map, options);
         progress.checkpoint(1, "ordering the steps");
         outcome.notes = std::move(sequence.notes);
-        outcome.proposed.emplace();
-        for (PlannedStep& step : sequence.steps)
-            outcome.proposed->push_back(std::make_shared<PlannedStep>(std::move(step)));
+        outcome.proposed = step_list(std::move(sequence.steps));
     } catch (const Cancelled&) {
         outcome.cancelled = true;
     } catch (const std::exception& error) {

@@ -18,12 +18,15 @@ struct Document;
 
 /// Steps in order. Each is finished and const, so that copies of a document share them; an edited one is a new one.
 using StepList = std::vector<std::shared_ptr<const PlannedStep>>;
+StepList step_list(UnfoldScript steps);
 
 /// A part split at its bends.
 struct PartBends {
     std::shared_ptr<const PartFile> part;
     BendMap map;
 };
+/// @param known those of this part, if they are; else, and if null, they are found
+std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known);
 
 /// Of the faces that a step moves, after it.
 struct StepFigures {
