@@ -102,7 +102,8 @@ inline constexpr auto members_of<StoredStep> =
                member("friction", &StoredStep::friction, one_pressure)};
 template <>
 inline constexpr auto members_of<StoredSteps> =
-    std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step)};
+    std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step),
+               member("proposed", &StoredSteps::proposed), member("root", &StoredSteps::root, any_index)};
 template <>
 inline constexpr auto members_of<StoredPicks> =
     std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),

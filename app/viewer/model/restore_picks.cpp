@@ -235,7 +235,8 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
                                        std::shared_ptr<const ClosestPointSearch> search)
 {
     const PartFile& part = picked_part(document);
-    Restorer restorer(part, picks.fingerprint == fingerprint(part), std::move(search));
+    const bool same = picks.fingerprint == fingerprint(part);
+    Restorer restorer(part, same, std::move(search));
     Document restored = document; // all or nothing
     restored.selected = restorer.faces(picks.selected, "the selection");
     restored.vertices = restorer.vertices(picks.vertices);
@@ -246,6 +247,10 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
                                     region.contact, region.sheet});
     restored.lines = restorer.lines(picks.lines);
     restored.steps = restorer.steps(picks.steps);
+    restored.proposal = nullptr;
+    if (same && picks.steps.proposed && !restored.steps.empty()) // another part would be planned otherwise
+        restored.proposal =
+            std::make_shared<Proposal>(Proposal{document.session.part, picks.steps.root.value_or(-1), restored.steps});
     restored.probes.clear();
     for (size_t i = 0; i < picks.probes.size(); ++i)
         if (const auto probe = restorer.probe(picks.probes[i], i))

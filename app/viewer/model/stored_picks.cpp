@@ -147,6 +147,9 @@ StoredPicks store_picks(const Document& document)
             {region.name, region.kind, region.colour, store_patch(part, region.faces), region.contact, region.sheet});
     picks.lines = document.lines;
     picks.steps = store_steps(part, document.steps);
+    picks.steps.proposed = still_proposed(document);
+    if (picks.steps.proposed && document.proposal->root >= 0)
+        picks.steps.root = document.proposal->root;
     for (const Probe& probe : document.probes) {
         require_triangle(part.mesh, probe.face);
         const Eigen::Matrix3d corners = corners_of(part.mesh, probe.face);

@@ -66,6 +66,8 @@ struct StoredStep {
 struct StoredSteps {
     std::vector<StoredPatch> patch;
     std::vector<StoredStep> step;
+    bool proposed = false;   ///< as they were proposed, none edited
+    std::optional<int> root; ///< of the proposal; not given: automatic
 };
 
 struct StoredPicks {

@@ -10,6 +10,8 @@
 #include "app/viewer/model/step_target.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/run_one_by_one.h"
+#include "engine/unfold/unfold_by_itself.h"
 
 namespace spia::viewer {
 namespace {
@@ -60,7 +62,43 @@ StepFigures figures_of(const UnfoldState& state, const PlannedStep& step, const 
     return figures;
 }
 
+std::shared_ptr<const StepsRun> with_figures(std::shared_ptr<StepsRun> run)
+{
+    run->run.states.resize(std::min(run->run.states.size(), run->steps.size()));
+    for (size_t k = 0; k < run->run.states.size(); ++k)
+        run->figure.push_back(figures_of(run->run.states[k], *run->steps[k], run->part->mesh));
+    return run;
+}
+
+/// The steps of a plan; those that the list begins with likewise are its own.
+StepList as_far_as_the_same(const StepList& list, const UnfoldScript& plan)
+{
+    StepList steps = step_list(plan);
+    for (size_t k = 0; k < std::min(list.size(), plan.size()); ++k)
+        if (same_work(*list[k], plan[k]) && list[k]->name == plan[k].name)
+            steps[k] = list[k];
+    return steps;
+}
+
+/// What stays of a plan that was about to be replaced: it is to go on from there, not to be taken for done.
+UnfoldRun as_far_as_it_worked(UnfoldRun run)
+{
+    const auto poor = std::find_if(run.states.begin(), run.states.end(), [](const auto& s) { return !s.converged; });
+    run.states.erase(poor, run.states.end());
+    run.failure.clear();
+    run.blank.reset();
+    return run;
+}
+
 } // namespace
+
+UnfoldScript script_of(const StepList& list)
+{
+    UnfoldScript script;
+    for (const auto& step : list)
+        script.push_back(*step);
+    return script;
+}
 
 StepList step_list(UnfoldScript steps)
 {
@@ -83,6 +121,12 @@ FlattenOptions sheet_of_steps(const FlattenOptions& wanted)
     sheet.process.tailored = wanted.process.tailored;
     sheet.process.rolling = wanted.process.rolling;
     return sheet;
+}
+
+bool still_proposed(const Document& document)
+{
+    return document.proposal && document.proposal->part == document.session.part &&
+           document.proposal->steps == document.steps;
 }
 
 size_t steps_done(const Document& document)
@@ -165,6 +209,7 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
         UnfoldSequence sequence = propose_sequence(part->mesh, bends->map, options);
         progress.checkpoint(1, "ordering the steps");
         outcome.notes = std::move(sequence.notes);
+        outcome.root = options.root;
         outcome.proposed = step_list(std::move(sequence.steps));
     } catch (const Cancelled&) {
         outcome.cancelled = true;
@@ -174,38 +219,58 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
     return outcome;
 }
 
+StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
+                          std::shared_ptr<const StepsRun> before, const Progress& progress)
+{
+    StepsOutcome outcome;
+    const auto& part = proposal.part;
+    auto result = std::make_shared<StepsRun>(StepsRun{part, proposal.steps, sheet, {}, {}, {}});
+    const auto take = [&](const UnfoldSequence& plan, UnfoldRun run) {
+        result->steps = as_far_as_the_same(proposal.steps, plan.steps);
+        result->run = std::move(run);
+    };
+    try {
+        progress.checkpoint(0, "finding the bends");
+        outcome.bends = bends = bends_of(part, std::move(bends));
+        UnfoldedByItself begun;
+        if (before && before->part == part && same_sheet(before->sheet, sheet)) {
+            begun.sequence.steps = script_of(before->steps);
+            begun.run = before->run;
+        }
+        UnfoldedByItself unfolded =
+            unfold_by_itself(part->mesh, bends->map, {.root = proposal.root}, sheet, progress, take, &begun);
+        const std::vector<std::string>& notes = unfolded.sequence.notes;
+        result->given_up.assign(notes.end() - long(unfolded.given_up), notes.end());
+        take(unfolded.sequence, std::move(unfolded.run));
+    } catch (const Cancelled&) {
+        outcome.cancelled = true;
+        result->run = as_far_as_it_worked(std::move(result->run));
+    } catch (const std::exception& error) {
+        outcome.failure = error.what();
+    }
+    outcome.run = with_figures(std::move(result));
+    return outcome;
+}
+
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
                        std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress)
 {
     StepsOutcome outcome;
-    auto result = std::make_shared<StepsRun>(StepsRun{part, steps, sheet, {}, {}});
+    auto result = std::make_shared<StepsRun>(StepsRun{part, steps, sheet, {}, {}, {}});
     if (done > 0)
         result->run.states.assign(before->run.states.begin(), before->run.states.begin() + Eigen::Index(done));
     try {
-        // One by one, so that what has ended before it is cancelled stays; if only the blank is missing, that.
-        const double missing = double(std::max<size_t>(1, steps.size() - done));
-        UnfoldScript script;
-        for (size_t k = 0; k < done; ++k)
-            script.push_back(*steps[k]);
-        for (size_t k = done; k < steps.size() || k == done; ++k) {
-            if (k < steps.size())
-                script.push_back(*steps[k]);
-            result->run = run_unfolding(part->mesh, script, sheet,
-                                        progress.part(-double(done) / missing, double(script.size() - done) / missing),
-                                        &result->run, k);
-            if (!result->run.failure.empty())
-                break;
-        }
+        const UnfoldRun kept = result->run;
+        run_one_by_one(
+            part->mesh, script_of(steps), sheet, [&](const UnfoldRun& run) { result->run = run; }, progress, &kept,
+            done);
     } catch (const Cancelled&) {
         outcome.cancelled = true;
         result->run.blank.reset();
     } catch (const std::exception& error) {
         outcome.failure = error.what();
     }
-    result->run.states.resize(std::min(result->run.states.size(), steps.size()));
-    for (size_t k = 0; k < result->run.states.size(); ++k)
-        result->figure.push_back(figures_of(result->run.states[k], *steps[k], part->mesh));
-    outcome.run = std::move(result);
+    outcome.run = with_figures(std::move(result));
     return outcome;
 }
 
