@@ -31,6 +31,8 @@ struct PlannedStep {
     int carrier = -1;                                                  ///< region; -1 where nothing stays
     std::optional<double> tolerance = {};                              ///< of the solver, in place of FlattenOptions
     std::optional<int> most_energy_steps = {}, most_newton_steps = {}; ///< likewise
+    /// The faces that carried the target are gone from a changed part: without others, or a target, it has no result.
+    bool carrying_lost = false;
 };
 
 struct SequenceOptions {

@@ -63,6 +63,10 @@ const std::vector<int>& carrying_faces(const PlannedStep& step)
 std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
 {
     std::optional<BinderFace> target = step.pick.target;
+    if (!target && step.carrying_lost)
+        throw InputError(
+            "the faces that carried its target are not on the part any more; pick others that stay, or give "
+            "it a target");
     if (!target && (step.within_mm > 0 || step.offset_mm != 0 || step.kind == UnfoldKind::unroll)) {
         const std::vector<int>& faces = carrying_faces(step);
         if (faces.empty())
@@ -255,7 +259,8 @@ void require_script(const UnfoldScript& script, const UnfoldRun* before, size_t 
 
 bool creased(const BinderFit& target, double diagonal)
 {
-    constexpr double far = 2e-4, turned = 0.2; // of the part; radians: what carries a proposed step may be turned as far
+    constexpr double far = 2e-4,
+                     turned = 0.2; // of the part; radians: what carries a proposed step may be turned as far
     return target.distance_mm > far * diagonal || target.angle > turned;
 }
 

@@ -40,6 +40,10 @@ StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
 {
     StepsOutcome outcome;
     try {
+        for (size_t k = 0; k < steps.size(); ++k)
+            if (needs_pick(*steps[k])) // in a file it would mean all that stays
+                throw InputError(fmt::format("Step {} \"{}\" needs faces that carry its target before it can be saved.",
+                                             k + 1, steps[k]->name));
         progress.checkpoint(0, "finding the bends");
         outcome.bends = bends_of(part, std::move(bends));
         progress.checkpoint(0.9, "writing the steps");

@@ -75,7 +75,8 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
                                step->most_energy_steps,
                                step->most_newton_steps,
                                numbers_of(*step),
-                               numbers_of(step->pick.friction)});
+                               numbers_of(step->pick.friction),
+                               step->carrying_lost});
     for (const auto& [roles, faces] : alike) {
         const int patch = int(stored.patch.size());
         stored.patch.push_back(store_patch(part, faces));

@@ -27,9 +27,9 @@ bool same_work(const PlannedStep& a, const PlannedStep& b)
 {
     return &a == &b ||
            (same_target(a.pick.target, b.pick.target) && a.kind == b.kind && a.within_mm == b.within_mm &&
-            a.offset_mm == b.offset_mm && a.tolerance == b.tolerance && a.most_energy_steps == b.most_energy_steps &&
-            a.most_newton_steps == b.most_newton_steps && a.pick.fixed == b.pick.fixed &&
-            a.pick.freed == b.pick.freed && a.pick.carrying == b.pick.carrying &&
+            a.offset_mm == b.offset_mm && a.carrying_lost == b.carrying_lost && a.tolerance == b.tolerance &&
+            a.most_energy_steps == b.most_energy_steps && a.most_newton_steps == b.most_newton_steps &&
+            a.pick.fixed == b.pick.fixed && a.pick.freed == b.pick.freed && a.pick.carrying == b.pick.carrying &&
             a.pick.friction == b.pick.friction);
 }
 
@@ -155,6 +155,7 @@ std::string_view name(StepStatus status)
     case StepStatus::poor: return "poor";
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "failed";
+    case StepStatus::needs_pick: return "needs a pick";
     }
     return "";
 }
@@ -164,6 +165,8 @@ StepStatus step_status(const Document& document, size_t step)
     const size_t done = steps_done(document);
     if (step < done)
         return document.unfolding->run.states[step].converged ? StepStatus::done : StepStatus::poor;
+    if (needs_pick(*document.steps[step]))
+        return StepStatus::needs_pick;
     if (!document.unfolding)
         return StepStatus::missing;
     const StepsRun& last = *document.unfolding;
@@ -185,9 +188,11 @@ Eigen::Matrix3Xd unfolded_places(const Document& document, double position)
                                : on_the_way(part.triangle, after(whole), after(whole + 1), at - double(whole));
 }
 
+bool needs_pick(const PlannedStep& step) { return step.carrying_lost && !step.pick.target; }
+
 const std::vector<int>& carrying_faces(const PlannedStep& step)
 {
-    return step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
+    return step.pick.carrying.empty() && !step.carrying_lost ? step.pick.fixed : step.pick.carrying;
 }
 
 StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,

@@ -69,13 +69,16 @@ size_t steps_done(const Document& document);
 /// Whether all steps are done and the run went no further, so that its blank is that of the list.
 bool all_steps_done(const Document& document);
 
-enum class StepStatus { missing, done, poor, stale, failed };
+enum class StepStatus { missing, done, poor, stale, failed, needs_pick };
 std::string_view name(StepStatus status);
 StepStatus step_status(const Document& document, size_t step);
 
 /// Where the vertices of the part are. @param position 0: on the part; k: after step k; between: on the way, each along an arc
 /// if its sheet turns. No more than there are states that hold.
 Eigen::Matrix3Xd unfolded_places(const Document& document, double position);
+
+/// Whether it has no target and what carried it is gone from a changed part.
+bool needs_pick(const PlannedStep& step);
 
 /// The faces that carry what a step moves, ascending: of an unroll or a flatten those of its face, if any.
 const std::vector<int>& carrying_faces(const PlannedStep& step);

@@ -16,16 +16,18 @@ const char* status_words(StepStatus status)
     case StepStatus::poor: return "not converged";
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "no result";
+    case StepStatus::needs_pick:
+        return "What carried its target is gone. Select faces that stay and press \"Fit to selection\", or choose a target.";
     }
     return "";
 }
 
 ImVec4 status_colour(const Palette& p, StepStatus status)
 {
-    return status == StepStatus::done                                  ? p.good
-           : status == StepStatus::poor || status == StepStatus::stale ? p.warning
-           : status == StepStatus::failed                              ? p.error
-                                                                       : p.muted;
+    return status == StepStatus::done                                                                      ? p.good
+           : status == StepStatus::poor || status == StepStatus::stale || status == StepStatus::needs_pick ? p.warning
+           : status == StepStatus::failed                                                                  ? p.error
+                                                                                                           : p.muted;
 }
 
 /// With a sign, but for what is nothing when rounded.
