@@ -164,6 +164,9 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
                 fmt::format("The step \"{}\" did not converge: {}. Its best shape is kept; a larger tolerance or other "
                             "faces may help.",
                             state.name, state.reason));
+        else if (state.friction_share < 1)
+            say(Severity::warning, fmt::format("The step \"{}\" has {:.2g} % of its friction: {}.", state.name,
+                                               100 * state.friction_share, state.reason));
     if (const size_t count = last.given_up.size(); count > 0)
         say(Severity::hint,
             fmt::format("The step {}{}. The list shows the steps that were done.", last.given_up.front(),
@@ -183,6 +186,16 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
     if (run.flipped > 0)
         say(Severity::warning, fmt::format("{} of the blank are flipped; unfold there in smaller steps.",
                                            counted(size_t(run.flipped), "triangle")));
+    const UnfoldState& end = run.states.back();
+    if (end.necking > 0)
+        say(Severity::warning,
+            fmt::format("{} strained beyond what the hardening curve is trusted to: the sheet would "
+                        "neck or tear there.",
+                        end.necking == 1 ? "1 triangle is"
+                                         : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
+    if (end.overlap.places > 0)
+        say(Severity::warning,
+            fmt::format("The blank lies on itself at {}.", counted(size_t(end.overlap.places), "place")));
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     say(Severity::done, fmt::format("Unfolded in {}: a blank of {:.4g} x {:.4g} mm.",
                                     counted(run.states.size(), "step"), size[0], size[1]));

@@ -198,7 +198,7 @@ void unfolding_section(Frame& frame)
     note_place(frame, "step by step");
     tooltip("Unfolds picked regions one after another onto faces in space, until the part is flat");
     if (appear)
-        ImGui::SetScrollHereY(0.1f);
+        ImGui::SetScrollHereY(0); // the list has the room
     if (!open)
         return;
     next_button(frame);

@@ -95,6 +95,23 @@ TEST_F(Target, RubsAgainstWhatIsLaidOnIt)
     EXPECT_TRUE(document.steps[0]->pick.friction);
 }
 
+TEST_F(Target, WhatTheSheetDoesNotBearIsTold)
+{
+    open_mesh(shapes::round_cup({.triangles = 1500}));
+    propose();
+    ChangeStep change = change_of(0);
+    change.friction = StepFriction{.pressure_MPa = 50000, .friction = 5};
+    model.apply(change);
+    run();
+    ASSERT_FALSE(document.unfolding->run.states.empty()) << last(Severity::error);
+    ASSERT_LT(after(0).friction_share, 1) << "or this shows nothing";
+    EXPECT_TRUE(says(Severity::warning, "% of its friction")) << last(Severity::warning);
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    const int necking = document.unfolding->run.states.back().necking;
+    ASSERT_GT(necking, 1) << "likewise";
+    EXPECT_TRUE(says(Severity::warning, fmt::format("{} triangles are strained beyond", necking)));
+}
+
 TEST(StepFriction, GoesToTheEngineAndBack)
 {
     for (const StepFriction& each : {StepFriction{.force_N = 1500, .friction = 0.08, .sides = 1},
