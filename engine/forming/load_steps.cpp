@@ -59,6 +59,8 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
         share.resultant = result.resultant;
         reached = std::move(result.position);
     }
+    if (share.process_share > 0) // solved with this curve, whatever the solution without forces was found with
+        share.trusted_strain = trusted_strain(job, Curve::continued, job.options.material.hardening);
     job.external = whole.scaled(share.process_share); // what is in the blank, for who goes on from it
     share.energy = std::move(report.energy);
     share.newton = std::move(report.newton);

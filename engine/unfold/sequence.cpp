@@ -225,8 +225,8 @@ std::string_view name(UnfoldKind kind)
 bool same_work(const PlannedStep& a, const PlannedStep& b)
 {
     const auto work = [](const PlannedStep& s) {
-        return std::tie(s.kind, s.pick, s.within_mm, s.offset_mm, s.extent_mm, s.tolerance, s.most_energy_steps,
-                        s.most_newton_steps);
+        return std::tie(s.kind, s.pick, s.carrying_lost, s.within_mm, s.offset_mm, s.extent_mm, s.tolerance,
+                        s.most_energy_steps, s.most_newton_steps);
     };
     return &a == &b || work(a) == work(b);
 }

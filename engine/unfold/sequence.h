@@ -33,6 +33,8 @@ struct PlannedStep {
     int carrier = -1;       ///< region; -1 where nothing stays
     std::optional<double> tolerance = {};                              ///< of the solver, in place of FlattenOptions
     std::optional<int> most_energy_steps = {}, most_newton_steps = {}; ///< likewise
+    /// The faces that carried the target are gone from a changed part: without others, or a target, it has no result.
+    bool carrying_lost = false;
 };
 
 struct SequenceOptions {
@@ -56,7 +58,7 @@ bool same_work(const PlannedStep& a, const PlannedStep& b);
 /// The faces that carry the target of a step: those named, else all that stay.
 inline const std::vector<int>& carrying_faces(const PlannedStep& step)
 {
-    return step.pick.carrying.empty() ? step.pick.fixed : step.pick.carrying;
+    return step.pick.carrying.empty() && !step.carrying_lost ? step.pick.fixed : step.pick.carrying;
 }
 
 /// Proposes the order in which a part is unfolded region by region: the outermost regions are laid on the faces of their

@@ -61,10 +61,18 @@ bool converged(const UnfoldRun& run)
            std::all_of(run.states.begin(), run.states.end(), [](const UnfoldState& s) { return s.converged; });
 }
 
+UnfoldedByItself with_notes(UnfoldedByItself unfolded, const std::vector<std::string>& given_up)
+{
+    unfolded.sequence.notes.insert(unfolded.sequence.notes.end(), given_up.begin(), given_up.end());
+    unfolded.given_up = given_up.size();
+    return unfolded;
+}
+
 } // namespace
 
 UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions options,
-                                  const FlattenOptions& flatten, const Progress& progress)
+                                  const FlattenOptions& flatten, const Progress& progress,
+                                  const UnfoldedByItself* begun)
 {
     UnfoldedByItself now{propose_sequence(part, map, options), {}};
     if (now.sequence.steps.empty())
@@ -72,16 +80,14 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
     options.root = now.sequence.root; // stays, whatever carries nothing
     std::vector<std::string> given_up;
     std::optional<UnfoldedByItself> nearly; // the first faulty plan whose steps converge, else that ended in a blank
-    size_t keep = 0;
-    for (UnfoldRun before;;) {
+    size_t keep = begun ? std::min(alike(begun->sequence.steps, now.sequence.steps), begun->run.states.size()) : 0;
+    for (UnfoldRun before = begun ? begun->run : UnfoldRun{};;) {
         now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep);
         const std::optional<Fault> fault = fault_in(now.sequence.steps, now.run);
         if (!fault)
             break;
-        if (fault->has_blank && (!nearly || (!converged(nearly->run) && converged(now.run)))) {
-            nearly = now;
-            nearly->sequence.notes.insert(nearly->sequence.notes.end(), given_up.begin(), given_up.end());
-        }
+        if (fault->has_blank && (!nearly || (!converged(nearly->run) && converged(now.run))))
+            nearly = with_notes(now, given_up);
         const PlannedStep& failed = now.sequence.steps[fault->step];
         const std::string what = fmt::format("\"{}\" did not work out ({}); planned anew ", failed.name, fault->why);
         if (failed.kind == UnfoldKind::unroll) {
@@ -100,8 +106,7 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
     }
     if (nearly && !converged(now.run))
         return std::move(*nearly);
-    now.sequence.notes.insert(now.sequence.notes.end(), given_up.begin(), given_up.end());
-    return now;
+    return with_notes(std::move(now), given_up);
 }
 
 } // namespace spia

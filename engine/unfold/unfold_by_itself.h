@@ -1,7 +1,4 @@
 #pragma once
-#include <string>
-#include <vector>
-
 #include "engine/unfold/sequence.h"
 #include "engine/unfold/unfold_script.h"
 
@@ -10,15 +7,20 @@ namespace spia {
 struct UnfoldedByItself {
     UnfoldSequence sequence; ///< of the run; its notes also tell which steps of earlier plans had no result
     UnfoldRun run;
+    size_t given_up = 0; ///< how many of the notes, the last ones, tell of these
 };
 
 /// Proposes the steps of a part and runs them. Where a step has no result or does not converge, its carrier carries nothing in
 /// a new plan, in which what lay on it moves with its neighbours (what cannot be unrolled is flattened); the steps before it
-/// that stay the same are kept; if no plan is without fault it is the first one whose steps converge, else the first that ended in a blank. So it is with a step that strains
-/// the sheet by more than 5 % and more than the flattening of the whole part does at last. Where not even flattening all at
+/// that stay the same are kept. So it is with a step that strains the sheet by more than 5 % and more than the flattening of the whole part does at last. If no plan
+/// is without fault it is the first one whose steps converge, else the first that ended in a blank. Where not even flattening all at
 /// once has a result the run says so.
-/// @throws InputError as propose_sequence() and run_unfolding(), or if the part is flat already
+/// @param progress of the plan at work: from none on again where it is planned anew
+/// @param begun of an earlier run on this part in this sheet, which may have been cancelled: steps with which the first plan begins
+///              likewise are not solved again
+/// @throws UnfoldingCancelled with the plan at work and its states; InputError as propose_sequence() and run_unfolding(), or if the part is flat already
 UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions sequence,
-                                  const FlattenOptions& options, const Progress& progress = {});
+                                  const FlattenOptions& options, const Progress& progress = {},
+                                  const UnfoldedByItself* begun = nullptr);
 
 } // namespace spia

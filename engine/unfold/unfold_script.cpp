@@ -58,6 +58,10 @@ double diagonal(const TriMesh& mesh, const std::vector<int>& faces)
 std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
 {
     std::optional<BinderFace> target = step.pick.target;
+    if (!target && step.carrying_lost)
+        throw InputError(
+            "the faces that carried its target are not on the part any more; pick others that stay, or give "
+            "it a target");
     if (!target && (step.within_mm > 0 || step.offset_mm != 0 || step.kind == UnfoldKind::unroll)) {
         const std::vector<int>& faces = carrying_faces(step);
         if (faces.empty())
@@ -291,7 +295,6 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         const auto clock = std::chrono::steady_clock::now();
         const PlannedStep& step = script[k];
         const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
-        own.checkpoint(0, step.name);
         UnfoldState next;
         next.name = step.name;
         next.position = state.position;

@@ -242,6 +242,8 @@ TEST(Process, WhatTheSheetBearsDoesNotDependOnHowMuchIsAskedFor)
         ASSERT_LT(flat.report.process_share, 1);
         EXPECT_NE(flat.report.system, SolvedSystem::energy);
         EXPECT_NE(flat.report.reason.find("too much force"), std::string::npos) << flat.report.reason;
+        EXPECT_EQ(flat.report.trusted_strain, uniform_strain(options.material.hardening, options.curve.trusted_strain))
+            << "forces in steps are applied with the continued curve";
         borne.push_back(asked * flat.report.process_share);
     }
     std::printf("spiral: %.4f and %.4f of the lock force\n", borne[0], borne[1]);

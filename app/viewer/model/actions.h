@@ -85,7 +85,9 @@ struct SetLimits {
 struct ProposeSteps {
     std::optional<int> keep = {};
 };
-struct RunSteps {}; ///< "run_steps": those that are missing or out of date, in the background
+/// "run_steps": those that are missing or out of date, in the background. Where the list is a proposal of which nothing was edited
+/// it is planned anew if a step does not work out, as by the command line's --auto; the list then shows the steps that were done
+struct RunSteps {};
 /// "use_blank_of_steps": grid, surface, limits and files go on from it, in the background, until the part is solved in one step
 /// again (run_to). polish: the one-step solve is started from it first
 struct UseBlankOfSteps {

@@ -243,6 +243,7 @@ void ViewerModel::Apply::operator()(const SetCarrying& action)
     changed.pick.fixed = std::move(fixed);
     changed.pick.carrying = faces;
     changed.pick.target.reset();
+    changed.carrying_lost = false;
     replace_step("Set carrying faces", size_t(action.step), std::move(changed));
 }
 

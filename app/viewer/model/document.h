@@ -73,6 +73,7 @@ struct Document {
     std::optional<SectionLine> section;
     LimitsChoice limits;
     StepList steps;                            ///< of unfolding step by step
+    std::shared_ptr<const Proposal> proposal;  ///< the last one, see still_proposed(); null: none
     std::shared_ptr<const PartBends> bends;    ///< found for the last proposal; null: none yet
     std::shared_ptr<const StepsRun> unfolding; ///< the last run of steps, see steps_done(); null: none yet
     FieldDisplay display;

@@ -100,10 +100,12 @@ inline constexpr auto members_of<StoredStep> =
                member("most_energy_steps", &StoredStep::most_energy_steps, Between{0, 1e6}),
                member("most_newton_steps", &StoredStep::most_newton_steps, Between{0, 1e6}),
                member("target", &StoredStep::target, one_target),
-               member("friction", &StoredStep::friction, one_pressure)};
+               member("friction", &StoredStep::friction, one_pressure),
+               member("carrying_lost", &StoredStep::carrying_lost)};
 template <>
 inline constexpr auto members_of<StoredSteps> =
-    std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step)};
+    std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step),
+               member("proposed", &StoredSteps::proposed), member("root", &StoredSteps::root, any_index)};
 template <>
 inline constexpr auto members_of<StoredPicks> =
     std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),

@@ -157,21 +157,33 @@ public:
             step.tolerance = each.tolerance;
             step.most_energy_steps = each.most_energy_steps;
             step.most_newton_steps = each.most_newton_steps;
+            const auto lost = [](const std::vector<int>& patches, const std::vector<int>& now) {
+                return !patches.empty() && now.empty();
+            };
+            step.carrying_lost =
+                each.carrying_lost || lost(each.carrying.empty() ? each.fixed : each.carrying,
+                                           each.carrying.empty() ? step.pick.fixed : step.pick.carrying);
             step.pick.target = face_of(each.target, part_.mesh, step.pick);
             if (each.friction) {
                 std::vector<int> faces = all_of(each.rubbing, each.name);
-                if (faces.empty() && !each.rubbing.empty())
+                if (lost(each.rubbing, faces)) // without faces it would rub on all
                     missing.push_back(
                         fmt::format("the faces on which the target of the step \"{}\" rubs are not on the "
-                                    "changed part any more; it rubs on all that the step moves",
+                                    "changed part any more; its friction was removed",
                                     each.name));
-                step.pick.friction = friction_of(*each.friction, std::move(faces));
+                else
+                    step.pick.friction = friction_of(*each.friction, std::move(faces));
             }
             if (step.pick.freed.empty())
                 missing.push_back(fmt::format(
                     "the step \"{}\" has nothing to move on the changed part any more; it was removed", each.name));
-            else
+            else {
+                if (needs_pick(step) && !each.carrying_lost)
+                    missing.push_back(fmt::format("the faces that carry the target of the step \"{}\" are not on the "
+                                                  "changed part any more; pick others for it before it is run",
+                                                  each.name));
                 result.push_back(std::make_shared<PlannedStep>(std::move(step)));
+            }
         }
         return result;
     }
@@ -236,7 +248,8 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
                                        std::shared_ptr<const ClosestPointSearch> search)
 {
     const PartFile& part = picked_part(document);
-    Restorer restorer(part, picks.fingerprint == fingerprint(part), std::move(search));
+    const bool same = picks.fingerprint == fingerprint(part);
+    Restorer restorer(part, same, std::move(search));
     Document restored = document; // all or nothing
     restored.selected = restorer.faces(picks.selected, "the selection");
     restored.vertices = restorer.vertices(picks.vertices);
@@ -247,6 +260,10 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
                                     region.contact, region.sheet});
     restored.lines = restorer.lines(picks.lines);
     restored.steps = restorer.steps(picks.steps);
+    restored.proposal = nullptr;
+    if (same && picks.steps.proposed && !restored.steps.empty()) // another part would be planned otherwise
+        restored.proposal =
+            std::make_shared<Proposal>(Proposal{document.session.part, picks.steps.root.value_or(-1), restored.steps});
     restored.probes.clear();
     for (size_t i = 0; i < picks.probes.size(); ++i)
         if (const auto probe = restorer.probe(picks.probes[i], i))

@@ -193,6 +193,8 @@ Json unfolding_json(const ViewerState& state)
         list.push_back(std::move(json));
     }
     Json json = {{"steps", list}, {"done", done}, {"position", step_position(state)}, {"blank", nullptr}};
+    json["still_proposed"] = still_proposed(document);
+    json["given_up"] = document.unfolding ? document.unfolding->given_up : std::vector<std::string>{};
     json["failure"] = document.unfolding ? document.unfolding->run.failure : "";
     if (all_steps_done(document) && document.unfolding->run.blank) {
         const Eigen::Matrix2Xd& flat = document.unfolding->run.blank->position;

@@ -8,15 +8,6 @@
 #include "engine/pipeline/unfold_file.h"
 
 namespace spia::viewer {
-namespace {
-
-/// Names of regions in a file are those of the part's map.
-std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known)
-{
-    return known && known->part == part ? known : std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
-}
-
-} // namespace
 
 StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                         const std::filesystem::path& file, const Progress& progress)
@@ -35,9 +26,7 @@ StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
         outcome.notes = std::move(read.findings);
         std::stable_partition(outcome.notes.begin(), outcome.notes.end(), // what became of the steps counts most
                               [](const std::string& note) { return note.starts_with("step "); });
-        outcome.proposed.emplace();
-        for (PlannedStep& step : read.steps)
-            outcome.proposed->push_back(std::make_shared<PlannedStep>(std::move(step)));
+        outcome.proposed = step_list(std::move(read.steps));
     } catch (const Cancelled&) {
         outcome.cancelled = true;
     } catch (const std::exception& error) {
@@ -51,13 +40,14 @@ StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
 {
     StepsOutcome outcome;
     try {
+        for (size_t k = 0; k < steps.size(); ++k)
+            if (needs_pick(*steps[k])) // in a file it would mean all that stays
+                throw InputError(fmt::format("Step {} \"{}\" needs faces that carry its target before it can be saved.",
+                                             k + 1, steps[k]->name));
         progress.checkpoint(0, "finding the bends");
         outcome.bends = bends_of(part, std::move(bends));
         progress.checkpoint(0.9, "writing the steps");
-        UnfoldScript script;
-        for (const auto& step : steps)
-            script.push_back(*step);
-        write_atomically(file, unfold_script_json(*part, outcome.bends->map, script));
+        write_atomically(file, unfold_script_json(*part, outcome.bends->map, script_of(steps)));
         outcome.saved = file;
     } catch (const Cancelled&) {
         outcome.cancelled = true;

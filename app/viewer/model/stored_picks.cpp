@@ -76,7 +76,8 @@ StoredSteps store_steps(const PartFile& part, const StepList& steps)
                                step->most_energy_steps,
                                step->most_newton_steps,
                                numbers_of(*step),
-                               numbers_of(step->pick.friction)});
+                               numbers_of(step->pick.friction),
+                               step->carrying_lost});
     for (const auto& [roles, faces] : alike) {
         const int patch = int(stored.patch.size());
         stored.patch.push_back(store_patch(part, faces));
@@ -148,6 +149,9 @@ StoredPicks store_picks(const Document& document)
             {region.name, region.kind, region.colour, store_patch(part, region.faces), region.contact, region.sheet});
     picks.lines = document.lines;
     picks.steps = store_steps(part, document.steps);
+    picks.steps.proposed = still_proposed(document);
+    if (picks.steps.proposed && document.proposal->root >= 0)
+        picks.steps.root = document.proposal->root;
     for (const Probe& probe : document.probes) {
         require_triangle(part.mesh, probe.face);
         const Eigen::Matrix3d corners = corners_of(part.mesh, probe.face);

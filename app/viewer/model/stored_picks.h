@@ -60,12 +60,15 @@ struct StoredStep {
     std::optional<int> most_energy_steps, most_newton_steps;
     StepTarget target;
     std::optional<StepFriction> friction; ///< on the rubbing patches, on all that it moves if there are none
+    bool carrying_lost = false;           ///< as PlannedStep
 };
 
 /// The steps of unfolding. Faces that all steps treat alike are stored once.
 struct StoredSteps {
     std::vector<StoredPatch> patch;
     std::vector<StoredStep> step;
+    bool proposed = false;   ///< as they were proposed, none edited
+    std::optional<int> root; ///< of the proposal; not given: automatic
 };
 
 struct StoredPicks {
@@ -94,7 +97,8 @@ StoredPicks store_picks(const Document& document);
 /// Puts the picks into a document whose part has been read: selection, vertices, regions, probes, and the corners of the
 /// session's options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
 /// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
-/// the outer boundary. A step of unfolding that has no faces to move any more is left out. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
+/// the outer boundary. A step of unfolding that has no faces to move any more is left out; one that has none left of those
+/// that carried its target is marked so, and friction of which all faces are gone is dropped. A vertex of any boundary is the nearest one there, another one the nearest of the face that has come
 /// to its place. A line of the process moves to the nearest places of the part, if all are within those 1 %.
 /// @param search  of that part's mesh; null: made if need be
 /// @returns in words what was not found (again); empty if the part is the same, or all was found

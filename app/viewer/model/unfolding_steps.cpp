@@ -10,6 +10,7 @@
 #include "app/viewer/model/step_target.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/unfold_by_itself.h"
 
 namespace spia::viewer {
 namespace {
@@ -49,7 +50,56 @@ StepFigures figures_of(const UnfoldState& state, const PlannedStep& step, const 
     return figures;
 }
 
+std::shared_ptr<const StepsRun> with_figures(std::shared_ptr<StepsRun> run)
+{
+    run->run.states.resize(std::min(run->run.states.size(), run->steps.size()));
+    for (size_t k = 0; k < run->run.states.size(); ++k)
+        run->figure.push_back(figures_of(run->run.states[k], *run->steps[k], run->part->mesh));
+    return run;
+}
+
+/// The steps of a plan; those that the list begins with likewise are its own.
+StepList as_far_as_the_same(const StepList& list, const UnfoldScript& plan)
+{
+    StepList steps = step_list(plan);
+    for (size_t k = 0; k < std::min(list.size(), plan.size()); ++k)
+        if (same_work(*list[k], plan[k]) && list[k]->name == plan[k].name)
+            steps[k] = list[k];
+    return steps;
+}
+
+/// What stays of a plan that was about to be replaced: it is to go on from there, not to be taken for done.
+UnfoldRun as_far_as_it_worked(UnfoldRun run)
+{
+    const auto poor = std::find_if(run.states.begin(), run.states.end(), [](const auto& s) { return !s.converged; });
+    run.states.erase(poor, run.states.end());
+    run.failure.clear();
+    run.blank.reset();
+    return run;
+}
+
 } // namespace
+
+UnfoldScript script_of(const StepList& list)
+{
+    UnfoldScript script;
+    for (const auto& step : list)
+        script.push_back(*step);
+    return script;
+}
+
+StepList step_list(UnfoldScript steps)
+{
+    StepList list;
+    for (PlannedStep& step : steps)
+        list.push_back(std::make_shared<PlannedStep>(std::move(step)));
+    return list;
+}
+
+std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known)
+{
+    return known && known->part == part ? known : std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
+}
 
 FlattenOptions sheet_of_steps(const FlattenOptions& wanted)
 {
@@ -59,6 +109,12 @@ FlattenOptions sheet_of_steps(const FlattenOptions& wanted)
     sheet.process.tailored = wanted.process.tailored;
     sheet.process.rolling = wanted.process.rolling;
     return sheet;
+}
+
+bool still_proposed(const Document& document)
+{
+    return document.proposal && document.proposal->part == document.session.part &&
+           document.proposal->steps == document.steps;
 }
 
 size_t steps_done(const Document& document)
@@ -87,6 +143,7 @@ std::string_view name(StepStatus status)
     case StepStatus::poor: return "poor";
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "failed";
+    case StepStatus::needs_pick: return "needs a pick";
     }
     return "";
 }
@@ -98,6 +155,8 @@ StepStatus step_status(const Document& document, size_t step)
         const UnfoldState& state = document.unfolding->run.states[step];
         return state.converged && state.friction_share == 1 ? StepStatus::done : StepStatus::poor;
     }
+    if (needs_pick(*document.steps[step]))
+        return StepStatus::needs_pick;
     if (!document.unfolding)
         return StepStatus::missing;
     const StepsRun& last = *document.unfolding;
@@ -119,15 +178,15 @@ Eigen::Matrix3Xd unfolded_places(const Document& document, double position)
                                : on_the_way(part.triangle, after(whole), after(whole + 1), at - double(whole));
 }
 
+bool needs_pick(const PlannedStep& step) { return step.carrying_lost && !step.pick.target; }
+
 StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                            std::optional<int> keep, const Progress& progress)
 {
     StepsOutcome outcome;
     try {
         progress.checkpoint(0, "finding the bends");
-        if (!bends || bends->part != part)
-            bends = std::make_shared<PartBends>(PartBends{part, find_bends(part->mesh)});
-        outcome.bends = bends;
+        outcome.bends = bends = bends_of(part, std::move(bends));
         progress.checkpoint(0.7, "ordering the steps");
         SequenceOptions options;
         if (keep) {
@@ -140,9 +199,8 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
         UnfoldSequence sequence = propose_sequence(part->mesh, bends->map, options);
         progress.checkpoint(1, "ordering the steps");
         outcome.notes = std::move(sequence.notes);
-        outcome.proposed.emplace();
-        for (PlannedStep& step : sequence.steps)
-            outcome.proposed->push_back(std::make_shared<PlannedStep>(std::move(step)));
+        outcome.root = options.root;
+        outcome.proposed = step_list(std::move(sequence.steps));
     } catch (const Cancelled&) {
         outcome.cancelled = true;
     } catch (const std::exception& error) {
@@ -151,38 +209,58 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
     return outcome;
 }
 
+StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
+                          std::shared_ptr<const StepsRun> before, const Progress& progress)
+{
+    StepsOutcome outcome;
+    const auto& part = proposal.part;
+    auto result = std::make_shared<StepsRun>(StepsRun{part, proposal.steps, sheet, {}, {}, {}});
+    const auto take = [&](const UnfoldScript& steps, UnfoldRun run) {
+        result->steps = as_far_as_the_same(proposal.steps, steps);
+        result->run = std::move(run);
+    };
+    try {
+        progress.checkpoint(0, "finding the bends");
+        outcome.bends = bends = bends_of(part, std::move(bends));
+        UnfoldedByItself begun;
+        if (before && before->part == part && same_sheet(before->sheet, sheet)) {
+            begun.sequence.steps = script_of(before->steps);
+            begun.run = before->run;
+        }
+        UnfoldedByItself unfolded =
+            unfold_by_itself(part->mesh, bends->map, {.root = proposal.root}, sheet, progress, &begun);
+        const std::vector<std::string>& notes = unfolded.sequence.notes;
+        result->given_up.assign(notes.end() - long(unfolded.given_up), notes.end());
+        take(unfolded.sequence.steps, std::move(unfolded.run));
+    } catch (const UnfoldingCancelled& cancelled) {
+        outcome.cancelled = true;
+        take(cancelled.steps, as_far_as_it_worked(cancelled.done));
+    } catch (const Cancelled&) {
+        outcome.cancelled = true;
+    } catch (const std::exception& error) {
+        outcome.failure = error.what();
+    }
+    outcome.run = with_figures(std::move(result));
+    return outcome;
+}
+
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
                        std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress)
 {
     StepsOutcome outcome;
-    auto result = std::make_shared<StepsRun>(StepsRun{part, steps, sheet, {}, {}});
+    auto result = std::make_shared<StepsRun>(StepsRun{part, steps, sheet, {}, {}, {}});
     if (done > 0)
         result->run.states.assign(before->run.states.begin(), before->run.states.begin() + Eigen::Index(done));
     try {
-        // One by one, so that what has ended before it is cancelled stays; if only the blank is missing, that.
-        const double missing = double(std::max<size_t>(1, steps.size() - done));
-        UnfoldScript script;
-        for (size_t k = 0; k < done; ++k)
-            script.push_back(*steps[k]);
-        for (size_t k = done; k < steps.size() || k == done; ++k) {
-            if (k < steps.size())
-                script.push_back(*steps[k]);
-            result->run = run_unfolding(part->mesh, script, sheet,
-                                        progress.part(-double(done) / missing, double(script.size() - done) / missing),
-                                        &result->run, k);
-            if (!result->run.failure.empty())
-                break;
-        }
-    } catch (const Cancelled&) {
+        const UnfoldRun kept = result->run;
+        result->run = run_unfolding(part->mesh, script_of(steps), sheet, progress, &kept, done);
+    } catch (const UnfoldingCancelled& cancelled) {
         outcome.cancelled = true;
-        result->run.blank.reset();
+        result->run = cancelled.done;
     } catch (const std::exception& error) {
         outcome.failure = error.what();
     }
-    result->run.states.resize(std::min(result->run.states.size(), steps.size()));
-    for (size_t k = 0; k < result->run.states.size(); ++k)
-        result->figure.push_back(figures_of(result->run.states[k], *steps[k], part->mesh));
-    outcome.run = std::move(result);
+    outcome.run = with_figures(std::move(result));
     return outcome;
 }
 

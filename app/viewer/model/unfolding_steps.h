@@ -18,12 +18,16 @@ struct Document;
 
 /// Steps in order. Each is finished and const, so that copies of a document share them; an edited one is a new one.
 using StepList = std::vector<std::shared_ptr<const PlannedStep>>;
+StepList step_list(UnfoldScript steps);
+UnfoldScript script_of(const StepList& list);
 
 /// A part split at its bends.
 struct PartBends {
     std::shared_ptr<const PartFile> part;
     BendMap map;
 };
+/// @param known those of this part, if they are; else, and if null, they are found
+std::shared_ptr<const PartBends> bends_of(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> known);
 
 /// Of the faces that a step moves, after it.
 struct StepFigures {
@@ -37,13 +41,23 @@ struct StepFigures {
     std::optional<Hinge> hinge;
 };
 
+/// Steps as they were proposed. As long as the list is still theirs, a run plans anew where one does not work out.
+struct Proposal {
+    std::shared_ptr<const PartFile> part;
+    int root; ///< of SequenceOptions
+    StepList steps;
+};
+/// Whether the list is a proposal for the part, none of it edited.
+bool still_proposed(const Document& document);
+
 /// What a run gave, and what it was made with.
 struct StepsRun {
     std::shared_ptr<const PartFile> part;
     StepList steps;
     FlattenOptions sheet; ///< as sheet_of_steps() gives it
     UnfoldRun run;
-    std::vector<StepFigures> figure; ///< one per state
+    std::vector<StepFigures> figure;        ///< one per state
+    std::vector<std::string> given_up = {}; ///< steps of a proposal that did not work out, and why: it was planned anew
 };
 
 /// The sheet of the steps: material, gauge, tailored pieces, rolling direction. Tools act on the part as a whole and are left out.
@@ -55,7 +69,7 @@ size_t steps_done(const Document& document);
 /// Whether all steps are done and the run went no further, so that its blank is that of the list.
 bool all_steps_done(const Document& document);
 
-enum class StepStatus { missing, done, poor, stale, failed };
+enum class StepStatus { missing, done, poor, stale, failed, needs_pick };
 std::string_view name(StepStatus status);
 StepStatus step_status(const Document& document, size_t step);
 
@@ -63,9 +77,13 @@ StepStatus step_status(const Document& document, size_t step);
 /// if its sheet turns. No more than there are states that hold.
 Eigen::Matrix3Xd unfolded_places(const Document& document, double position);
 
+/// Whether it has no target and what carried it is gone from a changed part.
+bool needs_pick(const PlannedStep& step);
+
 /// What a job about steps left behind.
 struct StepsOutcome {
     std::optional<StepList> proposed;
+    int root = -1;                          ///< of the proposal, see SequenceOptions
     std::vector<std::string> notes;         ///< of the proposal, or what of a file made no sense on the part
     std::filesystem::path opened, saved;    ///< files; empty: none
     std::shared_ptr<const PartBends> bends; ///< null: not asked for
@@ -86,6 +104,12 @@ StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
 /// Writes such a file; never throws. @param bends as above
 StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                         const StepList& steps, const std::filesystem::path& file, const Progress& progress);
+
+/// Runs steps as they were proposed, by unfold_by_itself(): planned anew where one does not work out, the run then has other
+/// steps, as it does where it is cancelled meanwhile; never throws.
+/// @param bends as above; @param before of the same part and sheet, or null: what of it can stay is not solved again
+StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
+                          std::shared_ptr<const StepsRun> before, const Progress& progress);
 
 /// Runs the steps after the first `done` ones, whose states are taken from `before`; never throws.
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,

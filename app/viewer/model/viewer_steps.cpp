@@ -35,6 +35,13 @@ void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(cons
 void ViewerModel::run_missing_steps()
 {
     const Document& document = state_.document;
+    running_list_ = document.steps;
+    if (still_proposed(document) && !keep_step_) // those of a project are to be what they were
+        return start_steps("Unfolding step by step", [proposal = document.proposal, bends = document.bends,
+                                                      sheet = sheet_of_steps(document.session.options.flatten),
+                                                      before = document.unfolding](const Progress& progress) {
+            return run_proposal(*proposal, bends, sheet, before, progress);
+        });
     start_steps("Unfolding step by step",
                 [part = document.session.part, steps = document.steps,
                  sheet = sheet_of_steps(document.session.options.flatten), before = document.unfolding,
@@ -75,6 +82,10 @@ void ViewerModel::take_steps_result()
     if (outcome.proposed && !outcome.proposed->empty()) {
         change(outcome.opened.empty() ? "Propose steps" : "Open steps");
         document.steps = std::move(*outcome.proposed);
+        document.proposal =
+            outcome.opened.empty()
+                ? std::make_shared<Proposal>(Proposal{document.session.part, outcome.root, document.steps})
+                : nullptr;
         document.bends = outcome.bends;
         show_step(0, 0);
         const size_t most_notes = outcome.opened.empty() ? 2 : 6;
@@ -101,6 +112,11 @@ void ViewerModel::take_steps_result()
         } else {
             change("Run the steps");
             document.unfolding = run;
+            if (const bool edited = document.steps != running_list_; !edited && run->steps != document.steps) {
+                document.steps = run->steps;
+                document.proposal =
+                    std::make_shared<Proposal>(Proposal{run->part, document.proposal->root, run->steps});
+            }
             const size_t done = steps_done(document);
             if (!run->run.failure.empty()) // the one to be changed
                 show_step(int(std::min(done, document.steps.size() - 1)), double(done));
@@ -157,6 +173,10 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
                 fmt::format(
                     "In the step \"{}\" {} reach beyond the end of the target, up to {:.4g} mm from what carries it.",
                     state.name, counted(size_t(state.reach.without_room), "face"), state.reach.farthest_mm));
+    if (const size_t count = last.given_up.size(); count > 0)
+        say(Severity::hint,
+            fmt::format("The step {}{}. The list shows the steps that were done.", last.given_up.front(),
+                        count > 1 ? fmt::format("; so it was {} more", counted(count - 1, "time")) : ""));
     if (!run.failure.empty()) {
         const size_t failed = run.states.size();
         say(Severity::error,
@@ -172,6 +192,16 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
     if (run.flipped > 0)
         say(Severity::warning, fmt::format("{} of the blank are flipped; unfold there in smaller steps.",
                                            counted(size_t(run.flipped), "triangle")));
+    const UnfoldState& end = run.states.back();
+    if (end.necking > 0)
+        say(Severity::warning,
+            fmt::format("{} strained beyond what the hardening curve is trusted to: the sheet would "
+                        "neck or tear there.",
+                        end.necking == 1 ? "1 triangle is"
+                                         : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
+    if (end.overlap.places > 0)
+        say(Severity::warning,
+            fmt::format("The blank lies on itself at {}.", counted(size_t(end.overlap.places), "place")));
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     say(Severity::done, fmt::format("Unfolded in {}: a blank of {:.4g} x {:.4g} mm.",
                                     counted(run.states.size(), "step"), size[0], size[1]));

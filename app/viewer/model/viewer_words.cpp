@@ -19,6 +19,8 @@ std::string in_viewer_words(std::string text)
          "take away its offset, or choose a region to stay whose face goes "
          "through their common edge"},
         {"pick others, allow more or give a target", "pick others, or allow more with \"Within\""},
+        {"pick others that stay, or give it a target",
+         "select some that stay and press \"Fit to selection\", or choose a target"},
         {"pick those that carry the target, or give one", "choose another region to stay"}};
     for (const auto& [flag, button] : words)
         for (size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + button.size()))

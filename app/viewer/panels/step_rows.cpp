@@ -16,16 +16,18 @@ const char* status_words(StepStatus status)
     case StepStatus::poor: return "not converged";
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "no result";
+    case StepStatus::needs_pick:
+        return "What carried its target is gone. Select faces that stay and press \"Fit to selection\", or choose a target.";
     }
     return "";
 }
 
 ImVec4 status_colour(const Palette& p, StepStatus status)
 {
-    return status == StepStatus::done                                  ? p.good
-           : status == StepStatus::poor || status == StepStatus::stale ? p.warning
-           : status == StepStatus::failed                              ? p.error
-                                                                       : p.muted;
+    return status == StepStatus::done                                                                      ? p.good
+           : status == StepStatus::poor || status == StepStatus::stale || status == StepStatus::needs_pick ? p.warning
+           : status == StepStatus::failed                                                                  ? p.error
+                                                                                                           : p.muted;
 }
 
 /// With a sign, but for what is nothing when rounded.
@@ -35,11 +37,30 @@ std::string percent(double share)
     return tenths == 0 ? "0" : fmt::format("{:+.1f}", tenths);
 }
 
+/// Below them a figure is nothing when rounded as it is here.
+constexpr double no_distance_mm = 5e-4, no_angle_deg = 0.05, no_strain = 5e-4;
+
 /// How well the target goes on from what stays.
 std::string hinge_words(const StepFigures::Hinge& hinge)
 {
     return fmt::format("hinge {} mm off, turned {:.1f}\u00b0",
-                       hinge.distance_mm < 5e-4 ? "0" : fmt::format("{:.2g}", hinge.distance_mm), hinge.angle_deg);
+                       hinge.distance_mm < no_distance_mm ? "0" : fmt::format("{:.2g}", hinge.distance_mm),
+                       hinge.angle_deg);
+}
+
+/// The figures that are more than nothing: noughts in every row would hide them.
+std::string figures_words(const std::string& laid_on, const StepFigures& figures)
+{
+    std::string text = laid_on + (figures.strain_equivalent < no_strain
+                                      ? ", strain below 0.001"
+                                      : fmt::format(", strain to {:.3f}", figures.strain_equivalent));
+    const std::string least = percent(figures.thinning[0]), greatest = percent(figures.thinning[1]);
+    if (least != "0" || greatest != "0")
+        text += fmt::format("\nthinning {} to {} %", least, greatest);
+    if (const auto& hinge = figures.hinge;
+        hinge && !hinge->bad && (hinge->distance_mm >= no_distance_mm || hinge->angle_deg >= no_angle_deg))
+        text += "\n" + hinge_words(*hinge);
+    return text;
 }
 
 /// The figures of a step, or why there are none, in one line below its name.
@@ -48,32 +69,38 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
     const Document& document = frame.state.document;
     const Palette p = palette_of(frame.state.view.dark);
     ImGui::PushFont(frame.ui.fonts.small);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0}); // lines of one row
     if (status == StepStatus::done || status == StepStatus::poor) {
         const StepFigures& figures = document.unfolding->figure[number];
         const UnfoldState& after = document.unfolding->run.states[number];
-        std::string text =
-            fmt::format("{}, strain to {:.3f}\nthinning {} to {} %", after.plain, figures.strain_equivalent,
-                        percent(figures.thinning[0]), percent(figures.thinning[1]));
         const bool bad = figures.hinge && figures.hinge->bad;
-        if (figures.hinge && !bad)
-            text.append("\n").append(hinge_words(*figures.hinge));
-        muted(frame, text);
+        muted(frame, figures_words(after.plain, figures));
         tooltip(
             "What it was laid on; equivalent strain and thinning per face of the faces that it moves; where these hang on what "
-            "stays, how far the target lies beside it, and by how much it turns from it.");
+            "stays, how far the target lies beside it, and by how much it turns from it. What is nothing when rounded is left out.");
         if (bad) {
             coloured(p.warning, hinge_words(*figures.hinge));
             tooltip(
                 "Where what moves hangs on what stays the target lies beside it or turns from it: the sheet has a step or a "
                 "crease there. Fit the target to other faces, or give it other numbers.");
         }
+        if (after.necking > 0) {
+            coloured(p.warning,
+                     fmt::format("{} face{} beyond trusted strain", after.necking, after.necking == 1 ? "" : "s"));
+            tooltip(
+                "Strained beyond what the hardening curve is trusted to: extrapolated, the sheet would neck or tear there");
+        }
+        if (after.friction_share < 1)
+            coloured(p.warning, fmt::format("{:.2g} % of its friction", 100 * after.friction_share));
         if (status == StepStatus::poor)
             coloured(p.warning, "Not converged: " + after.reason);
     } else if (status == StepStatus::failed)
         coloured(p.error, as_sentence(in_viewer_words(document.unfolding->run.failure)));
     else
         coloured(status_colour(p, status), status_words(status));
+    ImGui::PopStyleVar();
     ImGui::PopFont();
+    ImGui::Dummy({0, 0});
 }
 
 /// The beginning of a text that has a width, with dots where it goes on.
@@ -89,6 +116,25 @@ std::string cut_to(const std::string& text, float width)
             cut.pop_back();
     }
     return cut + "...";
+}
+
+/// A name in a width: what it lays on, at the end of a proposed one, is kept as long as possible.
+std::string name_in(std::string name, float width)
+{
+    const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= width; };
+    if (fits(name))
+        return name;
+    constexpr std::string_view again = ", region ", onto = " onto ";
+    for (size_t at = name.find(again); at != std::string::npos; at = name.find(again, at + 2))
+        name.replace(at, again.size(), ", ");
+    const size_t tail = name.rfind(onto);
+    if (fits(name) || tail == std::string::npos || tail == 0)
+        return cut_to(name, width);
+    const std::string end = name.substr(tail), least = name.substr(0, 1) + "...";
+    const float room = width - ImGui::CalcTextSize(end.c_str()).x;
+    if (room < 2 * ImGui::CalcTextSize(least.c_str()).x)
+        return cut_to(name, width);
+    return cut_to(name.substr(0, tail), room) + end;
 }
 
 /// A small picture of the step where there is room for it. @returns its width with what is beside it, pixels
@@ -138,7 +184,7 @@ void step_row(Frame& frame, int number)
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddCircleFilled({at.x + r, at.y + ImGui::GetTextLineHeight() / 2}, r, ink(status_colour(p, status)), 16);
     draw->AddText({at.x + text_from, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
-                  cut_to(fmt::format("{}  {}", number + 1, step.name), room - text_from).c_str());
+                  name_in(fmt::format("{}  {}", number + 1, step.name), room - text_from).c_str());
     figures_line(frame, size_t(number), status);
     ImGui::Unindent(std::max(beside, 1.f));
     if (beside > 0)

@@ -38,6 +38,23 @@ void next_button(Frame& frame)
     tooltip(again ? "The states before it are kept" : "Runs every step that is missing or out of date");
 }
 
+/// Where a proposal was planned anew: what of it, in one line.
+void given_up_line(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (!document.unfolding || document.unfolding->given_up.empty() || !still_proposed(document) ||
+        document.unfolding->steps != document.steps)
+        return;
+    const std::vector<std::string>& given_up = document.unfolding->given_up;
+    muted(frame,
+          fmt::format("Planned anew: {} step{} did not work out.", given_up.size(), given_up.size() == 1 ? "" : "s"));
+    note_place(frame, "planned anew");
+    std::string all;
+    for (const std::string& each : given_up)
+        all += (all.empty() ? "" : "\n") + each;
+    tooltip(all + "\nUndo brings the first proposal back.");
+}
+
 /// The slider from the part to the last state, and what plays it.
 void slider(Frame& frame)
 {
@@ -181,10 +198,11 @@ void unfolding_section(Frame& frame)
     note_place(frame, "step by step");
     tooltip("Unfolds picked regions one after another onto faces in space, until the part is flat");
     if (appear)
-        ImGui::SetScrollHereY(0.1f);
+        ImGui::SetScrollHereY(0); // the list has the room
     if (!open)
         return;
     next_button(frame);
+    given_up_line(frame);
     blank_of_steps(frame);
     slider(frame);
     for (size_t k = 0; k < document.steps.size(); ++k) {

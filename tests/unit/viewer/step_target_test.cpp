@@ -95,6 +95,108 @@ TEST_F(Target, RubsAgainstWhatIsLaidOnIt)
     EXPECT_TRUE(document.steps[0]->pick.friction);
 }
 
+TEST_F(Target, WhatTheSheetDoesNotBearIsTold)
+{
+    open_mesh(shapes::round_cup({.triangles = 1500}));
+    propose();
+    ChangeStep change = change_of(0);
+    change.friction = StepFriction{.pressure_MPa = 50000, .friction = 5};
+    model.apply(change);
+    run();
+    ASSERT_FALSE(document.unfolding->run.states.empty()) << last(Severity::error);
+    ASSERT_LT(after(0).friction_share, 1) << "or this shows nothing";
+    EXPECT_TRUE(says(Severity::warning, "% of its friction")) << last(Severity::warning);
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    const int necking = document.unfolding->run.states.back().necking;
+    ASSERT_GT(necking, 1) << "likewise";
+    EXPECT_TRUE(says(Severity::warning, fmt::format("{} triangles are strained beyond", necking)));
+}
+
+TEST(StepFriction, GoesToTheEngineAndBack)
+{
+    for (const StepFriction& each : {StepFriction{.force_N = 1500, .friction = 0.08, .sides = 1},
+                                     StepFriction{.pressure_MPa = 3, .friction = 0.2}}) {
+        const ContactRegion rubs = friction_of(each, {4, 7});
+        EXPECT_EQ(rubs.faces, (std::vector{4, 7}));
+        EXPECT_EQ(rubs.force_N, each.force_N);
+        EXPECT_EQ(rubs.pressure_MPa, each.pressure_MPa);
+        EXPECT_EQ(rubs.friction, each.friction);
+        EXPECT_EQ(rubs.sides, each.sides);
+        EXPECT_EQ(numbers_of(rubs), each);
+    }
+    EXPECT_EQ(numbers_of(std::optional<ContactRegion>()), std::nullopt);
+    for (const StepFriction& bad :
+         {StepFriction{}, StepFriction{.force_N = 1, .pressure_MPa = 1}, StepFriction{.force_N = 0},
+          StepFriction{.pressure_MPa = 1, .friction = -0.1}, StepFriction{.pressure_MPa = 1, .sides = 3},
+          StepFriction{.pressure_MPa = 1, .sides = 0}})
+        EXPECT_THROW(friction_of(bad, {}), InputError);
+}
+
+TEST_F(Target, AProjectKeepsItsFriction)
+{
+    open_box();
+    propose();
+    const StepFriction by_force{.force_N = 1500, .friction = 0.08, .sides = 1}, by_pressure{.pressure_MPa = 3};
+    ChangeStep change = change_of(0);
+    change.friction = by_force;
+    model.apply(change);
+    change = change_of(1);
+    change.friction = by_pressure;
+    model.apply(change);
+    EXPECT_EQ(to_json(action_from_json(to_json(Action(change)), state)), to_json(Action(change)));
+    model.apply(SaveProject{folder / "rubs.spia"});
+    model.apply(OpenProject{folder / "rubs.spia"});
+    wait();
+    ASSERT_EQ(document.steps.size(), 5u) << last(Severity::error);
+    EXPECT_EQ(numbers_of(document.steps[0]->pick.friction), by_force);
+    EXPECT_EQ(numbers_of(document.steps[1]->pick.friction), by_pressure);
+    EXPECT_FALSE(document.steps[2]->pick.friction);
+    ASSERT_TRUE(document.steps[0]->pick.friction);
+    EXPECT_TRUE(document.steps[0]->pick.friction->faces.empty()) << "on all that it moves";
+}
+
+TEST_F(Target, OfEveryKindIsKeptByProjectsAndTakenBack)
+{
+    open_box();
+    propose();
+    const std::vector<StepTarget> targets{{},
+                                          {.plane = TargetPlane{{1, 2, 3}, {0, 0.6, 0.8}}},
+                                          {.cylinder = TargetCylinder{{0, 5, 300}, {0, 1, 0}, 250}},
+                                          {.cone = TargetCone{{0, 0, 400}, {0, 0, -1}, 12}}};
+    const auto same = [](const StepTarget& a, const StepTarget& b) { // but for rounding: degrees, unit vectors
+        if (a.plane && b.plane)
+            return a.plane->origin.isApprox(b.plane->origin) && a.plane->normal.isApprox(b.plane->normal);
+        if (a.cylinder && b.cylinder)
+            return a.cylinder->origin.isApprox(b.cylinder->origin) && a.cylinder->axis.isApprox(b.cylinder->axis) &&
+                   a.cylinder->radius == b.cylinder->radius;
+        if (a.cone && b.cone)
+            return a.cone->apex.isApprox(b.cone->apex) && a.cone->axis.isApprox(b.cone->axis) &&
+                   std::abs(a.cone->half_angle_deg - b.cone->half_angle_deg) < 1e-9;
+        return a.fitted() && b.fitted();
+    };
+    const auto is = [&](size_t k) { return same(numbers_of(*document.steps[0]), targets[k]); };
+    for (size_t k = 1; k < targets.size(); ++k) {
+        model.apply(SelectFaces{{int(k)}}); // else the change before and this one are one
+        ChangeStep change = change_of(0);
+        change.target = targets[k];
+        model.apply(change);
+        EXPECT_TRUE(is(k)) << k << last(Severity::error);
+        const auto face = document.steps[0]->pick.target;
+        model.apply(SaveProject{folder / "target.spia"});
+        model.apply(Undo{});
+        EXPECT_TRUE(is(0)) << k;
+        model.apply(OpenProject{folder / "target.spia"});
+        wait();
+        ASSERT_EQ(document.steps.size(), 5u) << last(Severity::error);
+        EXPECT_TRUE(is(k)) << k;
+        EXPECT_EQ(document.steps[0]->pick.target->index(), face->index());
+        change = change_of(0);
+        change.target = StepTarget{};
+        model.apply(change);
+        EXPECT_TRUE(is(0)) << k;
+    }
+}
+
 TEST_F(Target, NumbersThatAreTheFittedPlaneGiveTheSameBlank)
 {
     open_channel();
