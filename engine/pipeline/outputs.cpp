@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/blank_outline.h"
+#include "engine/exchange/part_shells.h"
 #include "engine/exchange/picture.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/exchange/write_csv.h"
@@ -16,6 +17,7 @@
 #include "engine/exchange/write_step.h"
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
+#include "engine/pipeline/deck_outputs.h"
 
 namespace fs = std::filesystem;
 
@@ -59,6 +61,8 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
             names.push_back(first + "faces.csv");
         return names;
     }
+    if (is_deck_format(format))
+        return deck_file_names(format, file_stem(session, options));
     if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
         throw InputError("nothing is chosen of the GLB file; take part, blank, quad_mesh, surface or control_net");
     return {file_stem(session, options) + "." + format};
@@ -66,9 +70,19 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
 
 } // namespace
 
-const std::vector<std::string>& output_formats()
+const std::vector<std::string>& usual_formats()
 {
     static const std::vector<std::string> formats = {"iges", "step", "glb", "vtu", "dxf", "csv", "png"};
+    return formats;
+}
+
+const std::vector<std::string>& output_formats()
+{
+    static const std::vector<std::string> formats = [] {
+        std::vector<std::string> all = usual_formats();
+        all.insert(all.end(), deck_formats().begin(), deck_formats().end());
+        return all;
+    }();
     return formats;
 }
 
@@ -95,6 +109,8 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
         std::error_code ignored;
         return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
     };
+    if (session.part && std::any_of(formats.begin(), formats.end(), is_deck_format))
+        part_shells(*session.part, options.unit); // whether its ids allow it
     std::vector<fs::path> files;
     for (const std::string& format : formats)
         for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
@@ -151,6 +167,11 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
         if (!has_content(format, session, options))
             continue;
         progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
+        if (is_deck_format(format)) {
+            const auto written = write_deck_files(folder, name, std::span(&format, 1), *session.part, flat.blank, flat.face, unit);
+            files.insert(files.end(), written.begin(), written.end());
+            continue;
+        }
         const size_t first = files.size();
         for (const std::string& file : file_names(format, session, options))
             files.push_back(folder / file);
