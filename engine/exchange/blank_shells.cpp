@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
-#include <set>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/exchange/part_shells.h"
@@ -32,11 +32,8 @@ public:
                 take_whole(e);
             else
                 take_triangles(e);
-        const double mm = millimetres(formed.unit);
+        number_nodes(blank);
         ShellMesh& mesh = blank_.mesh;
-        mesh.position.setZero(3, mesh.nodes());
-        for (int n = 0; n < mesh.nodes(); ++n)
-            mesh.position.col(n).head<2>() = blank.position.col(vertex_[size_t(n)]) / mm;
         if (const auto copies = last_node_ - shells_.last_node; copies > 0)
             mesh.notes.push_back(fmt::format("the part was cut open: {} nodes are copies, with ids from {} on", copies,
                                              shells_.last_node + 1));
@@ -52,17 +49,30 @@ private:
         return part_.deck ? part_.deck->node_id[size_t(file_vertex)] : file_vertex + 1;
     }
 
-    /// Its number in the blank; further places of one vertex are copies.
+    /// Its number for now, in the order of use.
     int node(int file_vertex, int vertex)
     {
-        const auto [found, is_new] = node_.try_emplace({file_vertex, vertex}, blank_.mesh.nodes());
-        if (is_new) {
-            const bool first = has_id_.insert(file_vertex).second;
-            blank_.mesh.node.push_back(first ? id_of(file_vertex) : ++last_node_);
+        return node_.try_emplace({file_vertex, vertex}, int(node_.size())).first->second;
+    }
+
+    /// In the order of the file. Of the places of one node the first has its id, the others are copies.
+    void number_nodes(const Blank& blank)
+    {
+        ShellMesh& mesh = blank_.mesh;
+        mesh.position.setZero(3, long(node_.size()));
+        std::vector<int> number(node_.size());
+        int before = -1;
+        for (const auto& [place, used] : node_) {
+            const auto [file_vertex, vertex] = place;
+            number[size_t(used)] = mesh.nodes();
+            mesh.position.col(mesh.nodes()).head<2>() = blank.position.col(vertex) / millimetres(mesh.unit);
+            mesh.node.push_back(file_vertex == before ? ++last_node_ : id_of(file_vertex));
             blank_.part_node.push_back(id_of(file_vertex));
-            vertex_.push_back(vertex);
+            before = file_vertex;
         }
-        return found->second;
+        for (auto& corner : mesh.corner)
+            for (int& v : corner)
+                v = v < 0 ? -1 : number[size_t(v)];
     }
 
     void add(std::int64_t id, const std::array<int, 4>& corner, int part)
@@ -118,8 +128,6 @@ private:
     const PartShells& shells_;
     BlankShells blank_;
     std::map<std::pair<int, int>, int> node_; // vertex of the file and of the part
-    std::set<int> has_id_;
-    std::vector<int> vertex_; // of the part, per node of the blank
     std::int64_t last_node_ = 0, last_element_ = 0;
     int torn_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "engine/exchange/fixed_number.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
@@ -28,7 +29,7 @@ std::string fixed_number(double value, int width)
             c = c == 'e' ? 'E' : c;
         return shortest;
     }());
-    for (int digits = 17; int(text.size()) > width; --digits)
+    for (int digits = 17; int(text.size()) > width - 1; --digits)
         text = fmt::format("{:#.{}G}", value, digits);
     return fmt::format("{:>{}}", text, width);
 }

@@ -57,7 +57,7 @@ std::string dyna(const ShellMesh& mesh, std::string_view title)
     for (const ShellPart& part : mesh.parts) {
         std::string name = one_line(part.name, 70);
         if (name.empty() || name[0] == '*' || name[0] == '$')
-            name = fmt::format("part {} {}", part.id, name);
+            name = fmt::format("part {}{}{}", part.id, name.empty() ? "" : " ", name);
         constexpr int element_form = 2; // Belytschko-Tsay
         fmt::format_to(end, "*PART\n{}\n{}{}{}\n", name, fixed_number(part.id, 10), fixed_number(part.id, 10),
                        fixed_number(part.material_id, 10));
