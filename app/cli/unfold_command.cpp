@@ -18,6 +18,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
@@ -285,6 +286,10 @@ int unfold(const UnfoldArguments& arguments)
         throw InputError("give either --script FILE or --auto");
     if (!arguments.surface.empty() && arguments.surface != "steps" && arguments.surface != "polished")
         throw InputError(fmt::format("--surface={}: there is steps (the default) and polished", arguments.surface));
+    for (const std::string& format : arguments.formats)
+        if (!arguments.surface.empty() && std::count(arguments.surface_formats.begin(), arguments.surface_formats.end(), format) &&
+            is_deck_format(format))
+            throw InputError(fmt::format("--formats and --surface-formats both name {}, which is one file; give it once", format));
     if (arguments.folder.empty() && !(arguments.to_part.empty() && arguments.to_blank.empty()))
         throw InputError("lines that are carried over need a place: give --out DIR");
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
@@ -304,6 +309,7 @@ int unfold(const UnfoldArguments& arguments)
                                      arguments.json.string()));
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
+    require_deck_ids(arguments.formats, part);
     for (const std::string& line : reading_notes(part))
         fmt::print("  {}\n", line);
     options.thickness = sheet_thickness(arguments.thickness, part);

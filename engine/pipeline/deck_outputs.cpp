@@ -46,6 +46,12 @@ std::vector<std::string> deck_file_names(const std::string& format, const std::s
     return {name + "-blank." + format.substr(blank_prefix.size())};
 }
 
+void require_deck_ids(std::span<const std::string> formats, const PartFile& part)
+{
+    if (std::any_of(formats.begin(), formats.end(), is_deck_format))
+        part_shells(part);
+}
+
 std::vector<std::filesystem::path> write_deck_files(const std::filesystem::path& folder, const std::string& name,
                                                     std::span<const std::string> formats, const PartFile& part,
                                                     const Blank& blank, const SheetFields& face, LengthUnit unit)

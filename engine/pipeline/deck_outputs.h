@@ -19,6 +19,9 @@ bool is_deck_format(const std::string& format);
 /// and so on. Lengths are in the unit of the deck. @pre is_deck_format()
 std::vector<std::string> deck_file_names(const std::string& format, const std::string& name);
 
+/// Finds out what would keep write_deck_files() from writing, before the work. @throws InputError if ids do not allow it
+void require_deck_ids(std::span<const std::string> formats, const PartFile& part);
+
 /// Writes those of some formats that are deck formats, others are passed over.
 /// @param face  of forming the blank into the part
 /// @param unit  of the lengths, if the part is not from a deck

@@ -7,7 +7,6 @@
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/blank_outline.h"
-#include "engine/exchange/part_shells.h"
 #include "engine/exchange/picture.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/exchange/write_csv.h"
@@ -109,8 +108,8 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
         std::error_code ignored;
         return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
     };
-    if (session.part && std::any_of(formats.begin(), formats.end(), is_deck_format))
-        part_shells(*session.part, options.unit); // whether its ids allow it
+    if (session.part)
+        require_deck_ids(formats, *session.part);
     std::vector<fs::path> files;
     for (const std::string& format : formats)
         for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
