@@ -21,6 +21,8 @@
 namespace spia {
 namespace {
 
+constexpr std::int64_t most_in_8 = 99'999'999; // of eight columns
+
 /// For the rest of a line: no control characters, not too long.
 std::string one_line(std::string_view text, size_t most)
 {
@@ -107,7 +109,7 @@ std::string abaqus(const ShellMesh& mesh, std::string_view title)
                 if (mesh.part_of[size_t(e)] != int(p) || mesh.corners(e) != corners)
                     continue;
                 if (std::exchange(first, false))
-                    fmt::format_to(end, "*ELEMENT, TYPE={}, ELSET={}\n", corners == 3 ? "S3R" : "S4R", set);
+                    fmt::format_to(end, "*ELEMENT, TYPE={}, ELSET={}\n", corners == 3 ? "S3" : "S4R", set);
                 fmt::format_to(end, "{}", mesh.element[size_t(e)]);
                 for (size_t k = 0; k < corners; ++k)
                     fmt::format_to(end, ",{}", mesh.node[size_t(mesh.corner[size_t(e)][k])]);
@@ -166,7 +168,6 @@ int dyna_id_width(const ShellMesh& mesh)
             greatest = std::max(greatest, id);
     for (const ShellPart& part : mesh.parts)
         greatest = std::max(greatest, part.id);
-    constexpr std::int64_t most_in_8 = 99'999'999;
     fixed_number(greatest, 10);
     return greatest <= most_in_8 ? 8 : 10;
 }
@@ -207,18 +208,25 @@ std::string nastran_grids(const ShellMesh& mesh)
 std::string nastran_shell(const ShellMesh& mesh, int element, const double* corner_thickness)
 {
     const size_t e = size_t(element), corners = mesh.corners(element);
-    const std::string blank(16, ' ');
-    std::vector<std::string> field = {fixed_number(mesh.element[e], 16),
-                                      fixed_number(mesh.parts[size_t(mesh.part_of[e])].id, 16)};
+    std::vector<std::int64_t> id = {mesh.element[e], mesh.parts[size_t(mesh.part_of[e])].id};
     for (size_t k = 0; k < corners; ++k)
-        field.push_back(fixed_number(mesh.node[size_t(mesh.corner[e][k])], 16));
+        id.push_back(mesh.node[size_t(mesh.corner[e][k])]);
+    const bool large = corner_thickness || *std::max_element(id.begin(), id.end()) > most_in_8;
+    std::string text = fmt::format("{:<8}", fmt::format("{}{}", corners == 3 ? "CTRIA3" : "CQUAD4", large ? "*" : ""));
+    if (!large) { // some programs read no other
+        for (const std::int64_t number : id)
+            text += fixed_number(number, 8);
+        return text + '\n';
+    }
+    std::vector<std::string> field;
+    for (const std::int64_t number : id)
+        field.push_back(fixed_number(number, 16));
     if (corner_thickness) {
         constexpr size_t first_thickness = 10; // T1, behind angle, offset, an unused field and TFLAG (blank: T are lengths)
-        field.resize(first_thickness, blank);
+        field.resize(first_thickness, std::string(16, ' '));
         for (size_t k = 0; k < corners; ++k)
             field.push_back(fixed_number(corner_thickness[k], 16));
     }
-    std::string text = corners == 3 ? "CTRIA3* " : "CQUAD4* ";
     for (size_t k = 0; k < field.size(); ++k)
         text += (k > 0 && k % 4 == 0 ? "\n*       " : "") + field[k];
     if ((field.size() + 3) / 4 % 2 == 1) // an entry in large field has an even number of lines

@@ -8,7 +8,7 @@
 namespace spia {
 
 /// Writes nodes, elements and parts, with thicknesses where parts have one: the ending says the format, .k LS-DYNA keyword (the columns of
-/// I10=Y where an id has more than eight digits), .bdf Nastran bulk data (large field), .inp Abaqus and CalculiX, .msh Gmsh 2.2
+/// I10=Y where an id has more than eight digits), .bdf Nastran bulk data (GRID in large field), .inp Abaqus and CalculiX, .msh Gmsh 2.2
 /// (text). read_deck() gives the same again: coordinates to fixed_number() in 16 columns (.k, .bdf) or 20 (.inp, for CalculiX
 /// reads no more), exactly in .msh. Materials are named, not described.
 /// @param title  what it is, for the head of the file
@@ -27,7 +27,7 @@ std::string dyna_nodes(const ShellMesh& mesh, int id_width);
 std::string dyna_shell(const ShellMesh& mesh, int element, int id_width); ///< its first card
 
 std::string nastran_grids(const ShellMesh& mesh);
-/// CQUAD4* or CTRIA3*, with the thickness of each corner if there is one. @param corner_thickness  four, or null
+/// CQUAD4 or CTRIA3, with the thickness of each corner if there is one (then in large field). @param corner_thickness  four, or null
 std::string nastran_shell(const ShellMesh& mesh, int element, const double* corner_thickness);
 
 } // namespace spia
