@@ -68,7 +68,7 @@ struct UnfoldArguments {
     int root = 0;        ///< of --auto: the region that stays, from 1; 0: the largest flat one
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
-    std::vector<std::string> surface_formats; ///< of output_formats()
+    std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
 };

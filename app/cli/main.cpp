@@ -65,7 +65,7 @@ int main(int count, char** values)
     int threads = 0;
 
     cli::RunArguments run;
-    run.formats = output_formats();
+    run.formats = usual_formats();
     CLI::App* run_command = app.add_subcommand("run", "Unfold a part and write blank, strains and surface");
     run_command->add_option("part", run.part, part_files)->required()->type_name("PART");
     run_command->add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
@@ -129,7 +129,10 @@ int main(int count, char** values)
     run_command->add_option("--ends", run.ends, "of the interpolation: averaged knots, or natural as in the paper")
         ->check(CLI::IsMember({"averaged", "natural"}))
         ->capture_default_str();
-    run_command->add_option("--formats", run.formats, "files to write")
+    run_command
+        ->add_option("--formats", run.formats,
+                     "files to write; for solver decks, with their ids: dynain (LS-DYNA), nastran, mapping (CSV): "
+                     "thickness and plastic strain of the elements; blank-k, -bdf, -inp, -msh: the blank as a mesh")
         ->delimiter(',')
         ->check(CLI::IsMember(output_formats()))
         ->type_name("LIST")
@@ -241,9 +244,10 @@ int main(int count, char** values)
     unfolding.formats = unfold_formats();
     unfold_command
         ->add_option("--formats", unfolding.formats,
-                     "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo")
+                     "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo; blank-k, -bdf, -inp and "
+                     "-msh: the blank as a mesh with the ids of the deck")
         ->delimiter(',')
-        ->check(CLI::IsMember(unfold_formats()))
+        ->check(CLI::IsMember(all_unfold_formats()))
         ->type_name("LIST")
         ->capture_default_str();
     unfold_command
@@ -275,7 +279,7 @@ int main(int count, char** values)
         "--surface{steps}", unfolding.surface,
         "also grid and NURBS surface of the blank of the steps (--surface=polished: of the polished one), with "
         "--out written as by `spia run`, and its report as NAME.json");
-    unfolding.surface_formats = output_formats();
+    unfolding.surface_formats = usual_formats();
     unfold_command->add_option("--surface-formats", unfolding.surface_formats, "of these files")
         ->delimiter(',')
         ->check(CLI::IsMember(output_formats()))

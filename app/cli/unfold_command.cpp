@@ -18,6 +18,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
@@ -338,6 +339,10 @@ int unfold(const UnfoldArguments& arguments)
         throw InputError("give either --script FILE or --auto");
     if (!arguments.surface.empty() && arguments.surface != "steps" && arguments.surface != "polished")
         throw InputError(fmt::format("--surface={}: there is steps (the default) and polished", arguments.surface));
+    for (const std::string& format : arguments.formats)
+        if (!arguments.surface.empty() && std::count(arguments.surface_formats.begin(), arguments.surface_formats.end(), format) &&
+            is_deck_format(format))
+            throw InputError(fmt::format("--formats and --surface-formats both name {}, which is one file; give it once", format));
     if (arguments.folder.empty() && !(arguments.to_part.empty() && arguments.to_blank.empty()))
         throw InputError("lines that are carried over need a place: give --out DIR");
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
@@ -353,6 +358,7 @@ int unfold(const UnfoldArguments& arguments)
         require_writable(arguments.json);
     FlattenOptions options = flatten_options(arguments);
     const PartFile part = part_of(arguments);
+    require_deck_ids(arguments.formats, part);
     for (const std::string& line : reading_notes(part))
         say("  {}\n", line);
     require_surface_place(arguments, part);

@@ -185,6 +185,8 @@ Deck DeckBuilder::finish(std::string format, const std::vector<std::string>& not
                                 shell.triangle ? -1 : int(shell.corner[3])});
         deck_.element.push_back(shell.id);
         deck_.part_of.push_back(shell.part);
+        if (!thickness_.empty())
+            deck_.thickness.push_back(thickness_[e]);
         ++at(shell.part).elements;
     }
     for (DeckSet& set : deck_.sets) {

@@ -66,6 +66,30 @@ PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile
     return read_openmesh(checked);
 }
 
+/// What leads back to the deck; lengths in its unit.
+DeckOrigin origin_of(const Deck& deck, const DeckChoice& choice)
+{
+    DeckOrigin origin;
+    for (const int e : choice.element) {
+        origin.element_id.push_back(deck.element[size_t(e)]);
+        origin.part_of.push_back(deck.part_of[size_t(e)]);
+    }
+    for (int f = 0; f < choice.soup.polygons(); ++f) {
+        const auto corners = choice.soup.polygon(f);
+        origin.corner.push_back({corners[0], corners[1], corners[2], corners.size() > 3 ? corners[3] : -1});
+    }
+    for (const int v : choice.node)
+        origin.node_id.push_back(deck.node[size_t(v)]);
+    origin.position = choice.soup.position;
+    origin.element = choice.element;
+    origin.last_node = *std::max_element(deck.node.begin(), deck.node.end());
+    origin.last_element = *std::max_element(deck.element.begin(), deck.element.end());
+    origin.parts = deck.parts;
+    for (const DeckSet& set : deck.sets)
+        origin.sets.push_back(set.name);
+    return origin;
+}
+
 /// Fills all of the part that the deck says, in mm.
 PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartFile& part, const Progress& progress)
 {
@@ -75,6 +99,7 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
     part.unit = options.unit.value_or(deck.unit.value_or(LengthUnit::mm));
     part.notes = deck.notes;
     part.notes.insert(part.notes.end(), choice.notes.begin(), choice.notes.end());
+    part.deck = origin_of(deck, choice);
     for (Eigen::Vector3d& p : choice.soup.position)
         p *= millimetres(part.unit);
     if (choice.thickness)
@@ -86,15 +111,6 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
                         part.thickness_mm ? fmt::format(" a thickness of {:.6g} mm", *part.thickness_mm) : "",
                         part.thickness_mm && !part.material.empty() ? " and" : "",
                         part.material.empty() ? "" : " the material " + part.material));
-    DeckOrigin& origin = part.deck.emplace();
-    for (const int e : choice.element)
-        origin.element_id.push_back(deck.element[size_t(e)]);
-    for (const int v : choice.node)
-        origin.node_id.push_back(deck.node[size_t(v)]);
-    origin.element = std::move(choice.element);
-    origin.parts = deck.parts;
-    for (const DeckSet& set : deck.sets)
-        origin.sets.push_back(set.name);
     return std::move(choice.soup);
 }
 
@@ -210,6 +226,7 @@ void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, b
     part.doctor = std::move(examination.report);
     part.source_vertex = std::move(examination.source_vertex);
     part.source_face = std::move(examination.source_face);
+    part.same_as = std::move(examination.same_as);
     progress.checkpoint(0.95, "looking for where it must be cut open");
     cut_where_needed(part, options.seam);
     note_size(part, options.unit.has_value());

@@ -31,6 +31,11 @@ struct DeckOrigin {
     std::vector<int> element;             ///< per face of the file: its index among all shells of the deck
     std::vector<std::int64_t> element_id; ///< per face of the file
     std::vector<std::int64_t> node_id;    ///< per vertex of the file
+    std::vector<std::array<int, 4>> corner; ///< per face of the file: vertices of the file, as in the deck; the last is -1
+                                            ///< in a triangle
+    std::vector<int> part_of;               ///< per face of the file: index into parts
+    std::vector<Eigen::Vector3d> position;  ///< per vertex of the file, in the unit of the deck
+    std::int64_t last_node = 0, last_element = 0; ///< greatest ids of the whole deck
     std::vector<DeckPart> parts;          ///< all of the deck; thicknesses in its unit
     std::vector<std::string> sets;        ///< names of element sets that can be chosen as well
 };
@@ -51,6 +56,7 @@ struct PartFile {
     std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases, and repeats where
                                     ///< touching fans were separated and along the seam
     std::vector<int> source_face;   ///< per triangle of mesh its face in the file; never decreases
+    std::vector<int> same_as = {};  ///< per vertex of the file the one that stands for it: itself unless it was joined
     int file_vertices = 0;          ///< STL: different points, in the order of their first corner
     int file_faces = 0;
     std::string format; ///< e.g. "STL (binary)"

@@ -85,6 +85,7 @@ Examination examine(const PolygonSoup& soup, const DoctorOptions& options, const
     separate_fans(s, report);
     report_strays(s, report);
     Examination result = number_vertices(s, std::move(report));
+    result.same_as = std::move(split.same_as);
     progress.checkpoint(0.9, "counting loops and handles");
     check_topology(s, result.mesh.vertices(), result.report);
     note_slivers(s, options.sliver_angle_deg, result.report);

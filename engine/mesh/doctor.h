@@ -98,6 +98,7 @@ struct Examination {
                                     ///< repeats only where touching fans were separated
     std::vector<int> source_face;   ///< per triangle of mesh its polygon in the soup; never decreases
     DoctorReport report;
+    std::vector<int> same_as = {}; ///< per vertex of the soup the one that stands for it: itself unless it was joined
 };
 
 /// Makes a triangle mesh of a polygon soup: joins, splits, turns and removes what can be repaired without changing the

@@ -183,7 +183,9 @@ SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions&
     const std::vector<int> same_as = join_vertices(soup, options, report);
     progress.checkpoint(0.4, "looking for duplicates");
     const Polygons polygons = without_duplicates(without_repeated_corners(soup, same_as, report), report);
-    return split(polygons, soup.position, report, progress.part(0.6, 1));
+    SurfaceTriangles result = split(polygons, soup.position, report, progress.part(0.6, 1));
+    result.same_as = same_as;
+    return result;
 }
 
 } // namespace spia

@@ -16,6 +16,7 @@
 #include "engine/exchange/write_step.h"
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
+#include "engine/pipeline/deck_outputs.h"
 
 namespace fs = std::filesystem;
 
@@ -57,6 +58,8 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
             names.push_back(first + "faces.csv");
         return names;
     }
+    if (is_deck_format(format))
+        return deck_file_names(format, file_stem(session, options));
     if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
         throw InputError("nothing is chosen of the GLB file; take part, blank, quad_mesh, surface or control_net");
     return {file_stem(session, options) + "." + format};
@@ -70,9 +73,19 @@ void require_file_name(const std::string& name)
         throw InputError(fmt::format("\"{}\" is no name of a file; leave out folders", name));
 }
 
-const std::vector<std::string>& output_formats()
+const std::vector<std::string>& usual_formats()
 {
     static const std::vector<std::string> formats = {"iges", "step", "glb", "vtu", "dxf", "csv", "png"};
+    return formats;
+}
+
+const std::vector<std::string>& output_formats()
+{
+    static const std::vector<std::string> formats = [] {
+        std::vector<std::string> all = usual_formats();
+        all.insert(all.end(), deck_formats().begin(), deck_formats().end());
+        return all;
+    }();
     return formats;
 }
 
@@ -102,6 +115,8 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
     if (failed || !fs::is_directory(folder))
         throw ExchangeError(fmt::format("cannot make the folder {}: {}; choose another one", folder.string(),
                                         failed ? failed.message() : "there is a file of that name"));
+    if (session.part)
+        require_deck_ids(formats, *session.part);
     std::vector<fs::path> files;
     for (const std::string& format : formats)
         for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
@@ -158,6 +173,11 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
         if (!has_content(format, session, options))
             continue;
         progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
+        if (is_deck_format(format)) {
+            const auto written = write_deck_files(folder, name, std::span(&format, 1), *session.part, flat.blank, flat.face, unit);
+            files.insert(files.end(), written.begin(), written.end());
+            continue;
+        }
         const size_t first = files.size();
         for (const std::string& file : file_names(format, session, options))
             files.push_back(folder / file);

@@ -10,6 +10,7 @@
 #include "engine/exchange/blank_outline.h"
 #include "engine/exchange/write_dxf.h"
 #include "engine/exchange/write_vtu.h"
+#include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/line_file.h"
 
 namespace spia {
@@ -26,6 +27,16 @@ std::vector<std::string> without(std::vector<std::string> formats, const std::st
 const std::vector<std::string>& unfold_formats()
 {
     static const std::vector<std::string> formats = {"vtu", "dxf", "iges", "step", "states"};
+    return formats;
+}
+
+const std::vector<std::string>& all_unfold_formats()
+{
+    static const std::vector<std::string> formats = [] {
+        std::vector<std::string> all = unfold_formats();
+        all.insert(all.end(), blank_mesh_formats().begin(), blank_mesh_formats().end());
+        return all;
+    }();
     return formats;
 }
 
@@ -71,7 +82,7 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
             rest = digits > 4 ? "step" + rest.substr(digits) : rest;
         }
         if (ends_in(rest, {"step.vtu", "step-trim.dxf", "step-trim.iges", "step-trim.step", "blank.dxf", "blank.iges",
-                           "blank.step", "polished.dxf", "polished.vtu"}))
+                           "blank.step", "blank.k", "blank.bdf", "blank.inp", "blank.msh", "polished.dxf", "polished.vtu"}))
             old.push_back(entry.path());
     }
     for (const auto& file : old)
@@ -112,6 +123,7 @@ std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& 
         write_dxf(files.back(), blank_outline(part.mesh, *run.blank), LengthUnit::mm,
                   bend_lines(part.mesh, map, run.blank->position));
     }
+    add(write_deck_files(folder, name, formats, part, *run.blank, run.states.back().face));
     add(write_line_files(folder, name + "-blank", blank_lines(part.mesh, map, *run.blank), without(formats, "dxf")));
     if (polished && wanted("dxf")) {
         files.push_back(folder / (name + "-polished.dxf"));

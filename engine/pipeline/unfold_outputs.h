@@ -12,6 +12,7 @@ namespace spia {
 
 /// By the names the command line uses; all but "states" (unfold_states.h) are endings.
 const std::vector<std::string>& unfold_formats();
+const std::vector<std::string>& all_unfold_formats(); ///< also blank_mesh_formats() (deck_outputs.h), written when asked for
 
 /// Makes a folder if need be, and sees that it can be written, before the work. @throws ExchangeError why not
 void prepare_folder(const std::filesystem::path& folder);
@@ -21,9 +22,9 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
 
 /// Writes what a run gave into a folder. Of each step its state (NAME-stepN.vtu) and, if it laid
 /// faces on others, their developed edge as trim lines on the target (NAME-stepN-trim.dxf, .iges, .step); of the blank its
-/// outline and bend lines (NAME-blank.dxf, .iges, .step).
+/// outline and bend lines (NAME-blank.dxf, .iges, .step) and, where asked for, its mesh (NAME-blank.k, .bdf, .inp, .msh).
 /// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null
-/// @param formats some of unfold_formats(); "states" is not written here
+/// @param formats some of all_unfold_formats(); "states" is not written here
 /// @returns the files, in the order written
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,

@@ -38,6 +38,21 @@ expect 0 "0.8 mm thick as in the deck" "$spia" run --part lid "$deck" --out "$ou
 grep -q '"sheet_thickness_mm": 0.8' "$out/run.json" || fail "the sheet is not 0.8 mm thick"
 expect 0 "20.32 mm thick as in the deck" "$spia" run --part lid --unit inch "$deck" --out "$out/run" --formats csv
 expect 0 "2 mm thick as asked for, not 0.8 mm" "$spia" run --part Row "$deck" --thickness 2 --out "$out/run" --formats csv
+expect 0 "two parts-dynain.k" "$spia" run --part Lid "$deck" --out "$out/back" --json "$out/back.json" \
+    --formats dynain,nastran,mapping,blank-k,blank-bdf,blank-inp,blank-msh
+for file in -dynain.k -thickness.bdf -strains.csv -elements.csv -nodes.csv -blank.k -blank.bdf -blank.inp -blank.msh; do
+    [ -s "$out/back/two parts$file" ] || fail "no $file"
+    grep -q "two parts$file" "$out/back.json" || fail "the report does not name $file"
+done
+for file in -dynain.k -blank.k -blank.bdf -blank.inp -blank.msh; do
+    expect 0 "9 shells" "$spia" info "$out/back/two parts$file"
+done
+expect 0 "0.8 mm thick as in the deck" "$spia" run "$out/back/two parts-blank.inp" --out "$out/again" --formats csv
+[ "$(head -1 "$out/back/two parts-elements.csv")" = "element,part,thickness,thinning,plastic_strain,strain_major,strain_minor" ] || fail "the head of the table"
+[ "$(cut -d, -f1 "$out/back/two parts-elements.csv" | tr '\n' ' ')" = "element 1 2 3 4 5 6 7 8 9 " ] || fail "the ids of the elements"
+expect 0 "two parts-blank.msh" "$spia" unfold --part Base "$deck" --auto --out "$out/steps" --formats blank-msh
+grep -q "^101 3 2 2 2 101 105 106 102$" "$out/steps/two parts-blank.msh" || fail "the first quad of the blank"
+expect 2 "dynain" "$spia" unfold --part Base "$deck" --auto --out "$out/steps" --formats dynain
 expect 2 "several parts\|separate pieces" "$spia" compare --part Lid,Base "$deck" --methods lscm
 expect 0 "1.5 mm thick as in the deck" "$spia" compare --part Base "$deck" --methods lscm
 expect 0 "0.8 mm thick as in the deck" "$spia" unfold --part Lid "$deck" --auto

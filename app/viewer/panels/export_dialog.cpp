@@ -85,6 +85,34 @@ template <size_t n> void boxes(const Frame& frame, const std::array<std::pair<co
     ImGui::PopStyleVar();
 }
 
+/// What goes back to a solver deck, with its ids.
+void solver_formats(const Frame& frame, std::vector<std::string>& formats)
+{
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted("Back to the solver");
+    ImGui::PopFont();
+    const bool deck = frame.state.document.session.part && frame.state.document.session.part->deck;
+    const std::string ids = deck ? "Ids, corners and unit are those of the deck."
+                                 : "The part is not from a solver deck: its triangles and vertices are numbered from 1.";
+    const std::array<std::array<const char*, 3>, 7> each = {
+        {{"dynain", "LS-DYNA dynain  thickness and plastic strain",
+          "Nodes, shells with the thickness at their corners (*ELEMENT_SHELL_THICKNESS), effective plastic strain "
+          "(*INITIAL_STRESS_SHELL, its stresses are 0) and strain (*INITIAL_STRAIN_SHELL), to be included in a crash deck."},
+         {"nastran", "Nastran  thickness, strains as a table",
+          "Bulk data with the thickness at the corners of CQUAD4 and CTRIA3 (T1 to T4), to be included, and a CSV table of the "
+          "elements' strains."},
+         {"mapping", "CSV  mapping tables by id",
+          "Of each element thickness, thinning, plastic strain, major and minor strain; of each node its place in the blank."},
+         {"blank-k", "Blank as a mesh, LS-DYNA .k", "The blank with the elements of the part; quads stay quads."},
+         {"blank-bdf", "Blank as a mesh, Nastran .bdf", "The blank with the elements of the part; quads stay quads."},
+         {"blank-inp", "Blank as a mesh, Abaqus .inp", "The blank with the elements of the part; quads stay quads."},
+         {"blank-msh", "Blank as a mesh, Gmsh .msh", "The blank with the elements of the part; quads stay quads. Format 2.2, text."}}};
+    for (const auto& [format, label, explanation] : each) {
+        format_box(formats, format, label);
+        tooltip(explanation + ("\n" + ids));
+    }
+}
+
 void formats_column(Frame& frame, ExportChoices& choices)
 {
     auto& formats = choices.formats;
@@ -116,6 +144,7 @@ void formats_column(Frame& frame, ExportChoices& choices)
         ImGui::Unindent(indent);
     }
     format_box(formats, "png", "PNG  one picture of the whole chain");
+    solver_formats(frame, formats);
 }
 
 void unit_input(const Frame& frame, LengthUnit& unit)
@@ -131,7 +160,8 @@ void unit_input(const Frame& frame, LengthUnit& unit)
         ImGui::EndCombo();
     }
     tooltip(
-        "Of IGES, STEP, DXF, CSV and VTU; the file names the unit. A GLB file has metres, as its specification wants.");
+        "Of IGES, STEP, DXF, CSV and VTU; the file names the unit. A GLB file has metres, as its specification wants; what goes "
+        "back to the solver has the unit of its deck.");
 }
 
 void files_list(const Frame& frame, const ExportChoices::Planned& planned)
