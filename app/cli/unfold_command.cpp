@@ -52,6 +52,8 @@ PartFile part_of(const UnfoldArguments& arguments)
         read.weld = true;
     read.parts = arguments.parts;
     read.doctor.keep_largest = arguments.keep_largest;
+    if (!arguments.skin.empty())
+        read.skin = skin_by_name(arguments.skin);
     read.seam = seam_options(arguments.seam);
     JobDisplay display{"read"};
     return read_part(arguments.part, read, display.progress());
