@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <utility>
 
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
@@ -88,7 +89,8 @@ struct MiddleSurface {
     Eigen::Matrix3Xd normal;              ///< of the solid's faces, outwards, unit length
     Eigen::VectorXd size;                 ///< of them, mm2
     std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
-    ClosestPointSearch inner;
+    TriMesh inner;                        ///< the inner skin
+    ClosestPointSearch nearest_inner;
 
     /// Where a vertex of the outer skin goes.
     Eigen::Vector3d move(int v) const
@@ -127,16 +129,27 @@ struct MiddleSurface {
         return (at_rim || least < sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
     }
 
-    /// Outwards. Where the inner skin is the thickness away, that is where its nearest place is not.
+    /// Outwards. Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not.
     Eigen::Vector3d direction(int v, const Eigen::Vector3d& mean) const
     {
         constexpr double equal = 1e-3, aside = 0.8;
         const Eigen::Vector3d here = solid.position.col(v);
-        const ClosestPoint near = inner.nearest(here, 1.1 * sheet.thickness);
-        if (near.face < 0 || std::abs(near.distance - sheet.thickness) > equal * sheet.thickness)
+        const ClosestPoint near = nearest_inner.nearest(here, 1.1 * sheet.thickness);
+        if (near.face < 0)
             return mean;
-        const Eigen::Vector3d outwards = (here - near.position) / near.distance;
-        return outwards.dot(mean) > aside ? outwards : mean;
+        std::vector<Eigen::Vector3d> opposite{near.position};
+        for (int k = 0; k < 3; ++k)
+            opposite.push_back(inner.position.col(inner.triangle(k, near.face)));
+        Eigen::Vector3d best = mean;
+        double off = equal * sheet.thickness;
+        for (const Eigen::Vector3d& place : opposite) {
+            const double distance = (here - place).norm(), from = std::abs(distance - sheet.thickness);
+            if (from <= off && (here - place).dot(mean) > aside * distance) {
+                off = from;
+                best = (here - place) / distance;
+            }
+        }
+        return best;
     }
 };
 
@@ -187,12 +200,15 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
     if (skin == Skin::outer)
         return result;
     const Eigen::Matrix3Xd vectors = sheet.flipped * area_vectors(solid);
+    TriMesh inner = side_of(solid, sheet, SheetSide::inner).mesh;
+    ClosestPointSearch nearest_inner(inner);
     const MiddleSurface middle{solid,
                                sheet,
                                vectors.colwise().normalized(),
                                vectors.colwise().norm().transpose(),
                                faces_around(solid),
-                               ClosestPointSearch(side_of(solid, sheet, SheetSide::inner).mesh)};
+                               std::move(inner),
+                               std::move(nearest_inner)};
     const TriMesh before = result.mesh;
     parallel_for(int(result.source_vertex.size()), [&](int i) {
         result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]);

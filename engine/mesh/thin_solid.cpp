@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
+#include <utility>
 
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
@@ -189,6 +190,37 @@ TriMesh only(const Solid& solid, PieceSide side)
     return mesh;
 }
 
+/// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on them, so the thickness is
+/// the distance of vertices that lie straight opposite to each other.
+/// @param by_rays mm, and what is returned where too few vertices lie so
+double between_vertices(const Solid& solid, double by_rays)
+{
+    constexpr double exact = 1e-4, most_off = 0.02, alike = 1e-3;
+    std::vector<double> distance;
+    int asked = 0;
+    for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
+        const ClosestPointSearch opposite(only(solid, side == PieceSide::one ? PieceSide::other : PieceSide::one));
+        std::vector<char> seen(size_t(solid.mesh.vertices()), 0);
+        for (int f = 0; f < solid.mesh.triangles(); ++f)
+            for (int k = 0; k < 3 && solid.side(f) == side; ++k) {
+                const int v = solid.mesh.triangle(k, f);
+                if (std::exchange(seen[size_t(v)], char(1)))
+                    continue;
+                ++asked;
+                const ClosestPoint near = opposite.nearest(solid.mesh.position.col(v), 2 * by_rays);
+                if (near.face >= 0 && near.barycentric.maxCoeff() > 1 - exact &&
+                    std::abs(near.distance - by_rays) <= most_off * by_rays)
+                    distance.push_back(near.distance);
+            }
+    }
+    if (int(distance.size()) < std::max(8, asked / 50))
+        return by_rays;
+    std::sort(distance.begin(), distance.end());
+    // Those that do not lie quite opposite are farther away.
+    const double low = distance[distance.size() / 10], median = distance[distance.size() / 2];
+    return median - low <= alike * low ? low : median;
+}
+
 /// A skin's place and how far away the other skin is.
 struct Local {
     int face;
@@ -307,7 +339,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     for (const Opposite& at : solid.places)
         from_skin_to_skin.push_back(at.hit >= 0 && solid.side(at.face) != PieceSide::rim &&
                                     solid.side(at.hit) != PieceSide::rim);
-    thickness = main_distance(solid.places, from_skin_to_skin);
+    thickness = between_vertices(solid, main_distance(solid.places, from_skin_to_skin));
     const std::vector<Local> local = local_thickness(solid, thickness, progress.part(0.7, 1));
     require_even(solid, local, thickness);
 
