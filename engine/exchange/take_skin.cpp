@@ -132,8 +132,13 @@ void note_skin(PartFile& part)
 
 bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Progress& progress)
 {
-    if (!is_asked_for(part, options, solid))
+    if (!is_asked_for(part, options, solid)) {
+        if (part.doctor.boundary_loops == 0 && part.doctor.components == 1 && !options.skin && !part.deck &&
+            seems_thin_solid(part.mesh))
+            part.notes.push_back("it is taken as a hollow body; if it is a solid of thick sheet, choose the skin that "
+                                 "stands for it (--skin outer)");
         return false;
+    }
     const bool open = *part.doctor.boundary_loops > 0;
     if (open && !seems_thin_solid(part.mesh)) { // and a skin was asked for
         part.notes.push_back("it is no solid but a surface already, and taken as it is: there is no skin to choose");
