@@ -10,10 +10,10 @@ namespace spia::cli {
 
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, process;
-    std::string material = "mild_steel", unit;
-    std::vector<std::string> parts;  ///< of a solver deck, ids or names
-    std::optional<double> thickness; ///< mm; not given: that of the deck, else 1
-    std::string grid;                ///< NxM; empty: automatic
+    std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: outer
+    std::vector<std::string> parts;                  ///< of a solver deck, ids or names
+    std::optional<double> thickness;                 ///< mm; not given: that of the part, else 1
+    std::string grid;                                ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction;
     std::string grid_method = "automatic", ends = "averaged";
@@ -35,7 +35,7 @@ int run(const RunArguments& arguments);
 
 struct InfoArguments {
     std::filesystem::path part, json;
-    std::string unit, seam = "auto";
+    std::string unit, seam = "auto", skin;
     std::vector<std::string> parts; ///< of a solver deck, ids or names
     bool weld = false, keep_largest = false;
 };
@@ -45,7 +45,7 @@ int info(const InfoArguments& arguments);
 
 struct CompareArguments {
     std::filesystem::path part, json;
-    std::string material = "mild_steel", unit, seam = "auto";
+    std::string material = "mild_steel", unit, seam = "auto", skin;
     std::vector<std::string> parts;  ///< of a solver deck, ids or names
     std::optional<double> thickness; ///< mm; not given: that of the deck, else 1
     std::vector<double> direction;
@@ -62,9 +62,9 @@ struct UnfoldArguments {
     std::filesystem::path to_part, to_blank; ///< files of lines to carry over
     std::vector<std::string> formats;
     bool automatic = false;
-    std::string material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
-    std::vector<std::string> parts;                                 ///< of a solver deck, ids or names
-    std::optional<double> thickness;                                ///< mm; not given: that of the deck, else 1
+    std::string skin, material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
+    std::vector<std::string> parts;                                       ///< of a solver deck, ids or names
+    std::optional<double> thickness;                                      ///< mm; not given: that of the deck, else 1
     int root = 0;        ///< of --auto: the region that stays, from 1; 0: the largest flat one
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
@@ -92,7 +92,8 @@ struct FitArguments {
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
 
-/// The thickness of the flat sheet in mm: as asked for, else that of the deck, else 1. @throws InputError unless it is above 0
+/// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.
+/// @throws InputError unless it is above 0
 double sheet_thickness(const std::optional<double>& asked, const PartFile& part);
 /// Where it is from; empty if that needs no word.
 std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part);

@@ -26,6 +26,8 @@ int compare(const CompareArguments& arguments)
         read.weld = true;
     read.parts = arguments.parts;
     read.doctor.keep_largest = arguments.keep_largest;
+    if (!arguments.skin.empty())
+        read.skin = skin_by_name(arguments.skin);
     read.seam = seam_options(arguments.seam);
     CompareOptions options;
     options.flatten.material = find_material(arguments.material, assets() / "materials");

@@ -26,6 +26,17 @@ void print_parts(const DeckOrigin& deck)
         say("element sets    and {} more\n", deck.sets.size() - most);
 }
 
+void print_solid(const SolidOrigin& solid)
+{
+    say("solid           {} faces, {:.6g} mm3; taken: {} skin{}\n", solid.faces, solid.volume, name(solid.skin),
+        solid.skin == Skin::middle ? ", between both" : "");
+    say("thickness       {:.6g} mm ({:.4g} to {:.4g} mm on 98 % of the skins)\n", solid.thickness, solid.least,
+        solid.most);
+    say("outer skin      {} faces, {:.6g} mm2\n", solid.outer_faces, solid.outer_area);
+    say("inner skin      {} faces, {:.6g} mm2\n", solid.inner_faces, solid.inner_area);
+    say("rim             {} faces, {:.6g} mm2\n", solid.faces - solid.outer_faces - solid.inner_faces, solid.rim_area);
+}
+
 } // namespace
 
 int info(const InfoArguments& arguments)
@@ -37,6 +48,8 @@ int info(const InfoArguments& arguments)
         options.weld = true;
     options.parts = arguments.parts;
     options.doctor.keep_largest = arguments.keep_largest;
+    if (!arguments.skin.empty())
+        options.skin = skin_by_name(arguments.skin);
     options.seam = seam_options(arguments.seam);
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
@@ -51,6 +64,8 @@ int info(const InfoArguments& arguments)
     say("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices, part.file_faces);
     if (part.deck)
         print_parts(*part.deck);
+    if (part.solid)
+        print_solid(*part.solid);
     say("components      {}\n", doctor.components);
     say("boundary loops  {}\n", number(doctor.boundary_loops));
     say("genus           {}\n", number(doctor.genus));

@@ -31,6 +31,15 @@ void add_parts(CLI::App* command, std::vector<std::string>& parts)
         ->type_name("ID|NAME");
 }
 
+void add_skin(CLI::App* command, std::string& skin)
+{
+    command
+        ->add_option("--skin", skin,
+                     "of a solid of sheet: the surface that stands for it, outer (the larger one), inner or middle "
+                     "(default: outer)")
+        ->check(CLI::IsMember({"outer", "inner", "middle"}));
+}
+
 void add_thickness(CLI::App* command, std::optional<double>& thickness, const char* text)
 {
     command->add_option("--thickness", thickness, text)->type_name("MM");
@@ -70,6 +79,7 @@ int main(int count, char** values)
     run_command->add_option("part", run.part, part_files)->required()->type_name("PART");
     run_command->add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
     add_parts(run_command, run.parts);
+    add_skin(run_command, run.skin);
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
@@ -84,7 +94,7 @@ int main(int count, char** values)
     run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    add_thickness(run_command, run.thickness, "of the flat sheet (default: that of the deck, else 1)");
+    add_thickness(run_command, run.thickness, "of the flat sheet (default: that of the part, else 1)");
     run_command->add_flag("--skins", run.skins,
                           "also the strains of both skins: bending over radii added to those of the middle surface");
     run_command
@@ -162,6 +172,7 @@ int main(int count, char** values)
         app.add_subcommand("info", "Examine a part: what it is, what is wrong with it, what to do");
     info_command->add_option("part", info.part, part_files)->required()->type_name("PART");
     add_parts(info_command, info.parts);
+    add_skin(info_command, info.skin);
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
@@ -193,7 +204,7 @@ int main(int count, char** values)
         ->type_name("NAME|FILE")
         ->capture_default_str();
     add_thickness(compare_command, comparison.thickness,
-                  "for this solver: of the flat sheet (default: that of the deck, else 1)");
+                  "for this solver: of the flat sheet (default: that of the part, else 1)");
     compare_command
         ->add_option("--direction", comparison.direction,
                      "for this solver: stamping direction x,y,z (default: automatic)")
@@ -207,6 +218,7 @@ int main(int count, char** values)
         ->type_name("auto|none|FILE")
         ->capture_default_str();
     add_parts(compare_command, comparison.parts);
+    add_skin(compare_command, comparison.skin);
     compare_command->add_option("--unit", comparison.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     compare_command->add_flag("--weld", comparison.weld, "join vertices at one place (always done for STL and glTF)");
@@ -243,9 +255,10 @@ int main(int count, char** values)
         ->type_name("DIR");
     unfolding.formats = unfold_formats();
     unfold_command
-        ->add_option("--formats", unfolding.formats,
-                     "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo; blank-k, -bdf, -inp and "
-                     "-msh: the blank as a mesh with the ids of the deck")
+        ->add_option(
+            "--formats", unfolding.formats,
+            "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo; blank-k, -bdf, -inp and "
+            "-msh: the blank as a mesh with the ids of the deck")
         ->delimiter(',')
         ->check(CLI::IsMember(all_unfold_formats()))
         ->type_name("LIST")
@@ -263,8 +276,9 @@ int main(int count, char** values)
     unfold_command->add_option("--material", unfolding.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    add_thickness(unfold_command, unfolding.thickness, "of the flat sheet (default: that of the deck, else 1)");
+    add_thickness(unfold_command, unfolding.thickness, "of the flat sheet (default: that of the part, else 1)");
     add_parts(unfold_command, unfolding.parts);
+    add_skin(unfold_command, unfolding.skin);
     unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     unfold_command->add_flag("--weld", unfolding.weld, "join vertices at one place (always done for STL and glTF)");

@@ -47,6 +47,8 @@ SessionOptions options(const RunArguments& arguments)
         result.read.weld = true;
     result.read.parts = arguments.parts;
     result.read.doctor.keep_largest = arguments.keep_largest;
+    if (!arguments.skin.empty())
+        result.read.skin = skin_by_name(arguments.skin);
     result.read.seam = seam_options(arguments.seam);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     if (arguments.thickness) // else that of the deck, once it is read

@@ -21,12 +21,12 @@ double sheet_thickness(const std::optional<double>& asked, const PartFile& part)
 
 std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part)
 {
+    const char* from = part.solid ? "as the part is" : "as in the deck";
     if (asked && part.thickness_mm && *asked != *part.thickness_mm)
-        return fmt::format("the sheet is taken {:.6g} mm thick as asked for, not {:.6g} mm as in the deck", *asked,
-                           *part.thickness_mm);
+        return fmt::format("the sheet is taken {:.6g} mm thick as asked for, not {:.6g} mm {}", *asked,
+                           *part.thickness_mm, from);
     if (!asked && part.thickness_mm)
-        return fmt::format("the sheet is taken {:.6g} mm thick as in the deck (--thickness for another)",
-                           *part.thickness_mm);
+        return fmt::format("the sheet is taken {:.6g} mm thick {} (--thickness for another)", *part.thickness_mm, from);
     if (!asked && part.deck)
         return fmt::format(
             "the deck gives no thickness that could be taken: the sheet is taken {} mm thick (--thickness "

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "engine/mesh/disjoint_sets.h"
 
 namespace spia {
 namespace {
@@ -83,21 +88,54 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
     findings.push_back(std::move(finding));
 }
 
-/// Two skins and the edge between them are no sheet, whatever the doctor says of the triangles.
-void report_solid(const CadContent& cad, std::vector<Finding>& findings)
+/// "0-17, 19": ascending numbers as they are given to --part.
+std::string ranges(const std::set<int>& faces)
 {
-    if (cad.solid && cad.taken == cad.faces)
-        findings.push_back(
-            {Fault::closed_surface,
-             Severity::fatal,
-             cad.faces,
-             -1,
-             fmt::format("it is a solid of {} faces, with both skins of the sheet", cad.faces),
-             fmt::format("choose the faces of one skin (--part, e.g. 3 or 0-{}), or export one skin as a "
-                         "surface",
-                         cad.faces / 2),
-             {},
-             {}});
+    std::string text;
+    for (auto from = faces.begin(); from != faces.end();) {
+        auto to = from;
+        while (std::next(to) != faces.end() && *std::next(to) == *to + 1)
+            ++to;
+        text += fmt::format("{}{}{}", text.empty() ? "" : ",", *from, to == from ? "" : fmt::format("-{}", *to));
+        from = std::next(to);
+    }
+    return text;
+}
+
+/// The CAD faces of each piece of the mesh.
+std::vector<std::set<int>> bodies(const CadContent& cad, const PartFile& part)
+{
+    DisjointSets pieces(size_t(part.mesh.vertices()));
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k)
+            pieces.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
+    std::map<int, std::set<int>> found;
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        found[pieces.root(part.mesh.triangle(0, f))].insert(cad.face[size_t(part.source_face[size_t(f)])]);
+    std::vector<std::set<int>> result;
+    for (auto& [root, faces] : found)
+        result.push_back(std::move(faces));
+    return result;
+}
+
+/// Several solids are several parts; of a single one a skin was taken (take_skin()), or said why not.
+void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Finding>& findings)
+{
+    if (!cad.solid || part.doctor.components < 2)
+        return;
+    std::string list;
+    const auto found = bodies(cad, part);
+    for (size_t b = 0; b < std::min(shown, found.size()); ++b)
+        list += fmt::format("{}{}", b == 0 ? "" : "; ", ranges(found[b]));
+    findings.push_back({Fault::several_components,
+                        Severity::fatal,
+                        int(found.size()),
+                        -1,
+                        fmt::format("it holds {} bodies that are not connected, with the CAD faces {}{}", found.size(),
+                                    list, found.size() > shown ? " and more" : ""),
+                        fmt::format("choose one of them (--part {})", ranges(found.front())),
+                        {},
+                        {}});
 }
 
 } // namespace
@@ -121,7 +159,7 @@ void report_cad(const CadContent& cad, PartFile& part)
                                          "larger one if gaps are left open",
                                          cad.shortest_edge));
     std::vector<Finding> findings;
-    report_solid(cad, findings);
+    report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);
     report_overlaps(cad, findings);
     report_gaps(cad, findings);

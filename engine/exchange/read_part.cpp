@@ -13,6 +13,7 @@
 #include "engine/exchange/read_deck.h"
 #include "engine/exchange/read_gltf.h"
 #include "engine/exchange/read_openmesh.h"
+#include "engine/exchange/take_skin.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -85,6 +86,7 @@ DeckOrigin origin_of(const Deck& deck, const DeckChoice& choice)
     origin.last_node = *std::max_element(deck.node.begin(), deck.node.end());
     origin.last_element = *std::max_element(deck.element.begin(), deck.element.end());
     origin.parts = deck.parts;
+    origin.unit_stated = deck.unit.has_value();
     for (const DeckSet& set : deck.sets)
         origin.sets.push_back(set.name);
     return origin;
@@ -165,17 +167,8 @@ void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
 void cut_where_needed(PartFile& part, const SeamOptions& seam)
 {
     DoctorReport& report = part.doctor;
-    const bool closed = report.boundary_loops == 0;
     if (seam.mode == SeamOptions::Mode::none || sick_beyond_a_cut(report) || report.components != 1 || !report.genus)
         return;
-    if (seam.mode == SeamOptions::Mode::automatic && closed && has_both_skins(part.mesh)) {
-        for (Finding& finding : report.findings)
-            if (finding.fault == Fault::closed_surface) {
-                finding.text += " and looks like a sheet with both its skins";
-                finding.advice += "; if it is a hollow body after all, give the seam along which to cut it open";
-            }
-        return;
-    }
     CutPart cut = cut_open(part.mesh, in_mesh(seam, part.source_vertex));
     if (cut.seam.empty())
         return;
@@ -203,11 +196,9 @@ void note_size(PartFile& part, bool unit_given)
 {
     if (part.mesh.vertices() == 0)
         return;
-    if (!unit_given && part.unit == LengthUnit::m)
-        part.notes.push_back("lengths were taken as metres, as the glTF specification says");
     constexpr double small = 5, large = 20'000; // mm; sheet parts lie between a clip and a ship's plate
     const double diagonal = bounding_diagonal(part.mesh);
-    const bool unit_known = unit_given || (part.cad && part.cad->unit_stated);
+    const bool unit_known = unit_given || (part.cad && part.cad->unit_stated) || (part.deck && part.deck->unit_stated);
     if (!unit_known && (diagonal < small || diagonal > large))
         part.notes.push_back(
             fmt::format("the part is {:.4g} mm across: if that is wrong, give the unit of the file (it was read as {})",
@@ -215,20 +206,24 @@ void note_size(PartFile& part, bool unit_given)
 }
 
 /// Examines and cuts what the file holds; the part has its format, unit and notes already.
-void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, const Progress& progress)
+/// @param solid  whether the file says that it is one
+void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, bool solid,
+          const Progress& progress)
 {
     part.file_vertices = soup.vertices();
     part.file_faces = soup.polygons();
     DoctorOptions doctor = options.doctor;
     doctor.weld = options.weld.value_or(weld);
-    Examination examination = examine(soup, doctor, progress.part(0, 0.95));
+    Examination examination = examine(soup, doctor, progress.part(0, 0.6));
     part.mesh = std::move(examination.mesh);
     part.doctor = std::move(examination.report);
     part.source_vertex = std::move(examination.source_vertex);
     part.source_face = std::move(examination.source_face);
     part.same_as = std::move(examination.same_as);
+    const bool refused = take_skin(part, options, solid, progress.part(0.6, 0.95));
     progress.checkpoint(0.95, "looking for where it must be cut open");
-    cut_where_needed(part, options.seam);
+    if (!refused)
+        cut_where_needed(part, options.seam);
     note_size(part, options.unit.has_value());
 }
 
@@ -238,7 +233,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     PartFile part;
     if (is_deck("." + extension)) {
         const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
-        fill(part, soup, options, false, progress.part(0.5, 1));
+        fill(part, soup, options, false, false, progress.part(0.5, 1));
         return part;
     }
     if (is_cad("." + extension)) {
@@ -246,10 +241,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         part.format = cad.format;
         part.cad = CadOrigin{cad.face, cad.faces, cad.deflection, cad.sewing_tolerance, !cad.unit.empty()};
         part.unit = options.unit.value_or(LengthUnit::mm);
-        ReadOptions whole = options;
-        if (cad.solid && options.parts.empty())
-            whole.seam.mode = SeamOptions::Mode::none; // a seam would not take its two skins apart
-        fill(part, cad.soup, whole, true, progress.part(0.8, 1));
+        fill(part, cad.soup, options, true, cad.solid, progress.part(0.8, 1));
         report_cad(cad, part);
         return part;
     }
@@ -257,10 +249,12 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         throw InputError("parts can be chosen from solver decks and CAD files only; this file is taken whole");
     const bool gltf = extension == "gltf" || extension == "glb";
     part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
+    if (gltf && !options.unit)
+        part.notes.push_back("lengths were taken as metres, as the glTF specification says");
     PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
     for (Eigen::Vector3d& p : soup.position)
         p *= millimetres(part.unit);
-    fill(part, soup, options, gltf || extension == "stl", progress.part(0.5, 1));
+    fill(part, soup, options, gltf || extension == "stl", false, progress.part(0.5, 1));
     return part;
 }
 
@@ -285,7 +279,7 @@ PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const
 {
     PartFile part;
     part.format = "in memory";
-    fill(part, soup, options, false, progress);
+    fill(part, soup, options, false, false, progress);
     return part;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/exchange/length_unit.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
+#include "engine/mesh/skin.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -20,9 +21,11 @@ struct ReadOptions {
     std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
     DoctorOptions doctor = {};           ///< its `weld` is ignored
     std::vector<std::string> parts =
-        {};                ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
-    CadOptions cad = {};   ///< of a CAD file
-    SeamOptions seam = {}; ///< where a part is cut open that is no sheet; vertices of the file
+        {};                        ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
+    CadOptions cad = {};           ///< of a CAD file
+    SeamOptions seam = {};         ///< where a part is cut open that is no sheet; vertices of the file
+    std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
+                                   ///< flat enough (has_both_skins()) are taken as hollow bodies, not as solids
 };
 
 /// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
@@ -31,13 +34,15 @@ struct DeckOrigin {
     std::vector<int> element;             ///< per face of the file: its index among all shells of the deck
     std::vector<std::int64_t> element_id; ///< per face of the file
     std::vector<std::int64_t> node_id;    ///< per vertex of the file
-    std::vector<std::array<int, 4>> corner; ///< per face of the file: vertices of the file, as in the deck; the last is -1
-                                            ///< in a triangle
-    std::vector<int> part_of;               ///< per face of the file: index into parts
-    std::vector<Eigen::Vector3d> position;  ///< per vertex of the file, in the unit of the deck
+    std::vector<std::array<int, 4>>
+        corner;               ///< per face of the file: vertices of the file, as in the deck; the last is -1
+                              ///< in a triangle
+    std::vector<int> part_of; ///< per face of the file: index into parts
+    std::vector<Eigen::Vector3d> position;        ///< per vertex of the file, in the unit of the deck
     std::int64_t last_node = 0, last_element = 0; ///< greatest ids of the whole deck
-    std::vector<DeckPart> parts;          ///< all of the deck; thicknesses in its unit
-    std::vector<std::string> sets;        ///< names of element sets that can be chosen as well
+    std::vector<DeckPart> parts;                  ///< all of the deck; thicknesses in its unit
+    std::vector<std::string> sets;                ///< names of element sets that can be chosen as well
+    bool unit_stated = false;                     ///< the deck says its unit of length
 };
 
 /// What a part from a CAD file comes from. Its "faces of the file" are triangles, made from the CAD faces in their order.
@@ -49,9 +54,20 @@ struct CadOrigin {
     bool unit_stated = false;    ///< by the file; a unit given for it is refused
 };
 
+/// What a part that is one surface of a solid of sheet comes from.
+struct SolidOrigin {
+    Skin skin = Skin::outer;                         ///< the surface that was taken
+    double thickness = 0, least = 0, most = 0;       ///< mm, as in ThinSolid
+    double outer_area = 0, inner_area = 0, area = 0; ///< mm2, of both skins and of what was taken
+    double rim_area = 0;                             ///< mm2, of the faces across the thickness
+    double volume = 0;                               ///< mm3
+    int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and of the skins
+    bool open = false;                               ///< faces are missing
+};
+
 /// What a file holds, and what was done to it.
 struct PartFile {
-    TriMesh mesh;                   ///< mm; vertices and faces in the order of the file
+    TriMesh mesh;                   ///< mm, of a solid one surface of it; vertices and faces in the order of the file
     DoctorReport doctor;            ///< faults and repairs; it names vertices and faces as in the file, counted from 0
     std::vector<int> source_vertex; ///< per vertex of mesh its number in the file; never decreases, and repeats where
                                     ///< touching fans were separated and along the seam
@@ -64,15 +80,16 @@ struct PartFile {
     std::vector<std::string> notes;          ///< what was left out, or deserves a word
     std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part was cut open
     double seam_length = 0;                  ///< mm
-    std::optional<double> thickness_mm = {}; ///< of the sheet, if the file says it: only decks do
+    std::optional<double> thickness_mm = {}; ///< of the sheet: decks say it, in solids it is found
     std::string material = {};               ///< what the file calls it; empty: nothing
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
     std::optional<CadOrigin> cad = {};       ///< of CAD files
+    std::optional<SolidOrigin> solid = {};   ///< of solids of sheet
 };
 
 /// Reads an STL, OBJ, PLY, OFF, glTF or GLB file, the shells of a solver deck (read_deck()) or the faces of a STEP, IGES or
 /// BREP file (read_cad()) as a sheet part: one piece with
-/// a boundary and no handles. What is closed, has handles or is a tube is cut open along a seam (cut_open()); the report
+/// a boundary and no handles. A solid of sheet is given by one of its skins (thin_solid()). What else is closed, has handles or is a tube is cut open along a seam (cut_open()); the report
 /// says so and where.
 /// Coordinates keep their full precision (STL and glTF hold single precision).
 /// @throws InputError  the file cannot be read, or the doctor found a fault that cannot be repaired

@@ -22,17 +22,19 @@ namespace spia::viewer {
 struct OpenPart {
     std::filesystem::path file;
     std::string unit;
-}; ///< "open_part"; unit may be empty
+    std::optional<Skin> skin = {};
+}; ///< "open_part"; unit may be empty; skin of a solid of sheet: "outer", "inner" or "middle"
 struct SetUnit {
     std::string unit;
 }; ///< "set_unit": reads the part again
 /// "set_reading": reads the part again, with vertices at one place joined or not (not given: as the format needs), and with
 /// all but the largest piece of sheet left out or not, and of a solver deck which parts, by ids or names (not given: as they are;
-/// none: all).
+/// none: all), and of a solid of sheet which skin (as in open_part; not given: the outer one).
 struct SetReading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
     std::vector<std::string> parts = {};
+    std::optional<Skin> skin = {};
 };
 /// "set_seam": mode ("automatic", "none", "given"), path [[vertex of the file, ...], ...]; reads the part again.
 struct SetSeam {

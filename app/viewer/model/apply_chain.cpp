@@ -58,6 +58,7 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.session.options.interpolate = session.options.interpolate;
     if (!action.unit.empty())
         fresh.session.options.read.unit = length_unit(action.unit);
+    fresh.session.options.read.skin = action.skin;
     fresh.session.file = action.file;
     if (!std::filesystem::exists(action.file))
         throw InputError(fmt::format("There is no file {}.", action.file.string()));
@@ -89,12 +90,14 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
 void ViewerModel::Apply::operator()(const SetReading& action)
 {
     const ReadOptions& now = session.options.read;
-    if (now.weld == action.weld && now.doctor.keep_largest == action.keep_largest && now.parts == action.parts)
+    if (now.weld == action.weld && now.doctor.keep_largest == action.keep_largest && now.parts == action.parts &&
+        now.skin == action.skin)
         return;
     read_again("Read the part otherwise", [&](ReadOptions& read) {
         read.weld = action.weld;
         read.doctor.keep_largest = action.keep_largest;
         read.parts = action.parts;
+        read.skin = action.skin;
     });
 }
 

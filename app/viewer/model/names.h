@@ -49,6 +49,9 @@ inline constexpr std::array names_of<Stage>{Names<Stage>{Stage::read, "read"}, N
                                             Names<Stage>{Stage::grid, "grid"}, Names<Stage>{Stage::lift, "lift"},
                                             Names<Stage>{Stage::fit, "fit"}};
 template <>
+inline constexpr std::array names_of<Skin>{Names<Skin>{Skin::outer, "outer"}, Names<Skin>{Skin::inner, "inner"},
+                                           Names<Skin>{Skin::middle, "middle"}};
+template <>
 inline constexpr std::array names_of<GridMethod>{Names<GridMethod>{GridMethod::automatic, "automatic"},
                                                  Names<GridMethod>{GridMethod::coons, "coons"},
                                                  Names<GridMethod>{GridMethod::harmonic, "harmonic"}};

@@ -30,6 +30,7 @@ struct StoredPart {
     bool keep_largest = false;
     SeamOptions seam;
     std::vector<std::string> parts; ///< of a deck
+    std::optional<Skin> skin;       ///< of a solid of sheet
 };
 
 struct StoredProject {
@@ -124,7 +125,8 @@ template <>
 inline constexpr auto members_of<StoredPart> =
     std::tuple{required("path", &StoredPart::path), member("unit", &StoredPart::unit),
                member("weld", &StoredPart::weld),   member("keep_largest", &StoredPart::keep_largest),
-               member("seam", &StoredPart::seam),   member("parts", &StoredPart::parts)};
+               member("seam", &StoredPart::seam),   member("parts", &StoredPart::parts),
+               member("skin", &StoredPart::skin)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -229,6 +231,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.read.doctor.keep_largest = stored.part.keep_largest;
     session.options.read.seam = stored.part.seam;
     session.options.read.parts = stored.part.parts;
+    session.options.read.skin = stored.part.skin;
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -268,7 +271,8 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.program = program_name();
     stored.picks = store_picks(document);
     stored.part = {stored_path(session.file, folder),        session.options.read.unit, session.options.read.weld,
-                   session.options.read.doctor.keep_largest, session.options.read.seam, session.options.read.parts};
+                   session.options.read.doctor.keep_largest, session.options.read.seam, session.options.read.parts,
+                   session.options.read.skin};
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

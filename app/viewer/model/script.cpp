@@ -62,10 +62,12 @@ constexpr Between share{0, 1}, pixels{0, 16384};
 
 // Every action, in the order of the variant.
 constexpr std::tuple forms{
-    form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit)),
+    form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit),
+                   member("skin", &OpenPart::skin)),
     form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
     form<SetReading>("set_reading", member("weld", &SetReading::weld),
-                     member("keep_largest", &SetReading::keep_largest), member("parts", &SetReading::parts)),
+                     member("keep_largest", &SetReading::keep_largest), member("parts", &SetReading::parts),
+                     member("skin", &SetReading::skin)),
     form_of_inner("set_seam", &SetSeam::seam),
     form<RunTo>("run_to", member("stage", &RunTo::stage)),
     form<CancelJob>("cancel_job"),

@@ -11,6 +11,7 @@ std::string in_viewer_words(std::string text)
         {"--weld", "\"Join them\" in the step Part"},
         {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
         {"--unit", "in the step Part"},
+        {"--skin", "\"Skin\" in the step Part"},
         {"--part", "\"Parts\" in the step Part"},
         {"--young", "in the field above"},
         {"--data engineering or --data true", "above"},

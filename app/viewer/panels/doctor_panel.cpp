@@ -54,9 +54,9 @@ void fix_button(Frame& frame, const Finding& finding)
         ImGui::SameLine();
     ImGui::BeginDisabled(frame.model.busy());
     if (cut && small_button(frame, "Keep the largest piece"))
-        frame.actions.push(SetReading{read.weld, true, read.parts});
+        frame.actions.push(SetReading{read.weld, true, read.parts, read.skin});
     if (apart && small_button(frame, "Join them"))
-        frame.actions.push(SetReading{true, read.doctor.keep_largest, read.parts});
+        frame.actions.push(SetReading{true, read.doctor.keep_largest, read.parts, read.skin});
     ImGui::EndDisabled();
     tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
                   "three faces. Undo brings it back."
@@ -99,7 +99,7 @@ void deck_parts(Frame& frame, const PartFile& part)
         tooltip("Of the solver deck. Click for one part, Ctrl and click for more.");
     else {
         if (ImGui::Selectable("all", read.parts.empty()))
-            frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}});
+            frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}, read.skin});
         for (size_t k = 0; k < part.deck->parts.size(); ++k) {
             const DeckPart& each = part.deck->parts[k];
             ImGui::PushID(int(k));
@@ -116,7 +116,7 @@ void deck_parts(Frame& frame, const PartFile& part)
                         parts.push_back(key_of(each));
                 } else
                     parts = {key_of(each)};
-                frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts});
+                frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts, read.skin});
             }
             ImGui::PopID();
         }
@@ -145,11 +145,30 @@ void cad_faces(Frame& frame, const PartFile& part)
                     parts.push_back(std::exchange(one, ""));
             } else if (c != ' ')
                 one += c;
-        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts});
+        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts, read.skin});
     }
     tooltip("Faces of the CAD file by their numbers, from 0: for instance 3, 10-19");
     if (!read.parts.empty() && small_button(frame, "All faces"))
-        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}});
+        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}, read.skin});
+    ImGui::EndDisabled();
+}
+
+/// Which surface stands for a solid of sheet.
+void solid_skin(Frame& frame, const PartFile& part)
+{
+    const ReadOptions& read = frame.state.document.session.options.read;
+    if (!part.solid && !read.skin)
+        return;
+    const Skin now = part.solid ? part.solid->skin : *read.skin;
+    ImGui::BeginDisabled(frame.model.busy());
+    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    if (ImGui::BeginCombo("Skin", name(now))) {
+        for (const Skin skin : {Skin::outer, Skin::inner, Skin::middle})
+            if (ImGui::Selectable(name(skin), skin == now) && skin != now)
+                frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, read.parts, skin});
+        ImGui::EndCombo();
+    } else
+        tooltip("The surface that stands for the solid: one of its skins, or the middle between them.");
     ImGui::EndDisabled();
 }
 
@@ -158,7 +177,7 @@ void deck_gauge(Frame& frame, const PartFile& part)
 {
     if (!part.thickness_mm)
         return;
-    muted(frame, fmt::format("The deck says {:.4g} mm{}", *part.thickness_mm,
+    muted(frame, fmt::format("The {} {:.4g} mm{}", part.solid ? "solid is" : "deck says", *part.thickness_mm,
                              part.material.empty() ? "" : fmt::format(" of \"{}\"", part.material)));
     if (*part.thickness_mm == frame.state.document.session.options.flatten.thickness || frame.model.busy())
         return;
@@ -193,6 +212,7 @@ void doctor_panel(Frame& frame)
         return;
     deck_parts(frame, *part);
     cad_faces(frame, *part);
+    solid_skin(frame, *part);
     deck_gauge(frame, *part);
     file_notes(frame, *part);
     if (part->doctor.findings.empty())

@@ -329,23 +329,6 @@ TEST(RealCadModel, NoseIsSewnAndItsDoubledFacesAreNamed)
     }
 }
 
-TEST(RealCadModel, SolidIsRefusedUntilASkinIsChosen)
-{
-    const fs::path file = cad_folder / "fan_bracket.step";
-    if (!fs::exists(file))
-        GTEST_SKIP() << "no " << file;
-    try {
-        read_part(file);
-        FAIL() << "a solid is no sheet";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("solid of 220 faces"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("--part"), std::string::npos) << error.what();
-    }
-    ReadOptions one;
-    one.parts = {"7"};
-    EXPECT_EQ(read_part(file, one).cad->faces, 220);
-}
-
 TEST(RealCadModel, BrepTakesTheUnitThatIsGiven)
 {
     const fs::path file = cad_folder / "freeform99.brep";

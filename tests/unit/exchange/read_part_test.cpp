@@ -433,7 +433,7 @@ TEST_F(ReadPart, TheSeamIsNamedByTheNumbersOfTheFileInItsUnit)
     EXPECT_THROW(read_part(write("strip.obj", strip), options), InputError); // the stray
 }
 
-TEST_F(ReadPart, ASheetWithBothSkinsIsNotCutUnlessToldWhere)
+TEST_F(ReadPart, ASolidOfSheetIsGivenByASkinUnlessASeamIsGiven)
 {
     std::set<shapes::Cell> tiles;
     for (int i = 0; i < 70; ++i)
@@ -448,7 +448,10 @@ TEST_F(ReadPart, ASheetWithBothSkinsIsNotCutUnlessToldWhere)
             text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
         return text;
     };
-    expect_refused("skins.off", off(solid), "both its skins");
+    const PartFile skin = read("skins.off", off(solid));
+    EXPECT_TRUE(skin.seam.empty());
+    ASSERT_TRUE(skin.solid);
+    EXPECT_NEAR(area(skin.mesh), 70 * 70 * std::pow(skin.solid->thickness, 2), 1e-6) << "cubes side by side";
     ReadOptions options;
     options.seam = {SeamOptions::Mode::given, {{0, solid.vertices() - 1}}};
     EXPECT_EQ(read("skins.off", off(solid), options).doctor.boundary_loops, 1);

@@ -1,0 +1,181 @@
+#include "engine/exchange/take_skin.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/core.h>
+#include <set>
+
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+bool of_the_surface(const Finding& finding)
+{
+    return finding.fault == Fault::closed_surface || finding.fault == Fault::handle;
+}
+
+bool is_asked_for(const PartFile& part, const ReadOptions& options, bool solid)
+{
+    const DoctorReport& report = part.doctor;
+    const bool sick = std::any_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
+        return finding.severity == Severity::fatal && !of_the_surface(finding);
+    });
+    if (sick || report.components != 1 || !report.boundary_loops)
+        return false;
+    if (options.skin)
+        return true;
+    if (options.seam.mode == SeamOptions::Mode::given || part.deck) // a hollow body; shells have a thickness already
+        return false;
+    return *report.boundary_loops == 0 ? solid || has_both_skins(part.mesh) : seems_thin_solid(part.mesh);
+}
+
+ThinSolidOptions faces_of(const PartFile& part)
+{
+    ThinSolidOptions options;
+    if (part.cad)
+        for (const int f : part.source_face)
+            options.unit.push_back(part.cad->face[size_t(f)]);
+    options.face_name = [&part](int f) {
+        const int in_file = part.source_face[size_t(f)];
+        return part.cad ? fmt::format("CAD face {}", part.cad->face[size_t(in_file)]) : fmt::format("face {}", in_file);
+    };
+    return options;
+}
+
+/// How many CAD faces, else faces of the file, the triangles with `counts` are of.
+template <class Counts> int faces(const PartFile& part, const Counts& counts)
+{
+    std::set<int> found;
+    for (size_t f = 0; f < part.source_face.size(); ++f)
+        if (counts(f))
+            found.insert(part.cad ? part.cad->face[size_t(part.source_face[f])] : part.source_face[f]);
+    return int(found.size());
+}
+
+void refuse(PartFile& part, const NotASheet& reason, bool solid)
+{
+    std::erase_if(part.doctor.findings, of_the_surface);
+    const int count = faces(part, [](size_t) { return true; });
+    Finding finding{Fault::closed_surface,
+                    Severity::fatal,
+                    count,
+                    reason.face < 0 ? -1 : part.source_face[size_t(reason.face)],
+                    fmt::format("{} of {} faces, and {}", solid ? "it is a solid" : "it is a closed surface", count,
+                                reason.what()),
+                    "a solid is taken apart where it is a sheet of one thickness; else give one skin of the sheet: ",
+                    {},
+                    {}};
+    finding.advice += part.cad
+                          ? "choose its faces (--part, e.g. 3 or 0-17), or export it as a surface"
+                          : "delete the other side and the faces across the thickness. If it is a hollow body, give "
+                            "the seam along which to cut it open";
+    if (finding.first >= 0) {
+        finding.where.push_back(finding.first);
+        finding.place.push_back(reason.place);
+    }
+    part.doctor.findings.insert(part.doctor.findings.begin(), std::move(finding));
+}
+
+/// The doctor sees the skin, too: it may touch itself at a point where the solid did not.
+void replace_mesh(PartFile& part, const SkinMesh& skin)
+{
+    PolygonSoup soup;
+    for (int v = 0; v < skin.mesh.vertices(); ++v)
+        soup.position.push_back(skin.mesh.position.col(v));
+    for (int f = 0; f < skin.mesh.triangles(); ++f)
+        soup.add_polygon(std::array{skin.mesh.triangle(0, f), skin.mesh.triangle(1, f), skin.mesh.triangle(2, f)});
+    DoctorOptions as_it_is;
+    as_it_is.sliver_angle_deg = 0; // those of the whole solid were noted
+    Examination examination = examine(soup, as_it_is);
+    const auto vertex_in_file = [&](int v) { return part.source_vertex[size_t(skin.source_vertex[size_t(v)])]; };
+    const auto face_in_file = [&](int f) { return part.source_face[size_t(skin.source_face[size_t(f)])]; };
+    std::erase_if(part.doctor.findings, of_the_surface);
+    for (Finding& finding : examination.report.findings) {
+        const bool vertices = counts_vertices(finding.fault);
+        for (int& i : finding.where)
+            i = vertices ? vertex_in_file(i) : face_in_file(i);
+        if (finding.first >= 0)
+            finding.first = vertices ? vertex_in_file(finding.first) : face_in_file(finding.first);
+        part.doctor.findings.push_back(std::move(finding));
+    }
+    part.doctor.components = examination.report.components;
+    part.doctor.boundary_loops = examination.report.boundary_loops;
+    part.doctor.genus = examination.report.genus;
+    part.doctor.euler_characteristic = examination.report.euler_characteristic;
+    for (int& v : examination.source_vertex)
+        v = vertex_in_file(v);
+    for (int& f : examination.source_face)
+        f = face_in_file(f);
+    part.source_vertex = std::move(examination.source_vertex);
+    part.source_face = std::move(examination.source_face);
+    part.mesh = std::move(examination.mesh);
+}
+
+void note_skin(PartFile& part)
+{
+    const SolidOrigin& solid = *part.solid;
+    const int taken = solid.skin == Skin::inner ? solid.inner_faces : solid.outer_faces;
+    const std::string what = solid.skin == Skin::middle
+                                 ? fmt::format("middle surface, from the {} faces of its outer skin,", taken)
+                                 : fmt::format("{} skin of {} faces", name(solid.skin), taken);
+    part.notes.push_back(fmt::format("a solid of {} faces{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
+                                     "surface of it)",
+                                     solid.faces, solid.open ? ", some of which are missing" : "", what,
+                                     solid.thickness));
+    part.notes.push_back(fmt::format("thickness between {:.4g} and {:.4g} mm; outer skin {:.6g} mm2, inner skin {:.6g} "
+                                     "mm2, faces across the thickness {:.6g} mm2",
+                                     solid.least, solid.most, solid.outer_area, solid.inner_area, solid.rim_area));
+}
+
+} // namespace
+
+bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Progress& progress)
+{
+    if (!is_asked_for(part, options, solid)) {
+        if (part.doctor.boundary_loops == 0 && part.doctor.components == 1 && !options.skin && !part.deck &&
+            seems_thin_solid(part.mesh))
+            part.notes.push_back("it is taken as a hollow body; if it is a solid of thick sheet, choose the skin that "
+                                 "stands for it (--skin outer)");
+        return false;
+    }
+    const bool open = *part.doctor.boundary_loops > 0;
+    if (open && !seems_thin_solid(part.mesh)) { // and a skin was asked for
+        part.notes.push_back("it is no solid but a surface already, and taken as it is: there is no skin to choose");
+        return false;
+    }
+    try {
+        const ThinSolidOptions units = faces_of(part);
+        const ThinSolid sheet = thin_solid(part.mesh, units, progress);
+        const Skin wanted = options.skin.value_or(Skin::outer);
+        const SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
+        const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
+        part.solid = {wanted,
+                      sheet.thickness,
+                      sheet.least,
+                      sheet.most,
+                      sheet.outer,
+                      sheet.inner,
+                      area(skin.mesh),
+                      sheet.rim,
+                      sheet.volume,
+                      faces(part, [](size_t) { return true; }),
+                      faces(part, on(SheetSide::outer)),
+                      faces(part, on(SheetSide::inner)),
+                      open};
+        part.thickness_mm = sheet.thickness;
+        replace_mesh(part, skin);
+        note_skin(part);
+    } catch (const NotASheet& reason) {
+        if (open)
+            part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of "
+                                             "sheet; but {}. It is taken as a surface",
+                                             reason.what()));
+        else
+            refuse(part, reason, solid);
+        return !open;
+    }
+    return false;
+}
+
+} // namespace spia

@@ -1,0 +1,240 @@
+#include "engine/mesh/sheet_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "engine/mesh/disjoint_sets.h"
+
+namespace spia {
+namespace {
+
+constexpr double sure = 0.8; // of a piece's area lies opposite to another: it belongs to a skin
+constexpr double likely = 0.5;
+
+/// Two pieces that are on the same skin or on different ones.
+struct Relation {
+    double weight; ///< mm2
+    int a, b;
+    bool differ;
+    bool weak; ///< comes after all others
+};
+
+/// Groups of things of two kinds, of which pairs are known to be the same or to differ.
+class TwoColours {
+public:
+    explicit TwoColours(int n) : parent_(size_t(n)), differs_(size_t(n), 0)
+    {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+    std::pair<int, bool> root(int i) const ///< and whether i differs from it
+    {
+        bool differs = false;
+        for (; parent_[size_t(i)] != i; i = parent_[size_t(i)])
+            differs ^= bool(differs_[size_t(i)]);
+        return {i, differs};
+    }
+    void relate(int a, int b, bool differ)
+    {
+        const auto [p, from_p] = root(a);
+        const auto [q, from_q] = root(b);
+        if (p == q)
+            return;
+        const bool turned = differ ^ from_p ^ from_q;
+        // Joined by size, so that the ways to the root stay short.
+        parent_[size_t(size_[size_t(p)] < size_[size_t(q)] ? p : q)] = size_[size_t(p)] < size_[size_t(q)] ? q : p;
+        const int child = parent_[size_t(p)] == q ? p : q, other = child == p ? q : p;
+        differs_[size_t(child)] = turned;
+        size_[size_t(other)] += size_[size_t(child)];
+    }
+
+private:
+    std::vector<int> parent_;
+    std::vector<char> differs_;
+    std::vector<int> size_ = std::vector<int>(parent_.size(), 1);
+};
+
+std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
+{
+    std::vector<double> share(size_t(pieces.count()), 0);
+    for (const Opposite& at : places)
+        if (across(at, thickness)) {
+            const auto p = size_t(pieces.piece[size_t(at.face)]);
+            share[p] += at.area / pieces.area[p];
+        }
+    return share;
+}
+
+/// Between pieces that are surely skin.
+std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<Opposite>& places,
+                                const std::vector<double>& share, double thickness)
+{
+    const auto skin = [&](int p) { return share[size_t(p)] >= sure; };
+    std::map<std::pair<int, int>, double> facing;
+    for (const Opposite& at : places)
+        if (across(at, thickness)) {
+            const int p = pieces.piece[size_t(at.face)], q = pieces.piece[size_t(at.hit)];
+            if (p != q && skin(p) && skin(q))
+                facing[std::minmax(p, q)] += at.area;
+        }
+    std::vector<Relation> result;
+    for (const auto& [pair, area] : facing)
+        result.push_back({area, pair.first, pair.second, true, false});
+    for (const PieceContact& contact : pieces.contact)
+        if (skin(contact.a) && skin(contact.b)) {
+            if (contact.smooth > 0)
+                result.push_back({contact.smooth * thickness, contact.a, contact.b, false, false});
+            else if (contact.concave > 0)
+                result.push_back({contact.concave * thickness, contact.a, contact.b, false, true});
+        }
+    std::stable_sort(result.begin(), result.end(), [](const Relation& a, const Relation& b) {
+        return a.weak != b.weak ? b.weak : a.weight > b.weight;
+    });
+    return result;
+}
+
+using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known
+
+/// The largest group of pieces that relations join.
+Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relations, const std::vector<double>& share)
+{
+    TwoColours colours(pieces.count());
+    for (const Relation& relation : relations)
+        colours.relate(relation.a, relation.b, relation.differ);
+    std::vector<double> area(size_t(pieces.count()), 0);
+    for (int p = 0; p < pieces.count(); ++p)
+        if (share[size_t(p)] >= sure)
+            area[size_t(colours.root(p).first)] += pieces.area[size_t(p)];
+    const int largest = int(std::max_element(area.begin(), area.end()) - area.begin());
+    Side side(size_t(pieces.count()), -1);
+    for (int p = 0; p < pieces.count(); ++p)
+        if (const auto [root, differs] = colours.root(p); root == largest && share[size_t(p)] >= sure)
+            side[size_t(p)] = differs;
+    return side;
+}
+
+/// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a group touches.
+/// @returns whether one was
+bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, const std::vector<char>& demoted,
+                   Side& side)
+{
+    DisjointSets group(size_t(pieces.count()));
+    for (const PieceContact& c : pieces.contact)
+        if (c.smooth > 0 && side[size_t(c.a)] < 0 && side[size_t(c.b)] < 0)
+            group.join(c.a, c.b);
+    struct Touch {
+        std::array<double, 2> smooth{}, sharp{};
+        double area = 0, across = 0;
+        bool demoted = false;
+    };
+    std::map<int, Touch> touches;
+    for (int p = 0; p < pieces.count(); ++p)
+        if (side[size_t(p)] < 0) {
+            Touch& touch = touches[group.root(p)];
+            touch.area += pieces.area[size_t(p)];
+            touch.across += pieces.area[size_t(p)] * share[size_t(p)];
+            touch.demoted = touch.demoted || demoted[size_t(p)];
+        }
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            if (side[size_t(unsure)] < 0 && side[size_t(known)] >= 0) {
+                Touch& touch = touches[group.root(unsure)];
+                touch.smooth[size_t(side[size_t(known)])] += c.smooth;
+                touch.sharp[size_t(side[size_t(known)])] += c.concave + c.convex;
+            }
+    bool settled = false;
+    for (int p = 0; p < pieces.count(); ++p) {
+        if (side[size_t(p)] >= 0)
+            continue;
+        const Touch& touch = touches[group.root(p)];
+        for (const size_t s : {size_t(0), size_t(1)}) {
+            const bool only = touch.smooth[1 - s] + touch.sharp[1 - s] == 0;
+            if (only && !touch.demoted &&
+                (touch.smooth[s] > 0 || (touch.sharp[s] > 0 && touch.across >= likely * touch.area))) {
+                side[size_t(p)] = int(s) + 2; // known from the next round on
+                settled = true;
+                break;
+            }
+        }
+    }
+    for (int& s : side)
+        s = s >= 2 ? s - 2 : s;
+    return settled;
+}
+
+/// Pieces between two holes or at the end of a narrow lip can look like skin. They have one skin on one side and the other one
+/// on the other side, which pieces of a skin have not. @returns whether one was taken out
+bool demote(const SurfacePieces& pieces, Side& side, std::vector<char>& demoted)
+{
+    constexpr double much = 0.25; // of its outline
+    std::vector<double> against(size_t(pieces.count()), 0), outline(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact) {
+        const bool differ = side[size_t(c.a)] >= 0 && side[size_t(c.b)] >= 0 && side[size_t(c.a)] != side[size_t(c.b)];
+        for (const int p : {c.a, c.b}) {
+            outline[size_t(p)] += c.length();
+            against[size_t(p)] += differ ? c.length() : 0;
+        }
+    }
+    int worst = -1;
+    for (int p = 0; p < pieces.count(); ++p)
+        if (against[size_t(p)] > much * outline[size_t(p)] &&
+            (worst < 0 || pieces.area[size_t(p)] < pieces.area[size_t(worst)]))
+            worst = p;
+    if (worst < 0)
+        return false;
+    side[size_t(worst)] = -1;
+    demoted[size_t(worst)] = 1;
+    return true;
+}
+
+} // namespace
+
+bool across(const Opposite& place, double thickness)
+{
+    return place.hit >= 0 && place.facing > 0.65 && place.distance > 0.6 * thickness &&
+           place.distance < 1.7 * thickness;
+}
+
+SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
+{
+    SheetSides result;
+    result.opposite_area = opposite_shares(pieces, places, thickness);
+    const std::vector<double>& share = result.opposite_area;
+    Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
+    std::vector<char> demoted(size_t(pieces.count()), 0);
+    do
+        while (settle_groups(pieces, share, demoted, side)) {
+        }
+    while (demote(pieces, side, demoted));
+
+    double whole = 0, same = 0, most = 0;
+    std::map<int, double> same_of;
+    for (const Opposite& at : places)
+        if (const int s = side[size_t(pieces.piece[size_t(at.face)])]; s >= 0) {
+            whole += at.area;
+            if (across(at, thickness) && side[size_t(pieces.piece[size_t(at.hit)])] == s) {
+                same += at.area;
+                same_of[pieces.piece[size_t(at.face)]] += at.area;
+            }
+        }
+    result.contradicted = whole > 0 ? same / whole : 0;
+    int worst = -1;
+    for (const auto& [p, area] : same_of)
+        if (area > most) {
+            most = area;
+            worst = p;
+        }
+    for (size_t i = 0; i < places.size() && result.where < 0; ++i) {
+        const int p = pieces.piece[size_t(places[i].face)];
+        if (p == worst && across(places[i], thickness) &&
+            side[size_t(pieces.piece[size_t(places[i].hit)])] == side[size_t(p)])
+            result.where = int(i);
+    }
+    for (const int s : side)
+        result.side.push_back(s < 0 ? PieceSide::rim : s == 0 ? PieceSide::one : PieceSide::other);
+    return result;
+}
+
+} // namespace spia

@@ -1,0 +1,220 @@
+#include "engine/mesh/skin.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "engine/core/parallel.h"
+#include "engine/mesh/closest_point.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+/// The triangles of one side, seen from the outer side of the sheet.
+SkinMesh side_of(const TriMesh& solid, const ThinSolid& sheet, SheetSide side)
+{
+    SkinMesh result;
+    std::vector<int> number(size_t(solid.vertices()), -1);
+    for (int f = 0; f < solid.triangles(); ++f)
+        if (sheet.side[size_t(f)] == side) {
+            result.source_face.push_back(f);
+            for (int k = 0; k < 3; ++k)
+                number[size_t(solid.triangle(k, f))] = 0;
+        }
+    for (int v = 0; v < solid.vertices(); ++v)
+        if (number[size_t(v)] == 0) {
+            number[size_t(v)] = int(result.source_vertex.size());
+            result.source_vertex.push_back(v);
+        }
+    result.mesh.position = solid.position(Eigen::all, result.source_vertex);
+    result.mesh.triangle.resize(3, Eigen::Index(result.source_face.size()));
+    const bool turned = (side == SheetSide::inner) != (sheet.flipped < 0);
+    for (size_t f = 0; f < result.source_face.size(); ++f)
+        for (int k = 0; k < 3; ++k)
+            result.mesh.triangle(turned ? 2 - k : k, Eigen::Index(f)) =
+                number[size_t(solid.triangle(k, result.source_face[f]))];
+    return result;
+}
+
+/// Faces around each vertex of a mesh.
+std::vector<std::vector<int>> faces_around(const TriMesh& mesh)
+{
+    std::vector<std::vector<int>> around(size_t(mesh.vertices()));
+    for (int f = 0; f < mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k)
+            around[size_t(mesh.triangle(k, f))].push_back(f);
+    return around;
+}
+
+/// Planes that a vertex is to lie on once it is moved.
+class Planes {
+public:
+    /// One that is nearly there is not wanted twice: the larger face counts, and comes first.
+    void add(const Eigen::Vector3d& normal, double move)
+    {
+        constexpr double alike = 0.985; // 10 degrees
+        for (size_t i = 0; i < normal_.size(); ++i)
+            if (move_[i] == move && normal_[i].dot(normal) > alike)
+                return;
+        normal_.push_back(normal);
+        move_.push_back(move);
+    }
+    /// The shortest move that obeys them, as well as that can be.
+    Eigen::Vector3d move() const
+    {
+        Eigen::MatrixX3d a(Eigen::Index(normal_.size()), 3);
+        Eigen::VectorXd b(Eigen::Index(normal_.size()));
+        for (size_t i = 0; i < normal_.size(); ++i) {
+            a.row(Eigen::Index(i)) = normal_[i].transpose();
+            b[Eigen::Index(i)] = move_[i];
+        }
+        Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+        constexpr double nearly_parallel = 0.2;
+        svd.setThreshold(nearly_parallel);
+        return svd.solve(b);
+    }
+
+private:
+    std::vector<Eigen::Vector3d> normal_;
+    std::vector<double> move_;
+};
+
+struct MiddleSurface {
+    const TriMesh& solid;
+    const ThinSolid& sheet;
+    Eigen::Matrix3Xd normal;              ///< of the solid's faces, outwards, unit length
+    Eigen::VectorXd size;                 ///< of them, mm2
+    std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
+    TriMesh inner;                        ///< the inner skin
+    ClosestPointSearch nearest_inner;
+
+    /// Where a vertex of the outer skin goes.
+    Eigen::Vector3d move(int v) const
+    {
+        std::vector<int> skin, rim;
+        for (const int f : around[size_t(v)])
+            (sheet.side[size_t(f)] == SheetSide::outer ? skin : rim).push_back(f);
+        const auto larger = [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; };
+        std::sort(skin.begin(), skin.end(), larger);
+        std::sort(rim.begin(), rim.end(), larger);
+        Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+        for (const int f : skin)
+            mean += size[f] * normal.col(f);
+        mean.normalize();
+        double least = 1;
+        for (const int f : skin)
+            least = std::min(least, mean.dot(normal.col(f)));
+
+        const double half = sheet.thickness / 2;
+        Planes planes;
+        constexpr double sharp = 0.906; // 25 degrees from the mean: an edge of 50
+        if (least < sharp)
+            for (const int f : skin)
+                planes.add(normal.col(f), -half);
+        else
+            planes.add(direction(v, mean), -half);
+        constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
+        bool at_rim = false;
+        for (const int f : rim)
+            if (sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
+                planes.add(normal.col(f), 0);
+                at_rim = true;
+            }
+        const Eigen::Vector3d moved = planes.move();
+        // Where the planes leave the surface, or are too alike to say where to, straight in.
+        return (at_rim || least < sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
+    }
+
+    /// Outwards. Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not.
+    Eigen::Vector3d direction(int v, const Eigen::Vector3d& mean) const
+    {
+        constexpr double equal = 1e-3, aside = 0.8;
+        const Eigen::Vector3d here = solid.position.col(v);
+        const ClosestPoint near = nearest_inner.nearest(here, 1.1 * sheet.thickness);
+        if (near.face < 0)
+            return mean;
+        std::vector<Eigen::Vector3d> opposite{near.position};
+        for (int k = 0; k < 3; ++k)
+            opposite.push_back(inner.position.col(inner.triangle(k, near.face)));
+        Eigen::Vector3d best = mean;
+        double off = equal * sheet.thickness;
+        for (const Eigen::Vector3d& place : opposite) {
+            const double distance = (here - place).norm(), from = std::abs(distance - sheet.thickness);
+            if (from <= off && (here - place).dot(mean) > aside * distance) {
+                off = from;
+                best = (here - place) / distance;
+            }
+        }
+        return best;
+    }
+};
+
+/// @throws NotASheet if triangles turned over that have more than a speck of the area
+void require_unfolded(const TriMesh& before, const SkinMesh& middle, const ThinSolidOptions& options)
+{
+    const Eigen::Matrix3Xd was = area_vectors(before), is = area_vectors(middle.mesh);
+    double turned = 0;
+    int worst = -1;
+    for (int f = 0; f < before.triangles(); ++f)
+        if (was.col(f).dot(is.col(f)) <= 0) {
+            turned += was.col(f).norm();
+            if (worst < 0 || was.col(f).norm() > was.col(worst).norm())
+                worst = f;
+        }
+    constexpr double speck = 1e-4;
+    if (turned <= speck * was.colwise().norm().sum())
+        return;
+    const int face = middle.source_face[size_t(worst)];
+    const Eigen::Vector3d place = before.position.col(before.triangle(0, worst));
+    throw NotASheet(fmt::format("its middle surface folds over where the outer skin is bent more tightly than half the "
+                                "thickness ({} at {:.6g}, {:.6g}, {:.6g}); take the outer or the inner skin",
+                                options.face_name ? options.face_name(face) : fmt::format("face {}", face), place.x(),
+                                place.y(), place.z()),
+                    face, place);
+}
+
+} // namespace
+
+const char* name(Skin skin)
+{
+    return skin == Skin::outer ? "outer" : skin == Skin::inner ? "inner" : "middle";
+}
+
+Skin skin_by_name(const std::string& name)
+{
+    for (const Skin skin : {Skin::outer, Skin::inner, Skin::middle})
+        if (name == spia::name(skin))
+            return skin;
+    throw InputError(fmt::format("'{}' is no skin of a sheet; there are outer, inner and middle", name));
+}
+
+SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const ThinSolidOptions& options)
+{
+    if (skin == Skin::inner)
+        return side_of(solid, sheet, SheetSide::inner);
+    SkinMesh result = side_of(solid, sheet, SheetSide::outer);
+    if (skin == Skin::outer)
+        return result;
+    const Eigen::Matrix3Xd vectors = sheet.flipped * area_vectors(solid);
+    TriMesh inner = side_of(solid, sheet, SheetSide::inner).mesh;
+    ClosestPointSearch nearest_inner(inner);
+    const MiddleSurface middle{solid,
+                               sheet,
+                               vectors.colwise().normalized(),
+                               vectors.colwise().norm().transpose(),
+                               faces_around(solid),
+                               std::move(inner),
+                               std::move(nearest_inner)};
+    const TriMesh before = result.mesh;
+    parallel_for(int(result.source_vertex.size()), [&](int i) {
+        result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]);
+    });
+    require_unfolded(before, result, options);
+    return result;
+}
+
+} // namespace spia

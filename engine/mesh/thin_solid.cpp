@@ -1,0 +1,396 @@
+#include "engine/mesh/thin_solid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <map>
+#include <utility>
+
+#include "engine/core/parallel.h"
+#include "engine/mesh/closest_point.h"
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/pick.h"
+#include "engine/mesh/sheet_sides.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+constexpr double thick = 0.25; // of the side of a square with the area of one skin: beyond this it is a block
+
+double signed_volume(const TriMesh& mesh)
+{
+    const Eigen::Vector3d apex = mesh.position.rowwise().mean();
+    double volume = 0; // by the divergence theorem
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const auto t = mesh.triangle.col(f);
+        volume += (mesh.position.col(t[0]) - apex)
+                      .dot((mesh.position.col(t[1]) - apex).cross(mesh.position.col(t[2]) - apex)) /
+                  6;
+    }
+    return volume;
+}
+
+/// All that is known of a solid on the way.
+struct Solid {
+    const TriMesh& mesh;
+    const ThinSolidOptions& options;
+    Eigen::Matrix3Xd normal = {}; ///< area vectors, outwards
+    SurfacePieces pieces = {};
+    std::vector<Opposite> places = {};
+    SheetSides sides = {};
+    bool closed = false;
+
+    int piece(int face) const { return pieces.piece[size_t(face)]; }
+    PieceSide side(int face) const { return sides.side[size_t(piece(face))]; }
+    Eigen::Vector3d middle(int face) const
+    {
+        const auto t = mesh.triangle.col(face);
+        return (mesh.position.col(t[0]) + mesh.position.col(t[1]) + mesh.position.col(t[2])) / 3;
+    }
+    /// "CAD face 7 at 1, 2, 3"
+    std::string at(int face, const Eigen::Vector3d& place) const
+    {
+        return fmt::format("{} at {:.6g}, {:.6g}, {:.6g}",
+                           options.face_name ? options.face_name(face) : fmt::format("face {}", face), place.x(),
+                           place.y(), place.z());
+    }
+    [[noreturn]] void refuse(const std::string& what, int face) const
+    {
+        throw NotASheet(fmt::format("{} ({})", what, at(face, middle(face))), face, middle(face));
+    }
+    /// The largest triangle of the pieces for which `counts`.
+    template <class Counts> int largest(const Counts& counts) const
+    {
+        int best = -1;
+        for (int f = 0; f < mesh.triangles(); ++f)
+            if (counts(piece(f)) && (best < 0 || normal.col(f).norm() > normal.col(best).norm()))
+                best = f;
+        return best;
+    }
+};
+
+void require_thin(const Solid& solid, double thickness, double area)
+{
+    const double width = std::sqrt(area / 2);
+    const auto all = [](int) { return true; };
+    if (thickness <= 0)
+        solid.refuse("it is no sheet: no two of its faces lie opposite to each other", solid.largest(all));
+    if (thickness > thick * width)
+        solid.refuse(fmt::format("it is no thin sheet but a block: most of it is {:.4g} mm thick, at a surface like "
+                                 "that of a plate {:.4g} mm wide",
+                                 thickness, width),
+                     solid.largest(all));
+}
+
+void require_two_sides(const Solid& solid, double thickness, double area)
+{
+    double skins = 0;
+    for (int p = 0; p < solid.pieces.count(); ++p)
+        skins += solid.sides.side[size_t(p)] == PieceSide::rim ? 0 : solid.pieces.area[size_t(p)];
+    constexpr double least = 0.5;
+    if (skins < least * area) {
+        const auto rim = [&](int p) { return solid.sides.side[size_t(p)] == PieceSide::rim; };
+        solid.refuse(fmt::format("only {:.0f} % of its surface lies opposite to another part at about {:.4g} mm, the "
+                                 "thickness found most; the largest face elsewhere is named",
+                                 100 * skins / area, thickness),
+                     solid.largest(rim));
+    }
+    constexpr double most_contradicted = 0.05;
+    if (solid.sides.contradicted > most_contradicted) {
+        const Opposite& at = solid.places[size_t(solid.sides.where)];
+        throw NotASheet(
+            fmt::format("it has no two separate sides: its surface runs from one side of the {:.4g} mm thick wall to "
+                        "the other without faces across the thickness, or walls branch off ({})",
+                        thickness, solid.at(at.face, at.place)),
+            at.face, at.place);
+    }
+}
+
+/// Each side in one piece, the faces across the thickness between both.
+void require_connected(Solid& solid, double thickness, double area)
+{
+    const SurfacePieces& pieces = solid.pieces;
+    DisjointSets together(size_t(pieces.count()));
+    for (const PieceContact& c : pieces.contact)
+        if (solid.sides.side[size_t(c.a)] == solid.sides.side[size_t(c.b)])
+            together.join(c.a, c.b);
+    std::vector<double> size(size_t(pieces.count()), 0);
+    for (int p = 0; p < pieces.count(); ++p)
+        size[size_t(together.root(p))] += pieces.area[size_t(p)];
+    for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
+        int largest = -1, second = -1;
+        for (int p = 0; p < pieces.count(); ++p)
+            if (together.root(p) == p && solid.sides.side[size_t(p)] == side) {
+                if (largest < 0 || size[size_t(p)] > size[size_t(largest)])
+                    second = std::exchange(largest, p);
+                else if (second < 0 || size[size_t(p)] > size[size_t(second)])
+                    second = p;
+            }
+        if (largest < 0)
+            solid.refuse("it has one side only: nothing lies opposite to it", solid.largest([](int) { return true; }));
+        constexpr double speck = 0.005; // of the surface
+        if (second >= 0 && size[size_t(second)] > speck * area)
+            solid.refuse(fmt::format("one of its sides is in several pieces that only faces across the {:.4g} mm of "
+                                     "thickness join: it has more than two sides, or a step; the second piece has "
+                                     "{:.4g} mm2",
+                                     thickness, size[size_t(second)]),
+                         solid.largest([&](int p) { return together.root(p) == second; }));
+        for (int p = 0; p < pieces.count(); ++p)
+            if (solid.sides.side[size_t(p)] == side && together.root(p) != largest)
+                solid.sides.side[size_t(p)] = PieceSide::rim;
+    }
+    // Of the faces across the thickness those that one side alone has are a step, a pocket or a boss.
+    std::vector<char> touches(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [rim, skin] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            if (solid.sides.side[size_t(rim)] == PieceSide::rim && solid.sides.side[size_t(skin)] != PieceSide::rim)
+                touches[size_t(together.root(rim))] |= solid.sides.side[size_t(skin)] == PieceSide::one ? 1 : 2;
+    for (int p = 0; p < pieces.count(); ++p)
+        if (solid.closed && together.root(p) == p && solid.sides.side[size_t(p)] == PieceSide::rim &&
+            touches[size_t(p)] != 3 && size[size_t(p)] > 4 * thickness * thickness)
+            solid.refuse(fmt::format("one of its sides has a step, a pocket or a boss: faces of {:.4g} mm2 across the "
+                                     "{:.4g} mm thick sheet do not reach its other side",
+                                     size[size_t(p)], thickness),
+                         solid.largest([&](int q) { return together.root(q) == p; }));
+}
+
+/// With faces missing, most of the outline of the skins must still be where faces cross the thickness.
+void require_rim(const Solid& solid)
+{
+    double rim = 0, open = 0;
+    const std::vector<EdgeUse> uses = edge_uses(solid.mesh.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        const double length =
+            (solid.mesh.position.col(uses[begin].high) - solid.mesh.position.col(uses[begin].low)).norm();
+        const PieceSide a = solid.side(uses[begin].face);
+        if (end == begin + 1)
+            open += a == PieceSide::rim ? 0 : length;
+        else if (end == begin + 2)
+            rim += (a == PieceSide::rim) != (solid.side(uses[begin + 1].face) == PieceSide::rim) ? length : 0;
+    });
+    constexpr double least = 0.6;
+    if (rim < least * (rim + open))
+        solid.refuse("it is open, and faces across the thickness are missing along most of its outline",
+                     solid.largest([&](int p) { return solid.sides.side[size_t(p)] != PieceSide::rim; }));
+}
+
+/// The triangles of one side alone.
+TriMesh only(const Solid& solid, PieceSide side)
+{
+    TriMesh mesh;
+    std::vector<int> faces;
+    for (int f = 0; f < solid.mesh.triangles(); ++f)
+        if (solid.side(f) == side)
+            faces.push_back(f);
+    mesh.position = solid.mesh.position;
+    mesh.triangle = solid.mesh.triangle(Eigen::all, faces);
+    return mesh;
+}
+
+/// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on them, so the thickness is
+/// the distance of vertices that lie straight opposite to each other.
+/// @param by_rays mm, and what is returned where too few vertices lie so
+double between_vertices(const Solid& solid, double by_rays)
+{
+    constexpr double exact = 1e-4, most_off = 0.02, alike = 1e-3;
+    std::vector<double> distance;
+    int asked = 0;
+    for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
+        const ClosestPointSearch opposite(only(solid, side == PieceSide::one ? PieceSide::other : PieceSide::one));
+        std::vector<char> seen(size_t(solid.mesh.vertices()), 0);
+        for (int f = 0; f < solid.mesh.triangles(); ++f)
+            for (int k = 0; k < 3 && solid.side(f) == side; ++k) {
+                const int v = solid.mesh.triangle(k, f);
+                if (std::exchange(seen[size_t(v)], char(1)))
+                    continue;
+                ++asked;
+                const ClosestPoint near = opposite.nearest(solid.mesh.position.col(v), 2 * by_rays);
+                if (near.face >= 0 && near.barycentric.maxCoeff() > 1 - exact &&
+                    std::abs(near.distance - by_rays) <= most_off * by_rays)
+                    distance.push_back(near.distance);
+            }
+    }
+    if (int(distance.size()) < std::max(8, asked / 50))
+        return by_rays;
+    std::sort(distance.begin(), distance.end());
+    // Those that do not lie quite opposite are farther away.
+    const double low = distance[distance.size() / 10], median = distance[distance.size() / 2];
+    return median - low <= alike * low ? low : median;
+}
+
+/// A skin's place and how far away the other skin is.
+struct Local {
+    int face;
+    double thickness, area;
+};
+
+std::vector<Local> local_thickness(const Solid& solid, double thickness, const Progress& progress)
+{
+    constexpr size_t enough = 60'000;
+    const size_t stride = (solid.places.size() + enough - 1) / enough;
+    std::vector<const Opposite*> chosen;
+    for (size_t i = 0; i < solid.places.size(); i += stride)
+        if (solid.side(solid.places[i].face) != PieceSide::rim)
+            chosen.push_back(&solid.places[i]);
+    const ClosestPointSearch one(only(solid, PieceSide::one)), other(only(solid, PieceSide::other));
+    std::vector<Local> result(chosen.size());
+    progress.checkpoint(0, "measuring the thickness");
+    parallel_for(int(chosen.size()), [&](int i) {
+        const Opposite& at = *chosen[size_t(i)];
+        const double most = 10 * thickness;
+        const ClosestPoint near = (solid.side(at.face) == PieceSide::one ? other : one).nearest(at.place, most);
+        result[size_t(i)] = {at.face, std::min(near.distance, most), at.area};
+    });
+    return result;
+}
+
+/// Coined or thickened places.
+void require_even(const Solid& solid, const std::vector<Local>& local, double thickness)
+{
+    constexpr double thin = 0.75, fat = 1.5; // a bend with the same radius on both sides is 1.41 times as thick
+    constexpr double most_share = 0.02;
+    std::map<int, std::vector<std::pair<double, double>>> of_piece;
+    for (const Local& at : local)
+        of_piece[solid.piece(at.face)].emplace_back(at.thickness, at.area);
+    double whole = 0, off = 0, worst_area = 0, worst_thickness = 0;
+    int worst = -1;
+    for (const auto& [p, values] : of_piece) {
+        const double median = quantile(values, 0.5), area = solid.pieces.area[size_t(p)];
+        whole += area;
+        if (median >= thin * thickness && median <= fat * thickness)
+            continue;
+        off += area;
+        if (area > worst_area) {
+            worst_area = area;
+            worst_thickness = median;
+            worst = p;
+        }
+    }
+    if (off > most_share * whole)
+        solid.refuse(fmt::format("its thickness varies too much: most of it is {:.4g} mm thick, but {:.3g} % of the "
+                                 "skins are not, the largest face of them {:.4g} mm",
+                                 thickness, 100 * off / whole, worst_thickness),
+                     solid.largest([&](int p) { return p == worst; }));
+}
+
+ThinSolid result_of(const Solid& solid, double volume, double flipped)
+{
+    ThinSolid result;
+    result.volume = volume;
+    result.flipped = flipped;
+    double one = 0, other = 0;
+    int first = -1;
+    for (int f = 0; f < solid.mesh.triangles(); ++f) {
+        const double size = solid.normal.col(f).norm();
+        const PieceSide side = solid.side(f);
+        (side == PieceSide::one ? one : side == PieceSide::other ? other : result.rim) += size;
+        if (first < 0 && side != PieceSide::rim)
+            first = f;
+    }
+    constexpr double rounding = 1e-9;
+    const PieceSide outer = std::abs(one - other) <= rounding * (one + other) ? solid.side(first)
+                            : one > other                                     ? PieceSide::one
+                                                                              : PieceSide::other;
+    result.outer = outer == PieceSide::one ? one : other;
+    result.inner = outer == PieceSide::one ? other : one;
+    for (int f = 0; f < solid.mesh.triangles(); ++f) {
+        const PieceSide side = solid.side(f);
+        result.side.push_back(side == PieceSide::rim ? SheetSide::rim
+                              : side == outer        ? SheetSide::outer
+                                                     : SheetSide::inner);
+    }
+    return result;
+}
+
+} // namespace
+
+ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const Progress& progress)
+{
+    if (!options.unit.empty() && int(options.unit.size()) != mesh.triangles())
+        throw InputError(fmt::format("{} triangles have {} CAD faces given; each needs one", mesh.triangles(),
+                                     options.unit.size()));
+    if (mesh.triangles() == 0)
+        throw NotASheet("it has no face", -1, Eigen::Vector3d::Zero());
+    const double volume = signed_volume(mesh), flipped = volume < 0 ? -1 : 1;
+    Solid solid{mesh, options};
+    solid.normal = flipped * area_vectors(mesh);
+    solid.closed = boundary_loops(mesh).empty();
+    const double area = solid.normal.colwise().norm().sum();
+    progress.checkpoint(0, "looking for pieces of surface");
+    solid.pieces = surface_pieces(mesh, solid.normal, options.unit);
+
+    const double about = 2 * std::abs(volume) / area; // thickness of a closed sheet, less for its rim
+    solid.places = opposites(mesh, solid.normal, std::max(3 * about, 1e-3 * bounding_diagonal(mesh)),
+                             progress.part(0.1, 0.6));
+    double thickness = main_distance(solid.places, std::vector<char>(solid.places.size(), 1));
+    require_thin(solid, thickness, area);
+
+    progress.checkpoint(0.6, "taking the sides apart");
+    solid.sides = sheet_sides(solid.pieces, solid.places, thickness);
+    require_two_sides(solid, thickness, area);
+    require_connected(solid, thickness, area);
+    if (!solid.closed)
+        require_rim(solid);
+
+    std::vector<char> from_skin_to_skin;
+    for (const Opposite& at : solid.places)
+        from_skin_to_skin.push_back(at.hit >= 0 && solid.side(at.face) != PieceSide::rim &&
+                                    solid.side(at.hit) != PieceSide::rim);
+    thickness = between_vertices(solid, main_distance(solid.places, from_skin_to_skin));
+    const std::vector<Local> local = local_thickness(solid, thickness, progress.part(0.7, 1));
+    require_even(solid, local, thickness);
+
+    ThinSolid result = result_of(solid, std::abs(volume), flipped);
+    result.thickness = thickness;
+    std::vector<std::pair<double, double>> spread;
+    for (const Local& at : local)
+        spread.emplace_back(at.thickness, at.area);
+    result.least = std::min(thickness, quantile(spread, 0.01));
+    result.most = std::max(thickness, quantile(spread, 0.99));
+    const double filled = volume * flipped / (thickness * (result.outer + result.inner) / 2);
+    if (solid.closed && (filled < 0.8 || filled > 1.25))
+        solid.refuse(fmt::format("its volume of {:.6g} mm3 is {:.3g} times that of a sheet {:.4g} mm thick with these "
+                                 "skins",
+                                 std::abs(volume), filled, thickness),
+                     solid.largest([](int) { return true; }));
+    progress.checkpoint(1, "measuring the thickness");
+    return result;
+}
+
+bool seems_thin_solid(const TriMesh& mesh)
+{
+    constexpr int rays = 400;
+    constexpr double most = 0.7;
+    if (mesh.triangles() < 4)
+        return false;
+    const Eigen::Matrix3Xd normal = area_vectors(mesh);
+    const double whole = normal.colwise().norm().sum(), off = 1e-7 * bounding_diagonal(mesh);
+    if (!(whole > 0))
+        return false;
+    const RayPicker picker(mesh);
+    std::array<int, 2> found{};
+    double passed = 0;
+    int next = 0;
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        passed += normal.col(f).norm();
+        for (; next < rays && passed >= (next + 0.5) / rays * whole; ++next) {
+            const Eigen::Vector3d n = normal.col(f).normalized(),
+                                  middle = (mesh.position.col(mesh.triangle(0, f)) +
+                                            mesh.position.col(mesh.triangle(1, f)) +
+                                            mesh.position.col(mesh.triangle(2, f))) /
+                                           3;
+            for (const size_t k : {size_t(0), size_t(1)}) {
+                const Eigen::Vector3d along = k == 0 ? Eigen::Vector3d(-n) : n;
+                const RayHit hit = picker.first(middle + off * along, along);
+                found[k] += hit.face >= 0 && hit.face != f && hit.distance < thick * std::sqrt(whole / 2) &&
+                            normal.col(hit.face).normalized().dot(n) < -0.65;
+            }
+        }
+    }
+    return std::max(found[0], found[1]) > most * rays;
+}
+
+} // namespace spia
