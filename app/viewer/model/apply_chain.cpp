@@ -21,6 +21,7 @@ void ViewerModel::Apply::begin_with(Document fresh)
     state.view.unfolded = 0;
     state.view.step.reset();
     model.next_.reset();
+    model.next_in_one_step_ = false;
     model.blank_next_.reset();
     model.unsaved_before_.reset();
     model.project_.reset();
@@ -83,6 +84,8 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
 void ViewerModel::Apply::operator()(const SetUnit& action)
 {
     const LengthUnit unit = length_unit(action.unit);
+    if (part().cad && part().cad->unit_stated)
+        throw InputError("The file says itself what its lengths are in.");
     if (part().unit != unit)
         read_again("Change unit", [&](ReadOptions& read) { read.unit = unit; });
 }
@@ -136,6 +139,7 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         throw InputError("Wait for the steps to end, or cancel them.");
     if (model.chain_job_) { // the newest wish counts
         model.next_ = std::max(model.next_.value_or(action.stage), action.stage);
+        model.next_in_one_step_ |= instead;
         return;
     }
     const bool unsaved = state.unsaved;
@@ -154,6 +158,7 @@ void ViewerModel::Apply::operator()(const RunTo& action)
 void ViewerModel::Apply::operator()(const CancelJob&)
 {
     model.next_.reset();
+    model.next_in_one_step_ = false;
     model.blank_next_.reset();
     model.steps_next_ = false;
     if (model.steps_job_)

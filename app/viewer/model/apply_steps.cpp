@@ -7,6 +7,25 @@
 #include "engine/mesh/region.h"
 
 namespace spia::viewer {
+namespace {
+
+/// With all triangles of the faces of the file that some are of: a script of steps names no halves of quads.
+std::vector<int> whole_faces(const PartFile& part, const std::vector<int>& triangles)
+{
+    if (part.source_face.empty())
+        return triangles;
+    std::vector<int> faces;
+    for (const int f : triangles)
+        faces.push_back(part.source_face[size_t(f)]);
+    std::sort(faces.begin(), faces.end());
+    std::vector<int> whole;
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        if (std::binary_search(faces.begin(), faces.end(), part.source_face[size_t(f)]))
+            whole.push_back(f);
+    return whole;
+}
+
+} // namespace
 
 void ViewerModel::Apply::require_idle() const
 {
@@ -112,7 +131,14 @@ void ViewerModel::Apply::operator()(const AddStep& action)
     if (action.freed == action.fixed)
         throw InputError(
             fmt::format("The region \"{}\" cannot both stay and be unfolded; choose another one.", fixed.name));
-    const std::vector<int>& freed = action.freed ? document.regions[region(*action.freed)].faces : document.selected;
+    if (action.plane_of && !action.target.fitted())
+        throw InputError("A step has one target: numbers of its own, or the plane of a region.");
+    const std::vector<int>& picked = action.freed ? document.regions[region(*action.freed)].faces : document.selected;
+    const std::vector<int> freed = whole_faces(part(), picked);
+    if (freed.size() > picked.size())
+        model.say(Severity::hint,
+                  fmt::format("{} more of the triangles, so that no face of the file is unfolded by half.",
+                              freed.size() - picked.size()));
     std::vector<int> both;
     std::set_intersection(fixed.faces.begin(), fixed.faces.end(), freed.begin(), freed.end(), std::back_inserter(both));
     if (!both.empty())

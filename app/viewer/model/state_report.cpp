@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/viewer/model/chain.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/pipeline/report.h"
@@ -59,9 +60,7 @@ Json stages_json(const Session& session)
 
 Json figures_json(const Document& document)
 {
-    Session session = document.session;
-    session.options.steps = document.made_with.steps;
-    Json figures = parse_json(report_json(session, {}, 0), "figures");
+    Json figures = parse_json(report_json(as_made(document), {}, 0), "figures");
     figures.erase("files");
     return figures;
 }

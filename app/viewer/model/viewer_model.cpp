@@ -208,8 +208,12 @@ void ViewerModel::take_chain_result()
     else
         for (const std::string& text : shortcomings(document.session))
             say(Severity::warning, as_sentence(text));
-    if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed)
+    const bool in_one_step = std::exchange(next_in_one_step_, false);
+    if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
+        if (in_one_step)
+            document.session.options.steps.reset();
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
+    }
     if (!chain_job_ && std::exchange(steps_next_, false) && !result.cancelled)
         run_missing_steps();
 }
@@ -339,6 +343,14 @@ void ViewerModel::part_opened()
         return;
     state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
     fitter_.fit(state_);
+    double& thickness = document.session.options.flatten.thickness;
+    if (const auto found = document.session.part->thickness_mm; found && !project_ && *found != thickness) {
+        thickness = *found;
+        say(Severity::hint,
+            fmt::format("The sheet is taken {:.6g} mm thick as in the file; another thickness can be given in "
+                        "the step Sheet.",
+                        thickness));
+    }
     for (const std::string& note : document.session.part->notes)
         say(Severity::hint, as_sentence(note));
     for (const Finding& finding : document.session.part->doctor.findings)
@@ -360,8 +372,13 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
     if (keep_cameras_ && project.blank_of_steps && steps_next_)
         blank_next_ = BlankNext{*project.blank_of_steps, *project.ran};
-    else if (keep_cameras_)
+    else if (keep_cameras_) {
+        if (project.blank_of_steps)
+            say(Severity::warning,
+                "The blank was that of steps that have changed since: the part is unfolded in one step. Run "
+                "the steps and use their blank again.");
         next_ = std::max(next_.value_or(*project.ran), *project.ran);
+    }
 }
 
 void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach)

@@ -105,6 +105,7 @@ private:
     bool dragging_ = false;              ///< a corner: the grid is coarse
     std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
     std::optional<Stage> next_;          ///< run this far when the running job has ended
+    bool next_in_one_step_ = false;      ///< and not from the blank of the steps
     int said_ = 0;                       ///< messages so far
     int openings_ = 0;
     bool opening_ = false;           ///< the running job reads a new part

@@ -66,6 +66,7 @@ void ViewerModel::take_steps_result()
     const std::string title = state_.job.title;
     const bool keep_step = std::exchange(keep_step_, false);
     state_.job = JobView{};
+    const auto blank_next = std::exchange(blank_next_, std::nullopt);
     StepsOutcome outcome;
     try {
         outcome = job->take();
@@ -93,7 +94,9 @@ void ViewerModel::take_steps_result()
             say(outcome.opened.empty() ? Severity::hint : Severity::warning, sentence(outcome.notes[k]));
         if (outcome.notes.size() > most_notes)
             say(Severity::hint,
-                fmt::format("Likewise {} elsewhere.", counted(outcome.notes.size() - most_notes, "place")));
+                outcome.opened.empty()
+                    ? fmt::format("Likewise {} elsewhere.", counted(outcome.notes.size() - most_notes, "place"))
+                    : fmt::format("And {} more.", outcome.notes.size() - most_notes));
         if (!outcome.opened.empty())
             say(Severity::done,
                 fmt::format("Opened {} from {}{}", counted(document.steps.size(), "step"), outcome.opened.string(),
@@ -136,8 +139,8 @@ void ViewerModel::take_steps_result()
         say(Severity::error, sentence(outcome.failure));
     else if (run)
         say_steps_run(outcome);
-    if (const auto next = std::exchange(blank_next_, std::nullopt); next && !outcome.cancelled)
-        take_blank_of_project(*next);
+    if (blank_next && !outcome.cancelled)
+        take_blank_of_project(*blank_next);
 }
 
 /// The chain of a project whose blank was that of its steps.

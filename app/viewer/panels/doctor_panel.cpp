@@ -67,7 +67,7 @@ void fix_button(Frame& frame, const Finding& finding)
 std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
 {
     constexpr double small = 5, large = 20'000; // mm, as read_part() says
-    if (!(diagonal > 0) || (diagonal >= small && diagonal <= large))
+    if (!(diagonal > 0) || (diagonal >= small && diagonal <= large) || (part.cad && part.cad->unit_stated))
         return std::nullopt;
     for (const LengthUnit unit : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::inch}) {
         const double other = diagonal / millimetres(part.unit) * millimetres(unit);

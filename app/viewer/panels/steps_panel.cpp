@@ -49,9 +49,12 @@ void part_step(Frame& frame)
     ImGui::SetNextItemWidth(70 * frame.ui.scale);
     static constexpr const char* units[] = {"mm", "cm", "m", "inch"};
     int unit = int(part.unit);
+    const bool stated = part.cad && part.cad->unit_stated;
+    ImGui::BeginDisabled(stated);
     if (ImGui::Combo("##unit", &unit, units, 4))
         frame.actions.push(SetUnit{units[unit]});
-    tooltip("Length unit of the file");
+    ImGui::EndDisabled();
+    tooltip(stated ? "The file says its length unit itself" : "Length unit of the file");
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(session.file.filename().string().c_str());
     ImGui::PopTextWrapPos();

@@ -1,5 +1,6 @@
 // Steps of picked faces.
 #include <fmt/core.h>
+#include <fstream>
 #include <gmock/gmock.h>
 
 #include "engine/mesh/region.h"
@@ -42,6 +43,47 @@ TEST_F(UnfoldingSteps, AStepOfPickedFacesLaysThemOnTheFaceOfARegion)
     EXPECT_LT((after(0).position.row(2).array() - top).abs().maxCoeff(), 1e-6);
     EXPECT_EQ(after(0).position(Eigen::all, document.session.part->mesh.triangle.col(leg[0])),
               document.session.part->mesh.position(Eigen::all, document.session.part->mesh.triangle.col(leg[0])));
+}
+
+TEST_F(UnfoldingSteps, APickOfHalfAQuadTakesAllOfIt)
+{
+    const TriMesh& mesh = channel.mesh; // two triangles after another are a quad
+    std::ofstream file(folder / "quads.obj");
+    for (int v = 0; v < mesh.vertices(); ++v)
+        file << fmt::format("v {} {} {}\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
+    for (int f = 0; f + 1 < mesh.triangles(); f += 2) {
+        std::vector<int> corners;
+        for (int k = 0; k < 3; ++k) { // the fourth corner between the two that they have in common
+            const auto a = mesh.triangle(k, f), b = mesh.triangle((k + 1) % 3, f);
+            corners.push_back(a);
+            const auto other = mesh.triangle.col(f + 1);
+            if ((other.array() == a).any() && (other.array() == b).any())
+                for (const int v : other)
+                    if (v != a && v != b)
+                        corners.push_back(v);
+        }
+        ASSERT_EQ(corners.size(), 4u);
+        file << fmt::format("f {} {} {} {}\n", corners[0] + 1, corners[1] + 1, corners[2] + 1, corners[3] + 1);
+    }
+    file.close();
+    model.apply(OpenPart{folder / "quads.obj", ""});
+    wait();
+    ASSERT_TRUE(document.session.part) << last(Severity::error);
+    const double top = document.session.part->mesh.position.row(2).maxCoeff();
+    const FaceSet leg = with_height(top - 1e-6, top);
+    model.apply(SelectFaces{leg});
+    model.apply(MakeRegion{"leg", RegionKind::fixed});
+    const FaceSet others = inverted(leg, document.session.part->mesh.triangles());
+    model.apply(SelectFaces{FaceSet(others.begin(), others.end() - 1)});
+    model.apply(AddStep{0, {}, "", {}});
+    ASSERT_EQ(document.steps.size(), 1u) << last(Severity::error);
+    EXPECT_EQ(document.steps[0]->pick.freed, others);
+    model.apply(SaveSteps{folder / "steps.json"});
+    wait();
+    model.apply(OpenSteps{folder / "steps.json"});
+    wait();
+    ASSERT_EQ(document.steps.size(), 1u) << last(Severity::error);
+    EXPECT_EQ(document.steps[0]->pick.freed, others);
 }
 
 TEST_F(UnfoldingSteps, AllThatIsNotPickedStaysButOnlyTheRegionCarriesTheFace)

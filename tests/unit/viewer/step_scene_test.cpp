@@ -176,6 +176,12 @@ TEST(TargetPatch, LiesOnItsFaceAndReachesBeyondWhatLiesOnIt)
         EXPECT_NEAR(box.min()[0], -margin, 1e-6);
         EXPECT_NEAR(box.max()[0], 6 + margin, 1e-6);
         EXPECT_NEAR(box.max()[1], 4 + margin, 1e-6);
+        const TriMesh ended = patch_around(face, places, 2.5);
+        Eigen::AlignedBox2d end;
+        for (const auto x : ended.position.colwise())
+            end.extend(developed(face, x));
+        EXPECT_NEAR(end.min()[1], -2.5, 1e-6);
+        EXPECT_NEAR(end.max()[0], 6 + 2.5, 1e-6);
     }
 }
 

@@ -267,6 +267,36 @@ TEST_F(Target, ThePlaneOfPickedFacesIsThatWhereTheyLieBeforeTheStep)
     EXPECT_EQ(steps_done(document), 5u);
 }
 
+TEST_F(Target, MayEndAndWhatFindsNoRoomIsTold)
+{
+    open_channel();
+    propose();
+    ChangeStep change = change_of(0);
+    change.extent_mm = 4;
+    model.apply(change);
+    ASSERT_EQ(document.steps[0]->extent_mm, 4) << last(Severity::error);
+    run();
+    ASSERT_GE(steps_done(document), 1u) << last(Severity::error);
+    EXPECT_THAT(last(Severity::warning), HasSubstr("reach beyond the end of the target, up to"));
+    EXPECT_GT(after(0).reach.without_room, 0);
+    EXPECT_GT(state_report(state)["unfolding"]["steps"][0]["reach_mm"], 20);
+    model.apply(SaveProject{folder / "ended.spia"});
+    model.apply(OpenProject{folder / "ended.spia"});
+    wait();
+    EXPECT_EQ(document.steps[0]->extent_mm, 4);
+    change.extent_mm = 1000;
+    model.apply(change);
+    EXPECT_EQ(steps_done(document), 0u) << "it is another step";
+    run();
+    EXPECT_EQ(after(0).reach.without_room, 0);
+    change.extent_mm = -1;
+    model.apply(change);
+    EXPECT_THAT(last(Severity::error), HasSubstr("length above 0"));
+    model.apply(Undo{});
+    model.apply(Undo{});
+    EXPECT_EQ(document.steps[0]->extent_mm, 4);
+}
+
 TEST_F(Target, AStepMayBeAddedOntoThePlaneOfARegion)
 {
     open_channel();
@@ -276,6 +306,8 @@ TEST_F(Target, AStepMayBeAddedOntoThePlaneOfARegion)
     model.apply(MakeRegion{"web", RegionKind::fixed});
     model.apply(SelectFaces{with_height(top - 1e-6, top)});
     model.apply(MakeRegion{"leg", RegionKind::other});
+    model.apply(AddStep{0, 1, "", {.plane = TargetPlane{}}, 1});
+    EXPECT_THAT(last(Severity::error), testing::HasSubstr("one target"));
     model.apply(AddStep{0, 1, "", {}, 1});
     ASSERT_EQ(document.steps.size(), 1u) << last(Severity::error);
     const StepTarget of_leg = numbers_of(*document.steps[0]);

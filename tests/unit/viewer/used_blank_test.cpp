@@ -164,6 +164,43 @@ TEST_F(UsedBlank, AProjectMakesItAgain)
     EXPECT_EQ(state.history.undo_name(), "");
 }
 
+TEST_F(UsedBlank, AProjectWhoseStepsHaveChangedSinceSaysSo)
+{
+    unfold_box();
+    use();
+    ChangeStep change = change_of(0);
+    change.tolerance = 1e-6;
+    model.apply(change);
+    model.apply(SaveProject{folder / "box.spia"});
+    model.apply(OpenProject{folder / "box.spia"});
+    wait();
+    EXPECT_THAT(last(Severity::warning), HasSubstr("that of steps that have changed since"));
+    EXPECT_EQ(source(), "one step");
+}
+
+TEST_F(UsedBlank, UnfoldingDuringARunEndsInOneStep)
+{
+    unfold_box();
+    model.apply(UseBlankOfSteps{});
+    model.apply(RunTo{Stage::solve});
+    wait();
+    EXPECT_EQ(document.session.options.steps, std::nullopt);
+    EXPECT_EQ(source(), "one step") << last(Severity::error);
+}
+
+TEST_F(UsedBlank, StepsOfAPartThatIsToBeReadAgainAreNotUsed)
+{
+    unfold_box();
+    model.apply(SetUnit{"cm"});
+    model.apply(CancelJob{});
+    wait();
+    if (first_stale(document) == Stage::read) { // else it was read before
+        use();
+        EXPECT_THAT(last(Severity::error), HasSubstr("to be read again first"));
+        EXPECT_EQ(document.session.options.steps, std::nullopt);
+    }
+}
+
 TEST_F(UsedBlank, WithoutOneTheActionSaysWhatIsMissing)
 {
     open_box();
