@@ -242,9 +242,10 @@ int main(int count, char** values)
         ->type_name("DIR");
     unfolding.formats = unfold_formats();
     unfold_command
-        ->add_option("--formats", unfolding.formats,
-                     "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo; blank-k, -bdf, -inp and "
-                     "-msh: the blank as a mesh with the ids of the deck")
+        ->add_option(
+            "--formats", unfolding.formats,
+            "of the files: VTU for states, DXF, IGES and STEP for lines, states for --redo; blank-k, -bdf, -inp and "
+            "-msh: the blank as a mesh with the ids of the deck")
         ->delimiter(',')
         ->check(CLI::IsMember(all_unfold_formats()))
         ->type_name("LIST")

@@ -287,9 +287,11 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.surface.empty() && arguments.surface != "steps" && arguments.surface != "polished")
         throw InputError(fmt::format("--surface={}: there is steps (the default) and polished", arguments.surface));
     for (const std::string& format : arguments.formats)
-        if (!arguments.surface.empty() && std::count(arguments.surface_formats.begin(), arguments.surface_formats.end(), format) &&
+        if (!arguments.surface.empty() &&
+            std::count(arguments.surface_formats.begin(), arguments.surface_formats.end(), format) &&
             is_deck_format(format))
-            throw InputError(fmt::format("--formats and --surface-formats both name {}, which is one file; give it once", format));
+            throw InputError(
+                fmt::format("--formats and --surface-formats both name {}, which is one file; give it once", format));
     if (arguments.folder.empty() && !(arguments.to_part.empty() && arguments.to_blank.empty()))
         throw InputError("lines that are carried over need a place: give --out DIR");
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
