@@ -38,8 +38,9 @@ public:
             mesh.notes.push_back(fmt::format("the part was cut open: {} nodes are copies, with ids from {} on", copies,
                                              shells_.last_node + 1));
         if (torn_ > 0)
-            mesh.notes.push_back(fmt::format("{} elements are torn by the cut and written as triangles, further ones with ids from {} on",
-                                             torn_, shells_.last_element + 1));
+            mesh.notes.push_back(fmt::format(
+                "{} elements are torn by the cut and written as triangles, further ones with ids from {} on", torn_,
+                shells_.last_element + 1));
         return std::move(blank_);
     }
 
@@ -106,7 +107,8 @@ private:
             std::array<int, 4> corner = {-1, -1, -1, -1};
             for (int k = 0; k < 3; ++k)
                 corner[size_t(k)] = node(source_of(e, t[k]), t[k]);
-            const Vector3d a = part_.mesh.position.col(t[0]), b = part_.mesh.position.col(t[1]), c = part_.mesh.position.col(t[2]);
+            const Vector3d a = part_.mesh.position.col(t[0]), b = part_.mesh.position.col(t[1]),
+                           c = part_.mesh.position.col(t[2]);
             if ((b - a).cross(c - a).dot(normal) < 0)
                 std::swap(corner[1], corner[2]);
             add(f == first ? formed.element[size_t(e)] : ++last_element_, corner, formed.part_of[size_t(e)]);
@@ -119,7 +121,7 @@ private:
     {
         const int source = part_.source_vertex[size_t(vertex)];
         for (size_t k = 0; k < shells_.mesh.corners(e); ++k)
-            if (const int v = file_vertex(e, k); part_.same_as[size_t(v)] == source)
+            if (const int v = file_vertex(e, k); stands_for(part_, v) == source)
                 return v;
         return source;
     }

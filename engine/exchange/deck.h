@@ -38,8 +38,7 @@ struct Deck {
     std::vector<std::array<int, 4>> corner; ///< #E, indices of nodes; the last is -1 in a triangle
     std::vector<std::int64_t> element;      ///< #E ids
     std::vector<int> part_of;               ///< #E, index into parts
-    std::vector<double> thickness = {};     ///< #E, where elements have one of their own, its mean over the corners; 0: that of
-                                            ///< the part. Empty: no element has
+    std::vector<double> thickness = {};     ///< #E, mean of the element's own at its corners, 0: it has none; or empty
     std::vector<DeckPart> parts;            ///< also those without shells; in the order in which they are first named
     std::vector<DeckSet> sets;
     std::vector<std::string> notes; ///< what was passed over, left out, or deserves a word

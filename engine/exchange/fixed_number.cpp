@@ -38,7 +38,8 @@ std::string fixed_number(std::int64_t value, int width)
 {
     std::string text = fmt::format("{:>{}}", value, width);
     if (int(text.size()) > width)
-        throw InputError(fmt::format("the number {} does not fit into {} columns of a solver deck; renumber the deck", value, width));
+        throw InputError(fmt::format("the number {} does not fit into {} columns of a solver deck; renumber the deck",
+                                     value, width));
     return text;
 }
 

@@ -60,9 +60,10 @@ void require_once(std::vector<std::int64_t> ids, const char* what)
 {
     std::sort(ids.begin(), ids.end());
     if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
-        throw InputError(fmt::format("{0} {1} is there more than once in the deck, so results cannot be put onto its {0}s; "
-                                     "choose one part of it (--part), or renumber the deck",
-                                     what, *twice));
+        throw InputError(
+            fmt::format("{0} {1} is there more than once in the deck, so results cannot be put onto its {0}s; "
+                        "choose one part of it (--part), or renumber the deck",
+                        what, *twice));
 }
 
 /// The parts in use, all with a number.
@@ -80,7 +81,9 @@ void take_parts(const FileElements& all, ShellMesh& mesh)
         if (number[p] < 0)
             continue;
         number[p] = int(mesh.parts.size());
-        mesh.parts.push_back({.id = id, .name = part.name, .material = part.material,
+        mesh.parts.push_back({.id = id,
+                              .name = part.name,
+                              .material = part.material,
                               .material_id = std::max<std::int64_t>(part.material_id.value_or(1), 1)});
     }
     for (int& p : mesh.part_of)
@@ -91,7 +94,7 @@ void take_parts(const FileElements& all, ShellMesh& mesh)
 /// several or none.
 int place_of(int file_vertex, int first, int last, const PartFile& part)
 {
-    const int wanted = part.same_as.empty() ? file_vertex : part.same_as[size_t(file_vertex)];
+    const int wanted = stands_for(part, file_vertex);
     int found = -1;
     for (int f = first; f < last; ++f)
         for (const int v : part.mesh.triangle.col(f))
@@ -105,8 +108,16 @@ int place_of(int file_vertex, int first, int last, const PartFile& part)
 
 } // namespace
 
+int stands_for(const PartFile& part, int file_vertex)
+{
+    return part.same_as.empty() ? file_vertex : part.same_as[size_t(file_vertex)];
+}
+
 PartShells part_shells(const PartFile& part, LengthUnit unit)
 {
+    if (part.deck && int(part.source_face.size()) != part.mesh.triangles())
+        throw InputError(
+            "the faces of the part are no longer those of its deck, so results cannot be put onto its elements");
     const FileElements all = part.deck ? of_deck(*part.deck) : of_triangles(part.mesh, unit);
     PartShells shells;
     ShellMesh& mesh = shells.mesh;
@@ -154,12 +165,15 @@ PartShells part_shells(const PartFile& part, LengthUnit unit)
     for (auto& corner : mesh.corner)
         for (int& v : corner)
             v = v < 0 ? -1 : number[size_t(v)];
+    if (mesh.element.empty())
+        throw InputError("the part has no element of its file left, so there is nothing to put results onto");
     require_once(mesh.node, "node");
     require_once(mesh.element, "element");
     take_parts(all, mesh);
     if (!lost.empty())
-        mesh.notes.push_back(fmt::format("{} elements that the part does not have after its repairs are left out (first: {})",
-                                         lost.size(), lost.front()));
+        mesh.notes.push_back(
+            fmt::format("{} elements that the part does not have after its repairs are left out (first: {})",
+                        lost.size(), lost.front()));
     const auto greatest = [](const std::vector<std::int64_t>& ids) {
         return ids.empty() ? 0 : *std::max_element(ids.begin(), ids.end());
     };
@@ -190,7 +204,8 @@ ElementFields element_fields(const PartShells& shells, const TriMesh& part, cons
             const double area = cross.norm() / 2;
             const Vector3d n = cross.normalized(), d = face.direction_major.col(f), b = n.cross(d);
             const double major = face.strain_major[f], minor = face.strain_minor[f];
-            strain += area * (major * d * d.transpose() + minor * b * b.transpose() - (major + minor) * n * n.transpose());
+            strain +=
+                area * (major * d * d.transpose() + minor * b * b.transpose() - (major + minor) * n * n.transpose());
             result.area[e] += area;
             result.thickness[e] += area * face.thickness[f];
             result.thinning[e] += area * face.thinning[f];

@@ -9,25 +9,29 @@ namespace spia {
 /// turned, split or cut open for the solver. A part of another kind is its triangles, numbered from 1.
 struct PartShells {
     ShellMesh mesh;
-    std::vector<int> first;                ///< #E + 1; element e became triangles first[e] to first[e + 1] - 1 of the part
-    std::vector<int> file_node;            ///< per node of mesh its vertex of the file
+    std::vector<int> first;     ///< #E + 1; element e became triangles first[e] to first[e + 1] - 1 of the part
+    std::vector<int> file_node; ///< per node of mesh its vertex of the file
     std::vector<std::array<int, 4>> place; ///< per element its corners among the vertices of the part; all -1 if it has
                                            ///< been torn by a seam, or has lost a corner to a repair
     std::int64_t last_node = 0, last_element = 0; ///< greatest ids of the whole deck
 };
 
+/// The vertex of the file that stands for one at its place, where such were joined.
+int stands_for(const PartFile& part, int file_vertex);
+
 /// Elements of which the doctor left no triangle (duplicates, other pieces, no area) are left out; a note says so.
 /// @param unit  of the mesh, if the part is not from a deck
-/// @throws InputError if an id stands for several nodes or elements
+/// @throws InputError if an id stands for several nodes or elements, or no element of the deck is left
 PartShells part_shells(const PartFile& part, LengthUnit unit = LengthUnit::mm);
 
 /// What forming did to the elements of a deck.
 struct ElementFields {
-    Eigen::VectorXd thickness;                      ///< #E, in the unit of the mesh, mean over the area of the formed part
+    Eigen::VectorXd thickness; ///< #E, in the unit of the mesh, mean over the area of the formed part
     Eigen::VectorXd thinning, strain_major, strain_minor, strain_equivalent; ///< #E, means as well
-    Eigen::Matrix4Xd corner_thickness;              ///< 4 by #E, at the corners; see element_fields()
-    Eigen::Matrix<double, 6, Eigen::Dynamic> strain; ///< 6 by #E: xx, yy, zz, xy, yz, zx in space, xy half the shear angle
-    Eigen::VectorXd area;                           ///< #E, of the formed part, in the square of the unit
+    Eigen::Matrix4Xd corner_thickness; ///< 4 by #E, at the corners; see element_fields()
+    Eigen::Matrix<double, 6, Eigen::Dynamic>
+        strain;           ///< 6 by #E: xx, yy, zz, xy, yz, zx in space, xy half the shear angle
+    Eigen::VectorXd area; ///< #E, of the formed part, in the square of the unit
 };
 
 /// Thickness at a node is h0 (1 - thinning) with the mean of 1 - thinning over the elements around it, weighted by the volume each has

@@ -31,13 +31,11 @@ struct ReadOptions {
 /// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
 /// nodes, both counted from 0 in the order of the deck: `source_face` and `source_vertex` lead to them.
 struct DeckOrigin {
-    std::vector<int> element;             ///< per face of the file: its index among all shells of the deck
-    std::vector<std::int64_t> element_id; ///< per face of the file
-    std::vector<std::int64_t> node_id;    ///< per vertex of the file
-    std::vector<std::array<int, 4>>
-        corner;               ///< per face of the file: vertices of the file, as in the deck; the last is -1
-                              ///< in a triangle
-    std::vector<int> part_of; ///< per face of the file: index into parts
+    std::vector<int> element;                     ///< per face of the file: its index among all shells of the deck
+    std::vector<std::int64_t> element_id;         ///< per face of the file
+    std::vector<std::int64_t> node_id;            ///< per vertex of the file
+    std::vector<std::array<int, 4>> corner;       ///< per face of the file: vertices of the file; last -1 in a triangle
+    std::vector<int> part_of;                     ///< per face of the file: index into parts
     std::vector<Eigen::Vector3d> position;        ///< per vertex of the file, in the unit of the deck
     std::int64_t last_node = 0, last_element = 0; ///< greatest ids of the whole deck
     std::vector<DeckPart> parts;                  ///< all of the deck; thicknesses in its unit

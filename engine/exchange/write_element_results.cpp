@@ -52,7 +52,8 @@ void write_dynain(const std::filesystem::path& path, const ElementResults& resul
     const ShellMesh& mesh = results.shells->mesh;
     const ElementFields& fields = *results.fields;
     const int w = dyna_id_width(mesh);
-    std::string text = dyna_keyword(w) + shell_mesh_head(mesh, title, "$") + dyna_nodes(mesh, w) + "*ELEMENT_SHELL_THICKNESS\n";
+    std::string text =
+        dyna_keyword(w) + shell_mesh_head(mesh, title, "$") + dyna_nodes(mesh, w) + "*ELEMENT_SHELL_THICKNESS\n";
     for (int e = 0; e < mesh.elements(); ++e) {
         text += dyna_shell(mesh, e, w);
         for (size_t k = 0; k < 4; ++k)
@@ -92,7 +93,8 @@ void write_elements_csv(const std::filesystem::path& path, const ElementResults&
 {
     const ShellMesh& mesh = results.shells->mesh;
     const ElementFields& fields = *results.fields;
-    std::string text = fmt::format("element,part,thickness{},thinning,plastic_strain,strain_major,strain_minor\n", in(mesh.unit));
+    std::string text =
+        fmt::format("element,part,thickness{},thinning,plastic_strain,strain_major,strain_minor\n", in(mesh.unit));
     for (int e = 0; e < mesh.elements(); ++e)
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", mesh.element[size_t(e)], part_id(mesh, e),
                        fields.thickness[e], fields.thinning[e], fields.strain_equivalent[e], fields.strain_major[e],

@@ -64,8 +64,8 @@ std::string dyna(const ShellMesh& mesh, std::string_view title)
         fmt::format_to(end, "*PART\n{}\n{}{}{}\n", name, fixed_number(part.id, 10), fixed_number(part.id, 10),
                        fixed_number(part.material_id, 10));
         const std::string thick = fixed_number(part.thickness, 10);
-        fmt::format_to(end, "*SECTION_SHELL\n{}{}\n{}{}{}{}\n", fixed_number(part.id, 10), fixed_number(element_form, 10),
-                       thick, thick, thick, thick);
+        fmt::format_to(end, "*SECTION_SHELL\n{}{}\n{}{}{}{}\n", fixed_number(part.id, 10),
+                       fixed_number(element_form, 10), thick, thick, thick, thick);
     }
     text += dyna_nodes(mesh, w) + "*ELEMENT_SHELL\n";
     for (int e = 0; e < mesh.elements(); ++e)
@@ -128,7 +128,8 @@ std::string abaqus(const ShellMesh& mesh, std::string_view title)
 std::string gmsh(const ShellMesh& mesh, std::string_view title)
 {
     constexpr int triangle = 2, quadrangle = 3;
-    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n" + shell_mesh_head(mesh, title, "") + "$EndComments\n";
+    std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n" + shell_mesh_head(mesh, title, "") + "$EndComments\n";
     auto end = std::back_inserter(text);
     fmt::format_to(end, "$PhysicalNames\n{}\n", mesh.parts.size());
     for (const ShellPart& part : mesh.parts) {
@@ -138,11 +139,13 @@ std::string gmsh(const ShellMesh& mesh, std::string_view title)
     }
     fmt::format_to(end, "$EndPhysicalNames\n$Nodes\n{}\n", mesh.nodes());
     for (int n = 0; n < mesh.nodes(); ++n)
-        fmt::format_to(end, "{} {} {} {}\n", mesh.node[size_t(n)], mesh.position(0, n), mesh.position(1, n), mesh.position(2, n));
+        fmt::format_to(end, "{} {} {} {}\n", mesh.node[size_t(n)], mesh.position(0, n), mesh.position(1, n),
+                       mesh.position(2, n));
     fmt::format_to(end, "$EndNodes\n$Elements\n{}\n", mesh.elements());
     for (int e = 0; e < mesh.elements(); ++e) {
         const auto part = mesh.parts[size_t(mesh.part_of[size_t(e)])].id;
-        fmt::format_to(end, "{} {} 2 {} {}", mesh.element[size_t(e)], mesh.corners(e) == 3 ? triangle : quadrangle, part, part);
+        fmt::format_to(end, "{} {} 2 {} {}", mesh.element[size_t(e)], mesh.corners(e) == 3 ? triangle : quadrangle,
+                       part, part);
         for (size_t k = 0; k < mesh.corners(e); ++k)
             fmt::format_to(end, " {}", mesh.node[size_t(mesh.corner[size_t(e)][k])]);
         text += '\n';
@@ -154,7 +157,8 @@ std::string gmsh(const ShellMesh& mesh, std::string_view title)
 
 std::string shell_mesh_head(const ShellMesh& mesh, std::string_view title, std::string_view comment)
 {
-    std::string text = fmt::format("{} {}: {}; lengths {}\n", comment, program_name(), one_line(title, 120), name(mesh.unit));
+    std::string text =
+        fmt::format("{} {}: {}; lengths {}\n", comment, program_name(), one_line(title, 120), name(mesh.unit));
     for (const std::string& note : mesh.notes)
         text += fmt::format("{} {}\n", comment, note);
     return text;
@@ -189,7 +193,8 @@ std::string dyna_nodes(const ShellMesh& mesh, int id_width)
 std::string dyna_shell(const ShellMesh& mesh, int element, int id_width)
 {
     const size_t e = size_t(element);
-    std::string text = fixed_number(mesh.element[e], id_width) + fixed_number(mesh.parts[size_t(mesh.part_of[e])].id, id_width);
+    std::string text =
+        fixed_number(mesh.element[e], id_width) + fixed_number(mesh.parts[size_t(mesh.part_of[e])].id, id_width);
     for (size_t k = 0; k < 4; ++k) // the fourth of a triangle is the third
         text += fixed_number(mesh.node[size_t(mesh.corner[e][std::min(k, mesh.corners(element) - 1)])], id_width);
     return text + '\n';
@@ -199,9 +204,9 @@ std::string nastran_grids(const ShellMesh& mesh)
 {
     std::string text;
     for (int n = 0; n < mesh.nodes(); ++n)
-        text += fmt::format("GRID*   {}{}{}{}\n*       {}\n", fixed_number(mesh.node[size_t(n)], 16), std::string(16, ' '),
-                            fixed_number(mesh.position(0, n), 16), fixed_number(mesh.position(1, n), 16),
-                            fixed_number(mesh.position(2, n), 16));
+        text += fmt::format("GRID*   {}{}{}{}\n*       {}\n", fixed_number(mesh.node[size_t(n)], 16),
+                            std::string(16, ' '), fixed_number(mesh.position(0, n), 16),
+                            fixed_number(mesh.position(1, n), 16), fixed_number(mesh.position(2, n), 16));
     return text;
 }
 
@@ -222,7 +227,8 @@ std::string nastran_shell(const ShellMesh& mesh, int element, const double* corn
     for (const std::int64_t number : id)
         field.push_back(fixed_number(number, 16));
     if (corner_thickness) {
-        constexpr size_t first_thickness = 10; // T1, behind angle, offset, an unused field and TFLAG (blank: T are lengths)
+        constexpr size_t first_thickness =
+            10; // T1, behind angle, offset, an unused field and TFLAG (blank: T are lengths)
         field.resize(first_thickness, std::string(16, ' '));
         for (size_t k = 0; k < corners; ++k)
             field.push_back(fixed_number(corner_thickness[k], 16));

@@ -174,7 +174,8 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
             continue;
         progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
         if (is_deck_format(format)) {
-            const auto written = write_deck_files(folder, name, std::span(&format, 1), *session.part, flat.blank, flat.face, unit);
+            const auto written =
+                write_deck_files(folder, name, std::span(&format, 1), *session.part, flat.blank, flat.face, unit);
             files.insert(files.end(), written.begin(), written.end());
             continue;
         }

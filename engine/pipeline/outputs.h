@@ -23,9 +23,10 @@ struct CsvTables {
 
 /// What the files hold, whatever their format.
 struct OutputOptions {
-    LengthUnit unit = LengthUnit::mm; ///< of IGES, STEP, DXF, CSV and VTU; glTF has metres by its specification, and what
-                                      ///< goes back to a deck has its unit
-    std::string name;                 ///< of the files, without folder and ending; empty: the part's
+    LengthUnit unit =
+        LengthUnit::mm; ///< of IGES, STEP, DXF, CSV and VTU; glTF has metres by its specification, and what
+                        ///< goes back to a deck has its unit
+    std::string name;   ///< of the files, without folder and ending; empty: the part's
     GltfNodes glb;
     CsvTables csv;
 

@@ -81,8 +81,9 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
                 ++digits;
             rest = digits > 4 ? "step" + rest.substr(digits) : rest;
         }
-        if (ends_in(rest, {"step.vtu", "step-trim.dxf", "step-trim.iges", "step-trim.step", "blank.dxf", "blank.iges",
-                           "blank.step", "blank.k", "blank.bdf", "blank.inp", "blank.msh", "polished.dxf", "polished.vtu"}))
+        if (ends_in(rest,
+                    {"step.vtu", "step-trim.dxf", "step-trim.iges", "step-trim.step", "blank.dxf", "blank.iges",
+                     "blank.step", "blank.k", "blank.bdf", "blank.inp", "blank.msh", "polished.dxf", "polished.vtu"}))
             old.push_back(entry.path());
     }
     for (const auto& file : old)

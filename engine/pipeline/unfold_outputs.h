@@ -12,7 +12,8 @@ namespace spia {
 
 /// By the names the command line uses; all but "states" (unfold_states.h) are endings.
 const std::vector<std::string>& unfold_formats();
-const std::vector<std::string>& all_unfold_formats(); ///< also blank_mesh_formats() (deck_outputs.h), written when asked for
+const std::vector<std::string>&
+all_unfold_formats(); ///< also blank_mesh_formats() (deck_outputs.h), written when asked for
 
 /// Makes a folder if need be, and sees that it can be written, before the work. @throws ExchangeError why not
 void prepare_folder(const std::filesystem::path& folder);

@@ -52,6 +52,9 @@ expect 0 "0.8 mm thick as in the deck" "$spia" run "$out/back/two parts-blank.in
 [ "$(cut -d, -f1 "$out/back/two parts-elements.csv" | tr '\n' ' ')" = "element 1 2 3 4 5 6 7 8 9 " ] || fail "the ids of the elements"
 expect 0 "two parts-blank.msh" "$spia" unfold --part Base "$deck" --auto --out "$out/steps" --formats blank-msh
 grep -q "^101 3 2 2 2 101 105 106 102$" "$out/steps/two parts-blank.msh" || fail "the first quad of the blank"
+expect 0 "two parts-blank.dxf" "$spia" unfold --part Base "$deck" --auto --out "$out/steps" --formats dxf
+[ ! -e "$out/steps/two parts-blank.msh" ] || fail "the mesh of an earlier blank is left"
+expect 2 "one file" "$spia" unfold --part Base "$deck" --auto --out "$out/steps" --formats blank-k --surface --surface-formats blank-k
 expect 2 "dynain" "$spia" unfold --part Base "$deck" --auto --out "$out/steps" --formats dynain
 expect 2 "several parts\|separate pieces" "$spia" compare --part Lid,Base "$deck" --methods lscm
 expect 0 "1.5 mm thick as in the deck" "$spia" compare --part Base "$deck" --methods lscm

@@ -92,8 +92,9 @@ void solver_formats(const Frame& frame, std::vector<std::string>& formats)
     ImGui::TextUnformatted("Back to the solver");
     ImGui::PopFont();
     const bool deck = frame.state.document.session.part && frame.state.document.session.part->deck;
-    const std::string ids = deck ? "Ids, corners and unit are those of the deck."
-                                 : "The part is not from a solver deck: its triangles and vertices are numbered from 1.";
+    const std::string ids = deck
+                                ? "Ids, corners and unit are those of the deck."
+                                : "The part is not from a solver deck: its triangles and vertices are numbered from 1.";
     const std::array<std::array<const char*, 3>, 7> each = {
         {{"dynain", "LS-DYNA dynain  thickness and plastic strain",
           "Nodes, shells with the thickness at their corners (*ELEMENT_SHELL_THICKNESS), effective plastic strain "
@@ -106,7 +107,8 @@ void solver_formats(const Frame& frame, std::vector<std::string>& formats)
          {"blank-k", "Blank as a mesh, LS-DYNA .k", "The blank with the elements of the part; quads stay quads."},
          {"blank-bdf", "Blank as a mesh, Nastran .bdf", "The blank with the elements of the part; quads stay quads."},
          {"blank-inp", "Blank as a mesh, Abaqus .inp", "The blank with the elements of the part; quads stay quads."},
-         {"blank-msh", "Blank as a mesh, Gmsh .msh", "The blank with the elements of the part; quads stay quads. Format 2.2, text."}}};
+         {"blank-msh", "Blank as a mesh, Gmsh .msh",
+          "The blank with the elements of the part; quads stay quads. Format 2.2, text."}}};
     for (const auto& [format, label, explanation] : each) {
         format_box(formats, format, label);
         tooltip(explanation + ("\n" + ids));

@@ -76,7 +76,8 @@ protected:
         fields = samples::smooth_fields(part.mesh.triangles());
         for (int f = 0; f < part.mesh.triangles(); ++f) // across the direction of the sample: on the face
             fields.direction_major.col(f) =
-                (part.mesh.position.col(part.mesh.triangle(1, f)) - part.mesh.position.col(part.mesh.triangle(0, f))).normalized();
+                (part.mesh.position.col(part.mesh.triangle(1, f)) - part.mesh.position.col(part.mesh.triangle(0, f)))
+                    .normalized();
         blank.position = part.mesh.position.topRows<2>() / 3;
         files = write_deck_files(scratch / "", "out", deck_formats(), part, blank, fields);
     }
@@ -88,7 +89,8 @@ protected:
     std::vector<fs::path> files;
 };
 
-const char* const mesh_files[] = {"out-dynain.k", "out-thickness.bdf", "out-blank.k", "out-blank.bdf", "out-blank.inp", "out-blank.msh"};
+const char* const mesh_files[] = {"out-dynain.k",  "out-thickness.bdf", "out-blank.k",
+                                  "out-blank.bdf", "out-blank.inp",     "out-blank.msh"};
 
 TEST_F(DeckFiles, ReadBackWithTheIdsCornersPartsAndPlacesOfTheDeck)
 {
@@ -117,7 +119,8 @@ TEST_F(DeckFiles, ReadBackWithTheIdsCornersPartsAndPlacesOfTheDeck)
                     EXPECT_EQ(deck_part.id, hood ? 7 : 9);
                 }
                 if (flat) {
-                    EXPECT_TRUE(deck_part.name == (hood ? "Hood" : "Rail") || deck_part.name == "RAIL") << deck_part.name;
+                    EXPECT_TRUE(deck_part.name == (hood ? "Hood" : "Rail") || deck_part.name == "RAIL")
+                        << deck_part.name;
                 }
                 if (flat && !std::string(file).ends_with(".msh")) {
                     EXPECT_EQ(deck_part.thickness, 0.8);
@@ -160,7 +163,8 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
     for (int v = 0; v < part.mesh.vertices(); ++v)
         blank.position.col(v) = flat.at(int(part.deck->node_id[size_t(part.source_vertex[size_t(v)])]));
     const Material steel{"mild", 206000, 0.3, 7850, Swift{565.32, 0.007117, 0.2589}, 1, 1, 1, ""};
-    fields = face_fields(part.mesh, elements(part.mesh), blank, uniform_sheet(MembraneLaw(steel), h0, part.mesh.triangles()));
+    fields = face_fields(part.mesh, elements(part.mesh), blank,
+                         uniform_sheet(MembraneLaw(steel), h0, part.mesh.triangles()));
     write_deck_files(scratch / "", "out", deck_formats(), part, blank, fields);
 
     const double e1 = std::log(along_x), e2 = std::log(along_y);
@@ -174,7 +178,8 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
     ASSERT_EQ(shell_cards.size(), 2 * 10u);
     for (size_t e = 0; e < 10; ++e) {
         const double id_of_element = e < 9 ? 101. + double(e) : 200;
-        EXPECT_EQ(stress_cards[3 * e], fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}", id_of_element, 1, 1, 0, 0, 1));
+        EXPECT_EQ(stress_cards[3 * e],
+                  fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}", id_of_element, 1, 1, 0, 0, 1));
         EXPECT_EQ(stress_cards[3 * e + 1].size(), 80u);
         EXPECT_EQ(stress_cards[3 * e + 2].size(), 48u);
         EXPECT_NEAR(column(stress_cards[3 * e + 2], 2, 16), equivalent, 1e-12);
@@ -182,7 +187,8 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
         for (const size_t skin : {1, 3}) {
             const std::pair<int, int> at[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
             for (size_t k = 0; k < 6; ++k)
-                EXPECT_NEAR(column(strain_cards[5 * e + skin + k / 5], k % 5, 16), strain(at[k].first, at[k].second), 1e-10);
+                EXPECT_NEAR(column(strain_cards[5 * e + skin + k / 5], k % 5, 16), strain(at[k].first, at[k].second),
+                            1e-10);
             EXPECT_EQ(column(strain_cards[5 * e + skin + 1], 1, 16), skin == 1 ? -1 : 1);
         }
         for (size_t k = 0; k < 4; ++k) {
@@ -198,7 +204,8 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
         for (const double t : deck.thickness)
             EXPECT_NEAR(t, thickness, 1e-12) << file;
     }
-    std::istringstream table(content_of(scratch / "out-elements.csv")), strains(content_of(scratch / "out-strains.csv"));
+    std::istringstream table(content_of(scratch / "out-elements.csv")),
+        strains(content_of(scratch / "out-strains.csv"));
     std::string line, strain_line;
     std::getline(table, line);
     std::getline(strains, strain_line);
@@ -206,7 +213,9 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
     int rows = 0;
     while (std::getline(table, line) && std::getline(strains, strain_line)) {
         double element = 0, in_part = 0, t = 0, thinning = 0, plastic = 0, major = 0, minor = 0;
-        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &element, &in_part, &t, &thinning, &plastic, &major, &minor), 7);
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &element, &in_part, &t, &thinning, &plastic,
+                              &major, &minor),
+                  7);
         EXPECT_EQ(element, rows < 9 ? 101 + rows : 200);
         EXPECT_EQ(in_part, 1);
         EXPECT_NEAR(t, thickness, 1e-12);
@@ -214,7 +223,8 @@ TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement
         EXPECT_NEAR(plastic, equivalent, 1e-12);
         EXPECT_NEAR(major, e1, 1e-12);
         EXPECT_NEAR(minor, e2, 1e-12);
-        ASSERT_EQ(std::sscanf(strain_line.c_str(), "%lf,%lf,%lf,%lf,%lf", &element, &in_part, &plastic, &major, &minor), 5);
+        ASSERT_EQ(std::sscanf(strain_line.c_str(), "%lf,%lf,%lf,%lf,%lf", &element, &in_part, &plastic, &major, &minor),
+                  5);
         EXPECT_NEAR(plastic, equivalent, 1e-12);
         EXPECT_NEAR(minor, e2, 1e-12);
         ++rows;
@@ -231,7 +241,8 @@ TEST_F(DeckFiles, ThicknessTimesAreaAddsUpToTheVolumeAtElementsAndAtCorners)
     for (int f = 0; f < part.mesh.triangles(); ++f) {
         const auto t = part.mesh.triangle.col(f);
         const Vector3d a = part.mesh.position.col(t[0]);
-        volume += (part.mesh.position.col(t[1]) - a).cross(part.mesh.position.col(t[2]) - a).norm() / 2 * fields.thickness[f];
+        volume +=
+            (part.mesh.position.col(t[1]) - a).cross(part.mesh.position.col(t[2]) - a).norm() / 2 * fields.thickness[f];
     }
     const PartShells shells = part_shells(part);
     const ElementFields on = element_fields(shells, part.mesh, fields);
@@ -272,16 +283,17 @@ std::string with_ids(std::string text, int node, int element)
         result += fmt::format("{},{},{},{}\n", std::int64_t(node) + id, x[0], x[1], x[2]);
     result += "1,1000,1000,1000\n*ELEMENT_SHELL\n"; // a node that no shell uses
     for (const auto& s : strip.shell)
-        result += fmt::format("{},{},{},{},{},{}\n", std::int64_t(element) + s.id, s.part, std::int64_t(node) + s.node[0],
-                              std::int64_t(node) + s.node[1], std::int64_t(node) + s.node[2],
-                              s.node.size() > 3 ? std::int64_t(node) + s.node[3] : 0);
+        result += fmt::format("{},{},{},{},{},{}\n", std::int64_t(element) + s.id, s.part,
+                              std::int64_t(node) + s.node[0], std::int64_t(node) + s.node[1],
+                              std::int64_t(node) + s.node[2], s.node.size() > 3 ? std::int64_t(node) + s.node[3] : 0);
     return result + text;
 }
 
 TEST_F(DeckFiles, HoldIdsThatFillTheirColumns)
 {
     // 211 and 507 are the last ones: up to eight digits, and more
-    for (const auto& [node, element, i10] : {std::tuple(99999999 - 211, 99999999 - 507, false), std::tuple(100000000, 2000000000, true)}) {
+    for (const auto& [node, element, i10] :
+         {std::tuple(99999999 - 211, 99999999 - 507, false), std::tuple(100000000, 2000000000, true)}) {
         const std::string text = with_ids("", node, element);
         write(read("strip.k", text));
         const Deck before = sample::read("strip.k", text);
@@ -305,9 +317,9 @@ TEST_F(DeckFiles, HoldIdsThatFillTheirColumns)
 TEST_F(DeckFiles, TakeAQuadOnThreeNodesForATriangle)
 {
     // 601 repeats its first node, 602 its last one, and 603 closes with its first.
-    const PartFile part = read("repeated.k",
-                               "*KEYWORD\n*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,20,0,0\n6,20,10,0\n*ELEMENT_SHELL\n"
-                               "601,1,1,1,2,3\n602,1,1,3,4,4\n603,1,2,5,6,2\n604,1,2,6,3,3\n");
+    const PartFile part = read(
+        "repeated.k", "*KEYWORD\n*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,20,0,0\n6,20,10,0\n*ELEMENT_SHELL\n"
+                      "601,1,1,1,2,3\n602,1,1,3,4,4\n603,1,2,5,6,2\n604,1,2,6,3,3\n");
     write(part);
     const std::map<std::int64_t, std::vector<std::int64_t>> expected = {
         {601, {1, 2, 3}}, {602, {1, 3, 4}}, {603, {2, 5, 6}}, {604, {2, 6, 3}}};
@@ -317,8 +329,9 @@ TEST_F(DeckFiles, TakeAQuadOnThreeNodesForATriangle)
 
 TEST_F(DeckFiles, LeaveOutWhatTheDoctorLeftOutAndSaySo)
 {
-    const std::string text = "*KEYWORD\n*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,20,0,0\n6,20,10,0\n11,50,0,0\n12,60,0,0\n"
-                             "13,60,10,0\n*ELEMENT_SHELL\n600,1,11,12,13,0\n601,1,1,2,3,4\n602,1,4,3,2,1\n603,1,2,5,6,3\n";
+    const std::string text =
+        "*KEYWORD\n*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,20,0,0\n6,20,10,0\n11,50,0,0\n12,60,0,0\n"
+        "13,60,10,0\n*ELEMENT_SHELL\n600,1,11,12,13,0\n601,1,1,2,3,4\n602,1,4,3,2,1\n603,1,2,5,6,3\n";
     ReadOptions options;
     options.doctor.keep_largest = true; // the second piece is 600, and 602 is 601 again
     write(read("pieces.k", text, options));
@@ -332,8 +345,9 @@ TEST_F(DeckFiles, LeaveOutWhatTheDoctorLeftOutAndSaySo)
 
 TEST_F(DeckFiles, KeepNodesThatWereJoined)
 {
-    const std::string text = "*KEYWORD\n*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n12,10,0,0\n13,10.000001,10,0\n5,20,0,0\n6,20,10,0\n"
-                             "*ELEMENT_SHELL\n601,1,1,2,3,4\n603,1,12,5,6,13\n";
+    const std::string text =
+        "*KEYWORD\n*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n12,10,0,0\n13,10.000001,10,0\n5,20,0,0\n6,20,10,0\n"
+        "*ELEMENT_SHELL\n601,1,1,2,3,4\n603,1,12,5,6,13\n";
     ReadOptions options;
     options.weld = true;
     const PartFile part = read("welded.k", text, options);
@@ -425,6 +439,15 @@ TEST_F(DeckFiles, AreRefusedWhereAnIdStandsForTwo)
     EXPECT_EQ(shells_of(written("out-dynain.k")).size(), 1u);
 }
 
+TEST_F(DeckFiles, AreRefusedForFacesThatAreNotOfTheDeck)
+{
+    PartFile part = read("strip.k", sample::dyna());
+    part.source_face.pop_back();
+    EXPECT_THROW(part_shells(part), InputError);
+    part.source_face.assign(size_t(part.mesh.triangles()), 1000);
+    EXPECT_THROW(part_shells(part), InputError);
+}
+
 TEST_F(DeckFiles, OfAnotherFileAreItsTrianglesNumberedFromOne)
 {
     const PartFile part = read("part.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 20 5 1\nf 1 2 3 4\nf 2 5 3\n");
@@ -444,8 +467,8 @@ TEST_F(DeckFiles, OfRealDecksHaveTheirElements)
     const fs::path folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data/fe";
     if (!fs::exists(folder))
         GTEST_SKIP() << "no " << folder;
-    for (const char* name : {"car_hood_coarse.k", "crash_box_upper.k", "crash_box_upper.rad", "support_panel.bdf", "support_trough.bdf",
-                             "aileron_skin.inp", "recliner_bracket.k", "drawn_cone_28k.k"}) {
+    for (const char* name : {"car_hood_coarse.k", "crash_box_upper.k", "crash_box_upper.rad", "support_panel.bdf",
+                             "support_trough.bdf", "aileron_skin.inp", "recliner_bracket.k", "drawn_cone_28k.k"}) {
         SCOPED_TRACE(name);
         if (!fs::exists(folder / name))
             continue;
@@ -485,11 +508,14 @@ TEST(DeckOutputs, OfASolvedPartConserveTheVolumeOfItsBlank)
     const auto files = write_outputs(session, folder / "out", deck_formats());
     EXPECT_EQ(files.size(), 9u);
     EXPECT_EQ(files, output_files(session, folder / "out", deck_formats()));
-    const Deck formed = deck_in(folder / "out" / "support_panel-dynain.k"), flat = deck_in(folder / "out" / "support_panel-blank.msh");
+    const Deck formed = deck_in(folder / "out" / "support_panel-dynain.k"),
+               flat = deck_in(folder / "out" / "support_panel-blank.msh");
     const auto area = [](const Deck& deck, int e) {
         const auto& c = deck.corner[size_t(e)];
         const auto at = [&](size_t k) { return deck.position[size_t(c[k])]; };
-        const auto triangle = [&](size_t i, size_t j, size_t k) { return (at(j) - at(i)).cross(at(k) - at(i)).norm() / 2; };
+        const auto triangle = [&](size_t i, size_t j, size_t k) {
+            return (at(j) - at(i)).cross(at(k) - at(i)).norm() / 2;
+        };
         // a quad that is not flat has an area for each diagonal: the mean
         return c[3] < 0 ? triangle(0, 1, 2)
                         : (triangle(0, 1, 2) + triangle(0, 2, 3) + triangle(0, 1, 3) + triangle(1, 2, 3)) / 2;
