@@ -92,11 +92,30 @@ void require_two_sides(const Solid& solid, double thickness, double area)
         skins += solid.sides.side[size_t(p)] == PieceSide::rim ? 0 : solid.pieces.area[size_t(p)];
     constexpr double least = 0.5;
     if (skins < least * area) {
+        // The piece that is most of another thickness, if there is one.
+        std::map<int, std::vector<std::pair<double, double>>> otherwise;
+        for (const Opposite& at : solid.places)
+            if (at.hit >= 0 && at.facing > 0.65 && !across(at, thickness))
+                otherwise[solid.piece(at.face)].emplace_back(at.distance, at.area);
+        int worst = -1;
+        double most = 0;
+        for (const auto& [p, values] : otherwise) {
+            double sum = 0;
+            for (const auto& [distance, part] : values)
+                sum += part;
+            if (sum > most) {
+                most = sum;
+                worst = p;
+            }
+        }
         const auto rim = [&](int p) { return solid.sides.side[size_t(p)] == PieceSide::rim; };
-        solid.refuse(fmt::format("only {:.0f} % of its surface lies opposite to another part at about {:.4g} mm, the "
-                                 "thickness found most; the largest face elsewhere is named",
-                                 100 * skins / area, thickness),
-                     solid.largest(rim));
+        solid.refuse(fmt::format("it has not one thickness: {:.4g} mm is the one found most, but only {:.0f} % of its "
+                                 "surface can be taken into two skins so far apart{}",
+                                 thickness, 100 * skins / area,
+                                 worst < 0 ? "; the largest face elsewhere is named"
+                                           : fmt::format("; elsewhere it is {:.4g} mm thick",
+                                                         quantile(otherwise.at(worst), 0.5))),
+                     solid.largest([&](int p) { return worst < 0 ? rim(p) : p == worst; }));
     }
     constexpr double most_contradicted = 0.05;
     if (solid.sides.contradicted > most_contradicted) {
