@@ -182,6 +182,35 @@ TEST(ThinSolid, MitresTheMiddleOfSharpEdges)
     EXPECT_NEAR(area(middle.mesh) * t, found.volume, 1e-9 * found.volume);
 }
 
+TEST(ThinSolid, TakesNarrowBridgesAndEndsOfShortFlangesForRim)
+{
+    const auto expect_sides = [](const TriMesh& outer, const TriMesh& solid) {
+        const ThinSolid found = thin_solid(solid);
+        const int f = outer.triangles();
+        for (int i = 0; i < solid.triangles(); ++i)
+            ASSERT_EQ(found.side[size_t(i)] == SheetSide::rim, i >= 2 * f) << i << " of " << f;
+    };
+    // Two holes as far apart as the sheet is thick: the faces between lie opposite at its thickness.
+    const BentSheet plate =
+        shapes::without(shapes::bent_sheet(Profile({0, 0}, 0).straight(40), 30, 1), [](const Eigen::Vector3d& p) {
+            return std::abs(p.y() - 15) < 5 && ((p.x() > 10 && p.x() < 20) || (p.x() > 21 && p.x() < 31));
+        });
+    expect_sides(plate.mesh, solid_of(plate, 1));
+
+    // A flange so short that its end lies opposite to the outer skin at 1.5 times the thickness.
+    BentSheet sheet = shapes::bent_sheet(Profile({0, 0}, 0).straight(30), 40, 1.5);
+    Eigen::Matrix3Xd inwards(3, sheet.mesh.vertices());
+    for (int v = 0; v < sheet.mesh.vertices(); ++v) {
+        const double x = sheet.mesh.position(0, v) - 28.5;
+        if (x > 1e-9)
+            sheet.mesh.position.col(v) = Eigen::Vector3d(28.5, sheet.mesh.position(1, v), -x);
+        inwards.col(v) = std::abs(x) <= 1e-9 ? Eigen::Vector3d(-1, 0, -1)
+                         : x < 0             ? Eigen::Vector3d(0, 0, -1)
+                                             : Eigen::Vector3d(-1, 0, 0);
+    }
+    expect_sides(sheet.mesh, shapes::thickened(sheet.mesh, inwards));
+}
+
 TEST(ThinSolid, IsTheSameTurnedRenumberedAndInsideOut)
 {
     const TriMesh solid = solid_of(with_holes(shapes::bent_sheet(hat(), 90, 4)), 0.8);
