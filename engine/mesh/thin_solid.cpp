@@ -95,7 +95,7 @@ void require_two_sides(const Solid& solid, double thickness, double area)
         // The piece that is most of another thickness, if there is one.
         std::map<int, std::vector<std::pair<double, double>>> otherwise;
         for (const Opposite& at : solid.places)
-            if (at.hit >= 0 && at.facing > 0.65 && !across(at, thickness))
+            if (at.hit >= 0 && at.facing > 0.72 && !across(at, thickness))
                 otherwise[solid.piece(at.face)].emplace_back(at.distance, at.area);
         int worst = -1;
         double most = 0;
@@ -405,7 +405,7 @@ bool seems_thin_solid(const TriMesh& mesh)
                 const Eigen::Vector3d along = k == 0 ? Eigen::Vector3d(-n) : n;
                 const RayHit hit = picker.first(middle + off * along, along);
                 found[k] += hit.face >= 0 && hit.face != f && hit.distance < thick * std::sqrt(whole / 2) &&
-                            normal.col(hit.face).normalized().dot(n) < -0.65;
+                            normal.col(hit.face).normalized().dot(n) < -0.72;
             }
         }
     }

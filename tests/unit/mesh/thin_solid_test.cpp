@@ -182,7 +182,7 @@ TEST(ThinSolid, MitresTheMiddleOfSharpEdges)
     EXPECT_NEAR(area(middle.mesh) * t, found.volume, 1e-9 * found.volume);
 }
 
-TEST(ThinSolid, TakesNarrowBridgesAndEndsOfShortFlangesForRim)
+TEST(ThinSolid, TakesTheFacesOfNarrowBridgesAndChamfersForRim)
 {
     const auto expect_sides = [](const TriMesh& outer, const TriMesh& solid) {
         const ThinSolid found = thin_solid(solid);
@@ -197,18 +197,34 @@ TEST(ThinSolid, TakesNarrowBridgesAndEndsOfShortFlangesForRim)
         });
     expect_sides(plate.mesh, solid_of(plate, 1));
 
-    // A flange so short that its end lies opposite to the outer skin at 1.5 times the thickness.
-    BentSheet sheet = shapes::bent_sheet(Profile({0, 0}, 0).straight(30), 40, 1.5);
-    Eigen::Matrix3Xd inwards(3, sheet.mesh.vertices());
-    for (int v = 0; v < sheet.mesh.vertices(); ++v) {
-        const double x = sheet.mesh.position(0, v) - 28.5;
-        if (x > 1e-9)
-            sheet.mesh.position.col(v) = Eigen::Vector3d(28.5, sheet.mesh.position(1, v), -x);
-        inwards.col(v) = std::abs(x) <= 1e-9 ? Eigen::Vector3d(-1, 0, -1)
-                         : x < 0             ? Eigen::Vector3d(0, 0, -1)
-                                             : Eigen::Vector3d(-1, 0, 0);
+    // A plate whose upper edges are chamfered by 0.3 mm: the upper skin moves in, the chamfer comes between.
+    const TriMesh top = shapes::rectangle(40, 30, 20, 15);
+    Eigen::Matrix3Xd to_chamfer = Eigen::Matrix3Xd::Zero(3, top.vertices());
+    for (int v = 0; v < top.vertices(); ++v) {
+        const double x = top.position(0, v), y = top.position(1, v);
+        to_chamfer.col(v) << (x < 0.1 ? -0.3 : x > 39.9 ? 0.3 : 0), (y < 0.1 ? -0.3 : y > 29.9 ? 0.3 : 0), 0;
     }
-    expect_sides(sheet.mesh, shapes::thickened(sheet.mesh, inwards));
+    TriMesh wide = top;
+    wide.position += to_chamfer;
+    Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, top.vertices());
+    down.row(2).setConstant(-1.2);
+    TriMesh solid = shapes::thickened(wide, down); // 1.2 mm thick; its top is lifted to 1.5 mm, and narrowed
+    const int v = top.vertices(), f = top.triangles(), rim = solid.triangles() - 2 * f;
+    TriMesh chamfered = solid;
+    chamfered.position.conservativeResize(3, 3 * v);
+    chamfered.position.rightCols(v) = top.position;
+    chamfered.position.rightCols(v).row(2).array() += 0.3;
+    chamfered.triangle.conservativeResize(3, solid.triangles() + rim);
+    chamfered.triangle.leftCols(f).array() += 2 * v;
+    const TriMesh collar = shapes::thickened(top, to_chamfer); // the same edges, from the top to the wide outline
+    for (int i = 0; i < rim; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const int at = collar.triangle(k, 2 * f + i);
+            chamfered.triangle(k, solid.triangles() + i) = at < v ? 2 * v + at : at - v;
+        }
+    EXPECT_TRUE(boundary_loops(chamfered).empty());
+    expect_sides(top, chamfered);
+    EXPECT_NEAR(thin_solid(chamfered).inner, 40 * 30, 1e-9) << "of the top";
 }
 
 TEST(ThinSolid, IsTheSameTurnedRenumberedAndInsideOut)
