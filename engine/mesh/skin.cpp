@@ -112,8 +112,8 @@ struct MiddleSurface {
             });
         };
         const Eigen::Vector3d first = normal.col(farthest_from(mean));
-        // Above 50 degrees it is an edge, above 25 degrees an edge or a coarse bend, where the inner skin may tell.
-        constexpr double edge = 0.643, smooth = 0.906;
+        // Above 50 degrees it is an edge, above 40 degrees an edge or a coarse bend, where the inner skin may tell.
+        constexpr double edge = 0.643, smooth = 0.766;
         const double turn = first.dot(normal.col(farthest_from(first)));
         const std::optional<Eigen::Vector3d> told = turn < edge ? std::nullopt : from_inner(v, mean);
         const bool sharp = turn < smooth && !told;
@@ -140,7 +140,7 @@ struct MiddleSurface {
     /// Outwards. Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not.
     std::optional<Eigen::Vector3d> from_inner(int v, const Eigen::Vector3d& mean) const
     {
-        constexpr double equal = 1e-3, aside = 0.8;
+        constexpr double equal = 1e-4, aside = 0.8;
         const Eigen::Vector3d here = solid.position.col(v);
         const ClosestPoint near = nearest_inner.nearest(here, 1.1 * sheet.thickness);
         if (near.face < 0)
