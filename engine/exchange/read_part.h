@@ -21,9 +21,9 @@ struct ReadOptions {
     std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
     DoctorOptions doctor = {};           ///< its `weld` is ignored
     std::vector<std::string> parts =
-        {};                ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
-    CadOptions cad = {};   ///< of a CAD file
-    SeamOptions seam = {}; ///< where a part is cut open that is no sheet; vertices of the file
+        {};                        ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
+    CadOptions cad = {};           ///< of a CAD file
+    SeamOptions seam = {};         ///< where a part is cut open that is no sheet; vertices of the file
     std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
                                    ///< flat enough (has_both_skins()) are taken as hollow bodies, not as solids
 };
@@ -49,13 +49,13 @@ struct CadOrigin {
 
 /// What a part that is one surface of a solid of sheet comes from.
 struct SolidOrigin {
-    Skin skin = Skin::outer;                            ///< the surface that was taken
-    double thickness = 0, least = 0, most = 0;          ///< mm, as in ThinSolid
-    double outer_area = 0, inner_area = 0, area = 0;    ///< mm2, of both skins and of what was taken
-    double rim_area = 0;                                ///< mm2, of the faces across the thickness
-    double volume = 0;                                  ///< mm3
-    int faces = 0, outer_faces = 0, inner_faces = 0;    ///< CAD faces, else faces of the file; all and of the skins
-    bool open = false;                                  ///< faces are missing
+    Skin skin = Skin::outer;                         ///< the surface that was taken
+    double thickness = 0, least = 0, most = 0;       ///< mm, as in ThinSolid
+    double outer_area = 0, inner_area = 0, area = 0; ///< mm2, of both skins and of what was taken
+    double rim_area = 0;                             ///< mm2, of the faces across the thickness
+    double volume = 0;                               ///< mm3
+    int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and of the skins
+    bool open = false;                               ///< faces are missing
 };
 
 /// What a file holds, and what was done to it.

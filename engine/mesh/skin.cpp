@@ -187,10 +187,7 @@ void require_unfolded(const TriMesh& before, const SkinMesh& middle, const ThinS
 
 } // namespace
 
-const char* name(Skin skin)
-{
-    return skin == Skin::outer ? "outer" : skin == Skin::inner ? "inner" : "middle";
-}
+const char* name(Skin skin) { return skin == Skin::outer ? "outer" : skin == Skin::inner ? "inner" : "middle"; }
 
 Skin skin_by_name(const std::string& name)
 {
@@ -218,9 +215,8 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
                                std::move(inner),
                                std::move(nearest_inner)};
     const TriMesh before = result.mesh;
-    parallel_for(int(result.source_vertex.size()), [&](int i) {
-        result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]);
-    });
+    parallel_for(int(result.source_vertex.size()),
+                 [&](int i) { result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]); });
     require_unfolded(before, result, options);
     return result;
 }

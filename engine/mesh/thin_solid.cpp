@@ -329,8 +329,8 @@ ThinSolid result_of(const Solid& solid, double volume, double flipped)
 ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const Progress& progress)
 {
     if (!options.unit.empty() && int(options.unit.size()) != mesh.triangles())
-        throw InputError(fmt::format("{} triangles have {} CAD faces given; each needs one", mesh.triangles(),
-                                     options.unit.size()));
+        throw InputError(
+            fmt::format("{} triangles have {} CAD faces given; each needs one", mesh.triangles(), options.unit.size()));
     if (mesh.triangles() == 0)
         throw NotASheet("it has no face", -1, Eigen::Vector3d::Zero());
     const double volume = signed_volume(mesh), flipped = volume < 0 ? -1 : 1;
@@ -342,8 +342,8 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     solid.pieces = surface_pieces(mesh, solid.normal, options.unit);
 
     const double about = 2 * std::abs(volume) / area; // thickness of a closed sheet, less for its rim
-    solid.places = opposites(mesh, solid.normal, std::max(3 * about, 1e-3 * bounding_diagonal(mesh)),
-                             progress.part(0.1, 0.6));
+    solid.places =
+        opposites(mesh, solid.normal, std::max(3 * about, 1e-3 * bounding_diagonal(mesh)), progress.part(0.1, 0.6));
     double thickness = main_distance(solid.places, std::vector<char>(solid.places.size(), 1));
     require_thin(solid, thickness, area);
 
@@ -396,11 +396,10 @@ bool seems_thin_solid(const TriMesh& mesh)
     for (int f = 0; f < mesh.triangles(); ++f) {
         passed += normal.col(f).norm();
         for (; next < rays && passed >= (next + 0.5) / rays * whole; ++next) {
-            const Eigen::Vector3d n = normal.col(f).normalized(),
-                                  middle = (mesh.position.col(mesh.triangle(0, f)) +
-                                            mesh.position.col(mesh.triangle(1, f)) +
-                                            mesh.position.col(mesh.triangle(2, f))) /
-                                           3;
+            const Eigen::Vector3d n = normal.col(f).normalized(), middle = (mesh.position.col(mesh.triangle(0, f)) +
+                                                                            mesh.position.col(mesh.triangle(1, f)) +
+                                                                            mesh.position.col(mesh.triangle(2, f))) /
+                                                                           3;
             for (const size_t k : {size_t(0), size_t(1)}) {
                 const Eigen::Vector3d along = k == 0 ? Eigen::Vector3d(-n) : n;
                 const RayHit hit = picker.first(middle + off * along, along);

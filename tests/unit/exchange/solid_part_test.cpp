@@ -22,12 +22,8 @@ class SolidPart : public testing::Test {
 protected:
     static shapes::BentSheet sheet()
     {
-        const auto channel = shapes::Profile({0, 0}, 0)
-                                 .straight(40)
-                                 .bend(4, -pi / 2)
-                                 .straight(30)
-                                 .bend(6, pi / 2)
-                                 .straight(20);
+        const auto channel =
+            shapes::Profile({0, 0}, 0).straight(40).bend(4, -pi / 2).straight(30).bend(6, pi / 2).straight(20);
         return shapes::without(shapes::bent_sheet(channel, 70, 3), [](const Eigen::Vector3d& p) {
             return std::abs(p.x() - 18) < 7 && std::abs(p.y() - 30) < 7;
         });

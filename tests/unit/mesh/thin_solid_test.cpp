@@ -100,9 +100,9 @@ TEST(ThinSolid, FindsThicknessAndSkinsOfBentSheets)
                 const double top = area(sheet.mesh), bottom = area(lower);
                 const SheetSide first = top > bottom ? SheetSide::outer : SheetSide::inner;
                 for (int i = 0; i < solid.triangles(); ++i) {
-                    const SheetSide expected = i >= 2 * f          ? SheetSide::rim
+                    const SheetSide expected = i >= 2 * f                               ? SheetSide::rim
                                                : (i < f) == (first == SheetSide::outer) ? SheetSide::outer
-                                                                                       : SheetSide::inner;
+                                                                                        : SheetSide::inner;
                     ASSERT_EQ(found.side[size_t(i)], expected) << i << " of " << f << (cad ? ", CAD" : "");
                 }
                 EXPECT_NEAR(found.thickness, thickness, 1e-9);
@@ -153,8 +153,7 @@ TEST(ThinSolid, MiddleSurfaceEndsHalfwayOnSlantedEdges)
     const TriMesh solid = shapes::thickened(plate, inwards);
     const ThinSolid found = thin_solid(solid);
     const SkinMesh middle = skin_of(solid, found, Skin::middle);
-    const Eigen::Vector3d size =
-        middle.mesh.position.rowwise().maxCoeff() - middle.mesh.position.rowwise().minCoeff();
+    const Eigen::Vector3d size = middle.mesh.position.rowwise().maxCoeff() - middle.mesh.position.rowwise().minCoeff();
     EXPECT_NEAR(size.x(), 60.3, 1e-9);
     EXPECT_NEAR(size.y(), 40.3, 1e-9);
     EXPECT_NEAR(size.z(), 0, 1e-9);
@@ -232,15 +231,16 @@ TEST(ThinSolid, IsTheSameTurnedRenumberedAndInsideOut)
     const TriMesh solid = solid_of(with_holes(shapes::bent_sheet(hat(), 90, 4)), 0.8);
     const ThinSolid plain = thin_solid(solid);
     for (const std::uint64_t seed : {1, 2, 3}) {
-        shapes::Permuted other = shapes::permuted(
-            shapes::transformed(solid, shapes::random_rotation(seed), {100, -20, 7}), seed);
+        shapes::Permuted other =
+            shapes::permuted(shapes::transformed(solid, shapes::random_rotation(seed), {100, -20, 7}), seed);
         if (seed == 3)
             other.mesh.triangle = other.mesh.triangle.colwise().reverse().eval();
         const ThinSolid turned = thin_solid(other.mesh);
         for (int f = 0; f < solid.triangles(); ++f)
             ASSERT_EQ(turned.side[size_t(other.face[size_t(f)])], plain.side[size_t(f)]) << f;
         EXPECT_NEAR(turned.thickness, plain.thickness, 1e-9);
-        const SkinMesh inner = skin_of(other.mesh, turned, Skin::inner), outer = skin_of(other.mesh, turned, Skin::outer);
+        const SkinMesh inner = skin_of(other.mesh, turned, Skin::inner),
+                       outer = skin_of(other.mesh, turned, Skin::outer);
         EXPECT_NEAR(area(inner.mesh), plain.inner, 1e-6);
         EXPECT_GT(area_vectors(inner.mesh).rowwise().sum().dot(area_vectors(outer.mesh).rowwise().sum()), 0)
             << "both are seen from the outer side";
@@ -272,8 +272,8 @@ TEST(ThinSolid, RefusesWhatIsNoSheetAndSaysWhy)
 TEST(ThinSolid, RefusesARibThatBranchesOff)
 {
     // A T section: its outline extruded.
-    const std::vector<Eigen::Vector2d> outline = {{0, 0},   {60, 0},  {60, 1},  {30.5, 1}, {30.5, 30},
-                                                  {29.5, 30}, {29.5, 1}, {0, 1}};
+    const std::vector<Eigen::Vector2d> outline = {{0, 0},     {60, 0},    {60, 1},   {30.5, 1},
+                                                  {30.5, 30}, {29.5, 30}, {29.5, 1}, {0, 1}};
     const auto n = int(outline.size());
     TriMesh solid;
     solid.position.resize(3, 2 * n);
@@ -287,8 +287,8 @@ TEST(ThinSolid, RefusesARibThatBranchesOff)
         faces.push_back({i, j, n + i});
         faces.push_back({j, n + j, n + i});
     }
-    for (const auto& [a, b, c] : std::vector<std::array<int, 3>>{
-             {0, 7, 6}, {0, 6, 3}, {0, 3, 1}, {1, 3, 2}, {6, 5, 4}, {6, 4, 3}}) {
+    for (const auto& [a, b, c] :
+         std::vector<std::array<int, 3>>{{0, 7, 6}, {0, 6, 3}, {0, 3, 1}, {1, 3, 2}, {6, 5, 4}, {6, 4, 3}}) {
         faces.push_back({a, b, c});
         faces.push_back({n + a, n + c, n + b});
     }
