@@ -121,7 +121,7 @@ std::vector<std::set<int>> bodies(const CadContent& cad, const PartFile& part)
 /// Several solids are several parts; of a single one a skin was taken (take_skin()), or said why not.
 void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Finding>& findings)
 {
-    if (!cad.solid || part.doctor.components < 2)
+    if (!cad.solid || cad.taken < cad.faces || part.doctor.components < 2)
         return;
     std::string list;
     const auto found = bodies(cad, part);

@@ -57,15 +57,15 @@ void refuse(PartFile& part, const NotASheet& reason, bool solid)
 {
     std::erase_if(part.doctor.findings, of_the_surface);
     const int count = faces(part, [](size_t) { return true; });
-    Finding finding{Fault::closed_surface,
-                    Severity::fatal,
-                    count,
-                    reason.face < 0 ? -1 : part.source_face[size_t(reason.face)],
-                    fmt::format("{} of {} faces, and {}", solid ? "it is a solid" : "it is a closed surface", count,
-                                reason.what()),
-                    "a solid is taken apart where it is a sheet of one thickness; else give one skin of the sheet: ",
-                    {},
-                    {}};
+    Finding finding{
+        Fault::closed_surface,
+        Severity::fatal,
+        count,
+        reason.face < 0 ? -1 : part.source_face[size_t(reason.face)],
+        fmt::format("{} of {} faces, and {}", solid ? "it is a solid" : "it is a closed surface", count, reason.what()),
+        "a solid is taken apart where it is a sheet of one thickness; else give one skin of the sheet: ",
+        {},
+        {}};
     finding.advice += part.cad
                           ? "choose its faces (--part, e.g. 3 or 0-17), or export it as a surface"
                           : "delete the other side and the faces across the thickness. If it is a hollow body, give "
@@ -119,10 +119,10 @@ void note_skin(PartFile& part)
     const std::string what = solid.skin == Skin::middle
                                  ? fmt::format("middle surface, from the {} faces of its outer skin,", taken)
                                  : fmt::format("{} skin of {} faces", name(solid.skin), taken);
-    part.notes.push_back(fmt::format("a solid of {} faces{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
-                                     "surface of it)",
-                                     solid.faces, solid.open ? ", some of which are missing" : "", what,
-                                     solid.thickness));
+    part.notes.push_back(
+        fmt::format("a solid of {} faces{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
+                    "surface of it)",
+                    solid.faces, solid.open ? ", some of which are missing" : "", what, solid.thickness));
     part.notes.push_back(fmt::format("thickness between {:.4g} and {:.4g} mm; outer skin {:.6g} mm2, inner skin {:.6g} "
                                      "mm2, faces across the thickness {:.6g} mm2",
                                      solid.least, solid.most, solid.outer_area, solid.inner_area, solid.rim_area));

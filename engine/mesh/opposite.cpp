@@ -20,9 +20,9 @@ int cuts(const TriMesh& mesh, int face, double spacing)
 {
     double longest = 0;
     for (int k = 0; k < 3; ++k)
-        longest = std::max(longest, (mesh.position.col(mesh.triangle((k + 1) % 3, face)) -
-                                     mesh.position.col(mesh.triangle(k, face)))
-                                        .norm());
+        longest = std::max(
+            longest,
+            (mesh.position.col(mesh.triangle((k + 1) % 3, face)) - mesh.position.col(mesh.triangle(k, face))).norm());
     return std::clamp(int(std::ceil(longest / spacing)), 1, most_cuts);
 }
 

@@ -117,8 +117,7 @@ Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relati
 
 /// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a group touches.
 /// @returns whether one was
-bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, const std::vector<char>& demoted,
-                   Side& side)
+bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, Side& side)
 {
     DisjointSets group(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
@@ -127,7 +126,6 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
     struct Touch {
         std::array<double, 2> smooth{}, sharp{};
         double area = 0, across = 0;
-        bool demoted = false;
     };
     std::map<int, Touch> touches;
     for (int p = 0; p < pieces.count(); ++p)
@@ -135,7 +133,6 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
             Touch& touch = touches[group.root(p)];
             touch.area += pieces.area[size_t(p)];
             touch.across += pieces.area[size_t(p)] * share[size_t(p)];
-            touch.demoted = touch.demoted || demoted[size_t(p)];
         }
     for (const PieceContact& c : pieces.contact)
         for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
@@ -151,8 +148,7 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
         const Touch& touch = touches[group.root(p)];
         for (const size_t s : {size_t(0), size_t(1)}) {
             const bool only = touch.smooth[1 - s] + touch.sharp[1 - s] == 0;
-            if (only && !touch.demoted &&
-                (touch.smooth[s] > 0 || (touch.sharp[s] > 0 && touch.across >= likely * touch.area))) {
+            if (only && (touch.smooth[s] > 0 || (touch.sharp[s] > 0 && touch.across >= likely * touch.area))) {
                 side[size_t(p)] = int(s) + 2; // known from the next round on
                 settled = true;
                 break;
@@ -164,36 +160,12 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
     return settled;
 }
 
-/// Pieces between two holes or at the end of a narrow lip can look like skin. They have one skin on one side and the other one
-/// on the other side, which pieces of a skin have not. @returns whether one was taken out
-bool demote(const SurfacePieces& pieces, Side& side, std::vector<char>& demoted)
-{
-    constexpr double much = 0.25; // of its outline
-    std::vector<double> against(size_t(pieces.count()), 0), outline(size_t(pieces.count()), 0);
-    for (const PieceContact& c : pieces.contact) {
-        const bool differ = side[size_t(c.a)] >= 0 && side[size_t(c.b)] >= 0 && side[size_t(c.a)] != side[size_t(c.b)];
-        for (const int p : {c.a, c.b}) {
-            outline[size_t(p)] += c.length();
-            against[size_t(p)] += differ ? c.length() : 0;
-        }
-    }
-    int worst = -1;
-    for (int p = 0; p < pieces.count(); ++p)
-        if (against[size_t(p)] > much * outline[size_t(p)] &&
-            (worst < 0 || pieces.area[size_t(p)] < pieces.area[size_t(worst)]))
-            worst = p;
-    if (worst < 0)
-        return false;
-    side[size_t(worst)] = -1;
-    demoted[size_t(worst)] = 1;
-    return true;
-}
-
 } // namespace
 
 bool across(const Opposite& place, double thickness)
 {
-    return place.hit >= 0 && place.facing > 0.65 && place.distance > 0.6 * thickness &&
+    constexpr double least_facing = 0.72; // 44 degrees: not chamfers
+    return place.hit >= 0 && place.facing > least_facing && place.distance > 0.6 * thickness &&
            place.distance < 1.7 * thickness;
 }
 
@@ -203,11 +175,8 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
     result.opposite_area = opposite_shares(pieces, places, thickness);
     const std::vector<double>& share = result.opposite_area;
     Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
-    std::vector<char> demoted(size_t(pieces.count()), 0);
-    do
-        while (settle_groups(pieces, share, demoted, side)) {
-        }
-    while (demote(pieces, side, demoted));
+    while (settle_groups(pieces, share, side)) {
+    }
 
     double whole = 0, same = 0, most = 0;
     std::map<int, double> same_of;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <optional>
 #include <utility>
 
 #include "engine/core/parallel.h"
@@ -105,18 +106,25 @@ struct MiddleSurface {
         for (const int f : skin)
             mean += size[f] * normal.col(f);
         mean.normalize();
-        double least = 1;
-        for (const int f : skin)
-            least = std::min(least, mean.dot(normal.col(f)));
+        const auto farthest_from = [&](const Eigen::Vector3d& direction) {
+            return *std::min_element(skin.begin(), skin.end(), [&](int a, int b) {
+                return normal.col(a).dot(direction) < normal.col(b).dot(direction);
+            });
+        };
+        const Eigen::Vector3d first = normal.col(farthest_from(mean));
+        // Above 50 degrees it is an edge, above 40 degrees an edge or a coarse bend, where the inner skin may tell.
+        constexpr double edge = 0.643, smooth = 0.766;
+        const double turn = first.dot(normal.col(farthest_from(first)));
+        const std::optional<Eigen::Vector3d> told = turn < edge ? std::nullopt : from_inner(v, mean);
+        const bool sharp = turn < smooth && !told;
 
         const double half = sheet.thickness / 2;
         Planes planes;
-        constexpr double sharp = 0.906; // 25 degrees from the mean: an edge of 50
-        if (least < sharp)
+        if (sharp)
             for (const int f : skin)
                 planes.add(normal.col(f), -half);
         else
-            planes.add(direction(v, mean), -half);
+            planes.add(told.value_or(mean), -half);
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
         bool at_rim = false;
         for (const int f : rim)
@@ -126,21 +134,21 @@ struct MiddleSurface {
             }
         const Eigen::Vector3d moved = planes.move();
         // Where the planes leave the surface, or are too alike to say where to, straight in.
-        return (at_rim || least < sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
+        return (at_rim || sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
     }
 
     /// Outwards. Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not.
-    Eigen::Vector3d direction(int v, const Eigen::Vector3d& mean) const
+    std::optional<Eigen::Vector3d> from_inner(int v, const Eigen::Vector3d& mean) const
     {
-        constexpr double equal = 1e-3, aside = 0.8;
+        constexpr double equal = 1e-4, aside = 0.8;
         const Eigen::Vector3d here = solid.position.col(v);
         const ClosestPoint near = nearest_inner.nearest(here, 1.1 * sheet.thickness);
         if (near.face < 0)
-            return mean;
+            return std::nullopt;
         std::vector<Eigen::Vector3d> opposite{near.position};
         for (int k = 0; k < 3; ++k)
             opposite.push_back(inner.position.col(inner.triangle(k, near.face)));
-        Eigen::Vector3d best = mean;
+        std::optional<Eigen::Vector3d> best;
         double off = equal * sheet.thickness;
         for (const Eigen::Vector3d& place : opposite) {
             const double distance = (here - place).norm(), from = std::abs(distance - sheet.thickness);
@@ -179,10 +187,7 @@ void require_unfolded(const TriMesh& before, const SkinMesh& middle, const ThinS
 
 } // namespace
 
-const char* name(Skin skin)
-{
-    return skin == Skin::outer ? "outer" : skin == Skin::inner ? "inner" : "middle";
-}
+const char* name(Skin skin) { return skin == Skin::outer ? "outer" : skin == Skin::inner ? "inner" : "middle"; }
 
 Skin skin_by_name(const std::string& name)
 {
@@ -210,9 +215,8 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
                                std::move(inner),
                                std::move(nearest_inner)};
     const TriMesh before = result.mesh;
-    parallel_for(int(result.source_vertex.size()), [&](int i) {
-        result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]);
-    });
+    parallel_for(int(result.source_vertex.size()),
+                 [&](int i) { result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]); });
     require_unfolded(before, result, options);
     return result;
 }

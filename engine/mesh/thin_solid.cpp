@@ -92,11 +92,30 @@ void require_two_sides(const Solid& solid, double thickness, double area)
         skins += solid.sides.side[size_t(p)] == PieceSide::rim ? 0 : solid.pieces.area[size_t(p)];
     constexpr double least = 0.5;
     if (skins < least * area) {
+        // The piece that is most of another thickness, if there is one.
+        std::map<int, std::vector<std::pair<double, double>>> otherwise;
+        for (const Opposite& at : solid.places)
+            if (at.hit >= 0 && at.facing > 0.72 && !across(at, thickness))
+                otherwise[solid.piece(at.face)].emplace_back(at.distance, at.area);
+        int worst = -1;
+        double most = 0;
+        for (const auto& [p, values] : otherwise) {
+            double sum = 0;
+            for (const auto& [distance, part] : values)
+                sum += part;
+            if (sum > most) {
+                most = sum;
+                worst = p;
+            }
+        }
         const auto rim = [&](int p) { return solid.sides.side[size_t(p)] == PieceSide::rim; };
-        solid.refuse(fmt::format("only {:.0f} % of its surface lies opposite to another part at about {:.4g} mm, the "
-                                 "thickness found most; the largest face elsewhere is named",
-                                 100 * skins / area, thickness),
-                     solid.largest(rim));
+        solid.refuse(fmt::format("it has not one thickness: {:.4g} mm is the one found most, but only {:.0f} % of its "
+                                 "surface can be taken into two skins so far apart{}",
+                                 thickness, 100 * skins / area,
+                                 worst < 0 ? "; the largest face elsewhere is named"
+                                           : fmt::format("; elsewhere it is {:.4g} mm thick",
+                                                         quantile(otherwise.at(worst), 0.5))),
+                     solid.largest([&](int p) { return worst < 0 ? rim(p) : p == worst; }));
     }
     constexpr double most_contradicted = 0.05;
     if (solid.sides.contradicted > most_contradicted) {
@@ -310,8 +329,8 @@ ThinSolid result_of(const Solid& solid, double volume, double flipped)
 ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const Progress& progress)
 {
     if (!options.unit.empty() && int(options.unit.size()) != mesh.triangles())
-        throw InputError(fmt::format("{} triangles have {} CAD faces given; each needs one", mesh.triangles(),
-                                     options.unit.size()));
+        throw InputError(
+            fmt::format("{} triangles have {} CAD faces given; each needs one", mesh.triangles(), options.unit.size()));
     if (mesh.triangles() == 0)
         throw NotASheet("it has no face", -1, Eigen::Vector3d::Zero());
     const double volume = signed_volume(mesh), flipped = volume < 0 ? -1 : 1;
@@ -323,8 +342,8 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     solid.pieces = surface_pieces(mesh, solid.normal, options.unit);
 
     const double about = 2 * std::abs(volume) / area; // thickness of a closed sheet, less for its rim
-    solid.places = opposites(mesh, solid.normal, std::max(3 * about, 1e-3 * bounding_diagonal(mesh)),
-                             progress.part(0.1, 0.6));
+    solid.places =
+        opposites(mesh, solid.normal, std::max(3 * about, 1e-3 * bounding_diagonal(mesh)), progress.part(0.1, 0.6));
     double thickness = main_distance(solid.places, std::vector<char>(solid.places.size(), 1));
     require_thin(solid, thickness, area);
 
@@ -377,16 +396,15 @@ bool seems_thin_solid(const TriMesh& mesh)
     for (int f = 0; f < mesh.triangles(); ++f) {
         passed += normal.col(f).norm();
         for (; next < rays && passed >= (next + 0.5) / rays * whole; ++next) {
-            const Eigen::Vector3d n = normal.col(f).normalized(),
-                                  middle = (mesh.position.col(mesh.triangle(0, f)) +
-                                            mesh.position.col(mesh.triangle(1, f)) +
-                                            mesh.position.col(mesh.triangle(2, f))) /
-                                           3;
+            const Eigen::Vector3d n = normal.col(f).normalized(), middle = (mesh.position.col(mesh.triangle(0, f)) +
+                                                                            mesh.position.col(mesh.triangle(1, f)) +
+                                                                            mesh.position.col(mesh.triangle(2, f))) /
+                                                                           3;
             for (const size_t k : {size_t(0), size_t(1)}) {
                 const Eigen::Vector3d along = k == 0 ? Eigen::Vector3d(-n) : n;
                 const RayHit hit = picker.first(middle + off * along, along);
                 found[k] += hit.face >= 0 && hit.face != f && hit.distance < thick * std::sqrt(whole / 2) &&
-                            normal.col(hit.face).normalized().dot(n) < -0.65;
+                            normal.col(hit.face).normalized().dot(n) < -0.72;
             }
         }
     }

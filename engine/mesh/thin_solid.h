@@ -21,13 +21,13 @@ struct ThinSolidOptions {
 
 /// A solid of sheet taken apart: both skins, and the faces across the thickness between them.
 struct ThinSolid {
-    std::vector<SheetSide> side;          ///< #F
-    double thickness = 0;                 ///< mm, the one that most of the sheet has
-    double least = 0, most = 0;           ///< mm, what the thickness is between for 98 % of the skins' area; away from its
-                                          ///< main value by chords of the triangles, too
+    std::vector<SheetSide> side; ///< #F
+    double thickness = 0;        ///< mm, the one that most of the sheet has
+    double least = 0, most = 0;  ///< mm, what the thickness is between for 98 % of the skins' area; away from its
+                                 ///< main value by chords of the triangles, too
     double outer = 0, inner = 0, rim = 0; ///< mm2
     double volume = 0;                    ///< mm3
-    double flipped = 0; ///< -1 if the triangles are seen from inside the solid, else 1
+    double flipped = 0;                   ///< -1 if the triangles are seen from inside the solid, else 1
 
     double area(SheetSide of) const { return of == SheetSide::outer ? outer : of == SheetSide::inner ? inner : rim; }
 };

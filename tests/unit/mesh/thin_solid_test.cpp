@@ -100,9 +100,9 @@ TEST(ThinSolid, FindsThicknessAndSkinsOfBentSheets)
                 const double top = area(sheet.mesh), bottom = area(lower);
                 const SheetSide first = top > bottom ? SheetSide::outer : SheetSide::inner;
                 for (int i = 0; i < solid.triangles(); ++i) {
-                    const SheetSide expected = i >= 2 * f          ? SheetSide::rim
+                    const SheetSide expected = i >= 2 * f                               ? SheetSide::rim
                                                : (i < f) == (first == SheetSide::outer) ? SheetSide::outer
-                                                                                       : SheetSide::inner;
+                                                                                        : SheetSide::inner;
                     ASSERT_EQ(found.side[size_t(i)], expected) << i << " of " << f << (cad ? ", CAD" : "");
                 }
                 EXPECT_NEAR(found.thickness, thickness, 1e-9);
@@ -153,8 +153,7 @@ TEST(ThinSolid, MiddleSurfaceEndsHalfwayOnSlantedEdges)
     const TriMesh solid = shapes::thickened(plate, inwards);
     const ThinSolid found = thin_solid(solid);
     const SkinMesh middle = skin_of(solid, found, Skin::middle);
-    const Eigen::Vector3d size =
-        middle.mesh.position.rowwise().maxCoeff() - middle.mesh.position.rowwise().minCoeff();
+    const Eigen::Vector3d size = middle.mesh.position.rowwise().maxCoeff() - middle.mesh.position.rowwise().minCoeff();
     EXPECT_NEAR(size.x(), 60.3, 1e-9);
     EXPECT_NEAR(size.y(), 40.3, 1e-9);
     EXPECT_NEAR(size.z(), 0, 1e-9);
@@ -182,20 +181,66 @@ TEST(ThinSolid, MitresTheMiddleOfSharpEdges)
     EXPECT_NEAR(area(middle.mesh) * t, found.volume, 1e-9 * found.volume);
 }
 
+TEST(ThinSolid, TakesTheFacesOfNarrowBridgesAndChamfersForRim)
+{
+    const auto expect_sides = [](const TriMesh& outer, const TriMesh& solid) {
+        const ThinSolid found = thin_solid(solid);
+        const int f = outer.triangles();
+        for (int i = 0; i < solid.triangles(); ++i)
+            ASSERT_EQ(found.side[size_t(i)] == SheetSide::rim, i >= 2 * f) << i << " of " << f;
+    };
+    // Two holes as far apart as the sheet is thick: the faces between lie opposite at its thickness.
+    const BentSheet plate =
+        shapes::without(shapes::bent_sheet(Profile({0, 0}, 0).straight(40), 30, 1), [](const Eigen::Vector3d& p) {
+            return std::abs(p.y() - 15) < 5 && ((p.x() > 10 && p.x() < 20) || (p.x() > 21 && p.x() < 31));
+        });
+    expect_sides(plate.mesh, solid_of(plate, 1));
+
+    // A plate whose upper edges are chamfered by 0.3 mm: the upper skin moves in, the chamfer comes between.
+    const TriMesh top = shapes::rectangle(40, 30, 20, 15);
+    Eigen::Matrix3Xd to_chamfer = Eigen::Matrix3Xd::Zero(3, top.vertices());
+    for (int v = 0; v < top.vertices(); ++v) {
+        const double x = top.position(0, v), y = top.position(1, v);
+        to_chamfer.col(v) << (x < 0.1 ? -0.3 : x > 39.9 ? 0.3 : 0), (y < 0.1 ? -0.3 : y > 29.9 ? 0.3 : 0), 0;
+    }
+    TriMesh wide = top;
+    wide.position += to_chamfer;
+    Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, top.vertices());
+    down.row(2).setConstant(-1.2);
+    TriMesh solid = shapes::thickened(wide, down); // 1.2 mm thick; its top is lifted to 1.5 mm, and narrowed
+    const int v = top.vertices(), f = top.triangles(), rim = solid.triangles() - 2 * f;
+    TriMesh chamfered = solid;
+    chamfered.position.conservativeResize(3, 3 * v);
+    chamfered.position.rightCols(v) = top.position;
+    chamfered.position.rightCols(v).row(2).array() += 0.3;
+    chamfered.triangle.conservativeResize(3, solid.triangles() + rim);
+    chamfered.triangle.leftCols(f).array() += 2 * v;
+    const TriMesh collar = shapes::thickened(top, to_chamfer); // the same edges, from the top to the wide outline
+    for (int i = 0; i < rim; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const int at = collar.triangle(k, 2 * f + i);
+            chamfered.triangle(k, solid.triangles() + i) = at < v ? 2 * v + at : at - v;
+        }
+    EXPECT_TRUE(boundary_loops(chamfered).empty());
+    expect_sides(top, chamfered);
+    EXPECT_NEAR(thin_solid(chamfered).inner, 40 * 30, 1e-9) << "of the top";
+}
+
 TEST(ThinSolid, IsTheSameTurnedRenumberedAndInsideOut)
 {
     const TriMesh solid = solid_of(with_holes(shapes::bent_sheet(hat(), 90, 4)), 0.8);
     const ThinSolid plain = thin_solid(solid);
     for (const std::uint64_t seed : {1, 2, 3}) {
-        shapes::Permuted other = shapes::permuted(
-            shapes::transformed(solid, shapes::random_rotation(seed), {100, -20, 7}), seed);
+        shapes::Permuted other =
+            shapes::permuted(shapes::transformed(solid, shapes::random_rotation(seed), {100, -20, 7}), seed);
         if (seed == 3)
             other.mesh.triangle = other.mesh.triangle.colwise().reverse().eval();
         const ThinSolid turned = thin_solid(other.mesh);
         for (int f = 0; f < solid.triangles(); ++f)
             ASSERT_EQ(turned.side[size_t(other.face[size_t(f)])], plain.side[size_t(f)]) << f;
         EXPECT_NEAR(turned.thickness, plain.thickness, 1e-9);
-        const SkinMesh inner = skin_of(other.mesh, turned, Skin::inner), outer = skin_of(other.mesh, turned, Skin::outer);
+        const SkinMesh inner = skin_of(other.mesh, turned, Skin::inner),
+                       outer = skin_of(other.mesh, turned, Skin::outer);
         EXPECT_NEAR(area(inner.mesh), plain.inner, 1e-6);
         EXPECT_GT(area_vectors(inner.mesh).rowwise().sum().dot(area_vectors(outer.mesh).rowwise().sum()), 0)
             << "both are seen from the outer side";
@@ -227,8 +272,8 @@ TEST(ThinSolid, RefusesWhatIsNoSheetAndSaysWhy)
 TEST(ThinSolid, RefusesARibThatBranchesOff)
 {
     // A T section: its outline extruded.
-    const std::vector<Eigen::Vector2d> outline = {{0, 0},   {60, 0},  {60, 1},  {30.5, 1}, {30.5, 30},
-                                                  {29.5, 30}, {29.5, 1}, {0, 1}};
+    const std::vector<Eigen::Vector2d> outline = {{0, 0},     {60, 0},    {60, 1},   {30.5, 1},
+                                                  {30.5, 30}, {29.5, 30}, {29.5, 1}, {0, 1}};
     const auto n = int(outline.size());
     TriMesh solid;
     solid.position.resize(3, 2 * n);
@@ -242,8 +287,8 @@ TEST(ThinSolid, RefusesARibThatBranchesOff)
         faces.push_back({i, j, n + i});
         faces.push_back({j, n + j, n + i});
     }
-    for (const auto& [a, b, c] : std::vector<std::array<int, 3>>{
-             {0, 7, 6}, {0, 6, 3}, {0, 3, 1}, {1, 3, 2}, {6, 5, 4}, {6, 4, 3}}) {
+    for (const auto& [a, b, c] :
+         std::vector<std::array<int, 3>>{{0, 7, 6}, {0, 6, 3}, {0, 3, 1}, {1, 3, 2}, {6, 5, 4}, {6, 4, 3}}) {
         faces.push_back({a, b, c});
         faces.push_back({n + a, n + c, n + b});
     }

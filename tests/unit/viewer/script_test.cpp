@@ -40,9 +40,9 @@ std::vector<Action> every_action()
             if (Action(value).index() == kind)
                 action = value;
         };
-        set(OpenPart{"parts/door.stl", "inch"});
+        set(OpenPart{"parts/door.stl", "inch", Skin::middle});
         set(SetUnit{"cm"});
-        set(SetReading{true, true});
+        set(SetReading{true, true, {"7"}, Skin::inner});
         set(SetSeam{{SeamOptions::Mode::given, {{3, 9, 4}, {1, 2}}}});
         set(FitMaterial{"bar.csv",
                         "mine.json",
