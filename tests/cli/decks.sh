@@ -2,8 +2,10 @@
 # usage: decks.sh SPIA FOLDER - parts of a solver deck on the command line
 set -euo pipefail
 spia=$1 out=$2
+[ ! -e "$out" ] || [ -e "$out/.made_by_a_test" ] || { echo "FAILED: $out is no folder of an earlier run"; exit 2; }
 rm -rf "$out"
 mkdir -p "$out"
+touch "$out/.made_by_a_test"
 fail() { echo "FAILED: $*"; exit 1; }
 expect() { # CODE WORDS COMMAND...
     local wanted=$1 words=$2 got=0

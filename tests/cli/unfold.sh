@@ -2,6 +2,7 @@
 # usage: unfold.sh SPIA SOURCE_DIR FOLDER - `spia unfold` from the proposal to its script and back
 set -euo pipefail
 spia=$1 part=$2/assets/parts/lipped-channel.obj out=$3
+[ ! -e "$out" ] || [ -e "$out/.made_by_a_test" ] || { echo "FAILED: $out is no folder of an earlier run"; exit 2; }
 rm -rf "$out"
 fail() { echo "FAILED: $*"; exit 1; }
 expect_exit() { # CODE COMMAND...
@@ -11,6 +12,7 @@ expect_exit() { # CODE COMMAND...
     [ "$got" = "$wanted" ] || { cat "$out.log"; fail "exit $got, not $wanted: $*"; }
 }
 mkdir -p "$out"
+touch "$out/.made_by_a_test"
 expect_exit 0 "$spia" unfold "$part" --auto --out "$out/auto" --json "$out/auto.json" --strict
 for step in 1 2 3 4 5; do [ -s "$out/auto/lipped-channel-step$step.vtu" ] || fail "no state of step $step"; done
 [ ! -e "$out/auto/lipped-channel-step6.vtu" ] || fail "a sixth step"
