@@ -249,9 +249,9 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         throw InputError("parts can be chosen from solver decks and CAD files only; this file is taken whole");
     const bool gltf = extension == "gltf" || extension == "glb";
     part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
+    PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
     if (gltf && !options.unit)
         part.notes.push_back("lengths were taken as metres, as the glTF specification says");
-    PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
     for (Eigen::Vector3d& p : soup.position)
         p *= millimetres(part.unit);
     fill(part, soup, options, gltf || extension == "stl", false, progress.part(0.5, 1));

@@ -294,7 +294,8 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
     for (size_t k = keep; k < script.size(); ++k) {
         const auto clock = std::chrono::steady_clock::now();
         const PlannedStep& step = script[k];
-        const Progress own = progress.part(double(k) / double(script.size()), double(k + 1) / double(script.size()));
+        const double missing = double(script.size() - keep);
+        const Progress own = progress.part(double(k - keep) / missing, double(k + 1 - keep) / missing);
         UnfoldState next;
         next.name = step.name;
         next.position = state.position;

@@ -1,4 +1,5 @@
 // Steps of picked faces.
+#include <algorithm>
 #include <fmt/core.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -47,24 +48,13 @@ TEST_F(UnfoldingSteps, AStepOfPickedFacesLaysThemOnTheFaceOfARegion)
 
 TEST_F(UnfoldingSteps, APickOfHalfAQuadTakesAllOfIt)
 {
-    const TriMesh& mesh = channel.mesh; // two triangles after another are a quad
-    std::ofstream file(folder / "quads.obj");
-    for (int v = 0; v < mesh.vertices(); ++v)
-        file << fmt::format("v {} {} {}\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
-    for (int f = 0; f + 1 < mesh.triangles(); f += 2) {
-        std::vector<int> corners;
-        for (int k = 0; k < 3; ++k) { // the fourth corner between the two that they have in common
-            const auto a = mesh.triangle(k, f), b = mesh.triangle((k + 1) % 3, f);
-            corners.push_back(a);
-            const auto other = mesh.triangle.col(f + 1);
-            if ((other.array() == a).any() && (other.array() == b).any())
-                for (const int v : other)
-                    if (v != a && v != b)
-                        corners.push_back(v);
-        }
-        ASSERT_EQ(corners.size(), 4u);
-        file << fmt::format("f {} {} {} {}\n", corners[0] + 1, corners[1] + 1, corners[2] + 1, corners[3] + 1);
-    }
+    std::ofstream file(folder / "quads.obj"); // an L of rows of four quads: ten level, ten down
+    for (int row = 0; row <= 20; ++row)
+        for (int k = 0; k <= 4; ++k)
+            file << fmt::format("v {} {} {}\n", 3 * std::min(row, 10), 5 * k, -3 * std::max(row - 10, 0));
+    for (int row = 0; row < 20; ++row)
+        for (int k = 1; k <= 4; ++k)
+            file << fmt::format("f {} {} {} {}\n", 5 * row + k, 5 * row + k + 5, 5 * row + k + 6, 5 * row + k + 1);
     file.close();
     model.apply(OpenPart{folder / "quads.obj", ""});
     wait();
