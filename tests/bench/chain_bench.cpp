@@ -1,10 +1,12 @@
 // Seconds and memory per stage on the inner panel, and beside them in the same run one symbolic and numeric sparse Cholesky
 // factorisation of a symmetric matrix with the solver's own pattern: the yardstick. Absolute times mean little on a
 // shared machine; read the counter `per_factorisation`.
+#include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include "engine/coons/boundary.h"
