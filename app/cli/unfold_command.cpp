@@ -81,17 +81,23 @@ void print_states(const UnfoldRun& run, double diagonal)
 {
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
+        std::vector<int> moved; // by this step; the report has what is reached so far
+        for (Eigen::Index f = 0; f < state.step.size(); ++f)
+            if (state.step[f] == int(k + 1))
+                moved.push_back(int(f));
+        const Eigen::VectorXd thinning = state.face.thinning(moved);
         say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1, state.name,
-            state.plain, state.face.strain_equivalent.maxCoeff(), 100 * state.face.thinning.minCoeff(),
-            100 * state.face.thinning.maxCoeff(), state.converged ? "" : ", NOT converged");
+            state.plain, state.face.strain_equivalent(moved).maxCoeff(), 100 * thinning.minCoeff(),
+            100 * thinning.maxCoeff(), state.converged ? "" : ", NOT converged");
         if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
             say("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
                 state.on->distance_mm, state.on->angle * degrees);
         if (state.friction_share < 1)
             say("          {:.2g} % of the friction is in it: {}\n", 100 * state.friction_share, state.reason);
         if (state.overlap.places > 0)
-            say("          lies on itself at {} places, first at {:.6g}, {:.6g}, {:.6g} mm\n", state.overlap.places,
-                state.overlap.first[0], state.overlap.first[1], state.overlap.first[2]);
+            say("          lies on itself at {} places, {} of them laid so by this step, first at {:.6g}, {:.6g}, {:.6g} mm\n",
+                state.overlap.places, state.overlap.landed, state.overlap.first[0], state.overlap.first[1],
+                state.overlap.first[2]);
     }
     if (!run.blank)
         return;

@@ -20,7 +20,11 @@ struct ViewerModel::Apply {
     const PartFile& part() const
     {
         if (!session.part)
-            throw InputError("Open a part first.");
+            throw InputError(
+                state.refused
+                    ? "The part was refused: choose which of its parts to take, or mend its faults, in the step "
+                      "Part first."
+                    : "Open a part first.");
         return *session.part;
     }
 

@@ -57,8 +57,8 @@ std::string figures_words(const std::string& laid_on, const StepFigures& figures
     const std::string least = percent(figures.thinning[0]), greatest = percent(figures.thinning[1]);
     if (least != "0" || greatest != "0")
         text += fmt::format("\nthinning {} to {} %", least, greatest);
-    if (const auto& hinge = figures.hinge;
-        hinge && !hinge->bad && (hinge->distance_mm >= no_distance_mm || hinge->angle_deg >= no_angle_deg))
+    if (const auto& hinge = figures.hinge; hinge && !hinge->bad && laid_on == "smooth" &&
+                                           (hinge->distance_mm >= no_distance_mm || hinge->angle_deg >= no_angle_deg))
         text += "\n" + hinge_words(*hinge);
     return text;
 }
