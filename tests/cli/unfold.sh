@@ -52,6 +52,8 @@ grep -q "kept      3 states" "$out.log" || fail "not three states are kept"
 expect_exit 0 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/again" --redo 2 --strict
 grep -q "kept      1 state " "$out.log" || fail "not the first state alone is kept"
 cmp "$out/auto/lipped-channel-step5.vtu" "$out/again/lipped-channel-step5.vtu" || fail "redone steps give other bits"
+expect_exit 2 "$spia" unfold "$part" --script "$out/edited.json" --out "$out/nowhere" --redo auto
+grep -q "nowhere/lipped-channel-states.cbor: is not there; run the steps into this folder first" "$out.log" || { cat "$out.log"; fail "a folder without states is not told"; }
 # broken off at the second of three steps: the first one is not lost
 fender=$2/assets/parts/fender.obj
 for signal in SIGINT SIGTERM; do
