@@ -38,17 +38,32 @@ struct MouseOnSteps : testing::Test {
         ADD_FAILURE() << item << " does not come into sight";
         return {0, 0};
     }
+    /// Waits until no job runs, for it disables buttons, and until the item stands still under the mouse: what a slow machine
+    /// draws late moves it.
     void click(const std::string& item)
     {
-        const auto [x, y] = place_of(item);
-        viewer->click(x, y);
+        viewer->wait("no job before a click on " + item,
+                     [](const Json& now) { return now["job"]["running"] == false; });
+        for (int tries = 0; tries < 20; ++tries) {
+            const auto [x, y] = place_of(item);
+            viewer->move(x, y);
+            if (place_of(item) == std::pair(x, y)) {
+                viewer->press(1);
+                viewer->release(1);
+                return;
+            }
+        }
+        ADD_FAILURE() << item << " does not stand still";
     }
     Json wait_for(const char* pointer, const Json& value)
     {
-        return viewer->wait(std::string(pointer) + " is " + value.dump(), [&](const Json& now) {
-            const Json::json_pointer at(pointer);
-            return now.contains(at) && now.at(at) == value && now["job"]["running"] == false;
-        });
+        return viewer->wait(
+            std::string(pointer) + " is " + value.dump(),
+            [&](const Json& now) {
+                const Json::json_pointer at(pointer);
+                return now.contains(at) && now.at(at) == value && now["job"]["running"] == false;
+            },
+            std::chrono::seconds(150));
     }
 };
 

@@ -135,7 +135,10 @@ Json OpenViewer::wait(const std::string& what, const std::function<bool(const Js
         }
         breathe();
     }
-    throw Error(fmt::format("not within {} s: {}", longest.count(), what));
+    const Json last = report();
+    throw Error(fmt::format("not within {} s: {}; the mouse at {}, the job {}, last to undo {}, the messages {}",
+                            longest.count(), what, last["window"]["mouse"].dump(), last["job"].dump(),
+                            last["history"].dump(), last["messages"].dump()));
 }
 
 void OpenViewer::xdotool(const std::string& arguments) const
