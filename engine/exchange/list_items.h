@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/progress.h"
+#include "engine/mesh/soup.h"
+
+namespace spia {
+
+/// What can be chosen of a file before it is read as a part: an assembly, a body or a loose face group of a CAD file; a part, property or
+/// element set of a deck.
+struct FileItem {
+    std::string choice;                   ///< what ReadOptions::parts takes for it, e.g. "3", "Hood" or "body:2"
+    std::string name;                     ///< in the file; empty: none
+    std::string kind;                     ///< for people, e.g. "assembly", "solid", "sheet body", "part", "element set"
+    int parent = -1;                      ///< index of the item that holds it; -1: none
+    int faces = 0;                        ///< CAD faces, shells or polygons in it and in what it holds
+    double area = 0;                      ///< of the preview, in its unit squared
+    std::optional<double> thickness = {}; ///< in the unit of the file
+    std::string material = {};
+    bool solid = false; ///< a closed body: one of its skins would be taken
+};
+
+/// What a file holds, at a glance.
+struct FileItems {
+    std::string format;         ///< e.g. "STEP"
+    std::string unit;           ///< of length that the file names; empty: none
+    std::vector<FileItem> item; ///< holders before what they hold; sets, which may overlap, last
+    PolygonSoup preview;        ///< all faces, coarse for CAD; CAD files: mm, else in the unit of the file
+    std::vector<int> item_of;   ///< per polygon of the preview: the innermost item it belongs to; -1: none
+    std::vector<int> face_of;   ///< per polygon of the preview: its CAD face, shell or polygon of the file, from 0
+    std::vector<std::string> notes;
+};
+
+/// Lists what can be chosen of a file that read_part() reads; nothing is healed, sewn or examined.
+/// @throws InputError  the file is damaged or of no known kind
+FileItems list_items(const std::filesystem::path& path, const Progress& progress = {});
+
+} // namespace spia
