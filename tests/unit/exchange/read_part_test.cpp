@@ -4,24 +4,24 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fmt/core.h>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <random>
-#include <sys/resource.h>
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/exchange/sample_meshes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
 namespace {
 
 namespace fs = std::filesystem;
+
+using namespace sample;
 
 const fs::path data_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data";
 
@@ -50,172 +50,7 @@ protected:
     ScratchFolder scratch;
 };
 
-template <class T> void append(std::string& bytes, T value)
-{
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 const std::string tetrahedron = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-
-/// A bent sheet with digits that single precision does not hold.
-TriMesh bent_sheet()
-{
-    TriMesh mesh = shapes::rectangle(100. / 3, 70. / 3, 5, 4);
-    for (int v = 0; v < mesh.vertices(); ++v)
-        mesh.position(2, v) = 0.01 * mesh.position(0, v) * mesh.position(0, v);
-    return mesh;
-}
-
-std::string obj_text(const TriMesh& mesh)
-{
-    std::string text = "# comment\nmtllib none.mtl\no part\n";
-    for (int v = 0; v < mesh.vertices(); ++v)
-        text += fmt::format("v {} {} {}\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
-    text += "vt 0 0\nvn 0 0 1\nusemtl steel\ns off\n";
-    for (int f = 0; f < mesh.triangles(); ++f)
-        text += fmt::format("f {}/1/1 {}//1 {}\n", mesh.triangle(0, f) + 1, mesh.triangle(1, f) + 1,
-                            mesh.triangle(2, f) + 1);
-    return text;
-}
-
-std::string off_text(const TriMesh& mesh)
-{
-    std::string text = fmt::format("COFF # with colours\n{} {} 0\n\n", mesh.vertices(), mesh.triangles());
-    for (int v = 0; v < mesh.vertices(); ++v)
-        text += fmt::format("{} {} {} 255 0 0 255\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
-    for (int f = 0; f < mesh.triangles(); ++f)
-        text += fmt::format("3 {} {} {} 0.5 0.5 0.5\n", mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f));
-    return text;
-}
-
-/// With normals, a quality, colours and texture lists around what is needed, as scanners and modellers write
-/// them.
-std::string ply_text(const TriMesh& mesh)
-{
-    std::string text =
-        fmt::format("ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex {}\r\nproperty float nx\r\n"
-                    "property double x\r\nproperty double y\r\nproperty double z\r\nproperty float quality\r\nelement "
-                    "face {}\r\n"
-                    "property uchar red\r\nproperty list uint8 int32 vertex_indices\r\nproperty list uchar float "
-                    "texcoord\r\n"
-                    "element edge 1\r\nproperty int a\r\nend_header\r\n",
-                    mesh.vertices(), mesh.triangles());
-    for (int v = 0; v < mesh.vertices(); ++v)
-        text += fmt::format("1 {} {} {} nan\r\n", mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
-    for (int f = 0; f < mesh.triangles(); ++f)
-        text +=
-            fmt::format("7 3 {} {} {} 2 0.5 0.25\r\n", mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f));
-    return text + "5\r\n";
-}
-
-std::string ply_binary(const TriMesh& mesh, bool big)
-{
-    std::string bytes =
-        fmt::format("ply\nformat binary_{}_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
-                    "property double z\nproperty uchar red\nelement face {}\nproperty list ushort uint vertex_index\n"
-                    "end_header\n",
-                    big ? "big" : "little", mesh.vertices(), mesh.triangles());
-    const auto put = [&](auto value) {
-        std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
-        if (big)
-            std::reverse(raw.begin(), raw.end());
-        bytes += raw;
-    };
-    for (int v = 0; v < mesh.vertices(); ++v) {
-        for (int k = 0; k < 3; ++k)
-            put(mesh.position(k, v));
-        put(uint8_t(200));
-    }
-    for (int f = 0; f < mesh.triangles(); ++f) {
-        put(uint16_t(3));
-        for (int k = 0; k < 3; ++k)
-            put(uint32_t(mesh.triangle(k, f)));
-    }
-    return bytes;
-}
-
-std::string stl_text(const TriMesh& mesh)
-{
-    std::string text = "solid router cover\n"; // "outer" in a name is no loop
-    for (int f = 0; f < mesh.triangles(); ++f) {
-        text += " facet normal 0 0 1\n  outer loop\n";
-        for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector3f p = mesh.position.col(mesh.triangle(k, f)).cast<float>();
-            text += fmt::format("   vertex {} {} {}\n", p.x(), p.y(), p.z());
-        }
-        text += "  endloop\n endfacet\n";
-    }
-    return text + "endsolid router cover\n";
-}
-
-std::string stl_binary(const TriMesh& mesh)
-{
-    std::string bytes = "solid, though it is binary";
-    bytes.resize(80, ' ');
-    append(bytes, uint32_t(mesh.triangles()));
-    for (int f = 0; f < mesh.triangles(); ++f) {
-        bytes.append(12, '\0');
-        for (int k = 0; k < 3; ++k)
-            for (int i = 0; i < 3; ++i)
-                append(bytes, float(mesh.position(i, mesh.triangle(k, f))));
-        bytes.append(2, '\0');
-    }
-    return bytes;
-}
-
-std::string base64(const std::string& bytes)
-{
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t word = 0;
-        for (size_t k = 0; k < 3; ++k)
-            word = word << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0u);
-        for (size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? digits[word >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
-std::string glb(std::string json, std::string binary)
-{
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    std::string bytes = "glTF";
-    append(bytes, uint32_t(2));
-    append(bytes, uint32_t(12 + 8 + json.size() + 8 + binary.size()));
-    append(bytes, uint32_t(json.size()));
-    bytes += "JSON" + json;
-    append(bytes, uint32_t(binary.size()));
-    return bytes + std::string("BIN\0", 4) + binary;
-}
-
-/// A 2 x 1 strip in metres: a triangle list on the left (vertices 0 to 3), and a strip with vertices of its own (4 to
-/// 7) on the right, moved there by a node and mirrored in it.
-struct GltfStrip {
-    std::string binary, json;
-
-    explicit GltfStrip(const std::string& buffer_uri = "", const std::string& extra = "")
-    {
-        for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) // counter-clockwise
-            append(binary, value);
-        for (const uint16_t i : {0, 1, 2, 0, 2, 3})
-            append(binary, i);
-        for (const uint8_t i : {0, 1, 3, 2})
-            append(binary, i);
-        json = fmt::format(
-            R"({{"asset":{{"version":"2.0"}},{}"scene":0,"scenes":[{{"nodes":[0]}}],
-            "nodes":[{{"children":[1,2]}},{{"mesh":0}},{{"mesh":1,"translation":[2,0,0],"scale":[-1,1,1]}}],
-            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}},
-                      {{"primitives":[{{"attributes":{{"POSITION":0}},"indices":2,"mode":5}}, {{"attributes":{{"POSITION":0}},"mode":1}}]}}],
-            "accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},
-                         {{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}},
-                         {{"bufferView":1,"byteOffset":12,"componentType":5121,"count":4,"type":"SCALAR"}}],
-            "bufferViews":[{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":16}}],
-            "buffers":[{{"byteLength":64{}}}]}})",
-            extra, buffer_uri.empty() ? "" : fmt::format(R"(,"uri":"{}")", buffer_uri));
-    }
-};
 
 } // namespace
 
@@ -514,75 +349,5 @@ INSTANTIATE_TEST_SUITE_P(
             name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
         return name;
     });
-
-TEST_F(ReadPart, DamagedFilesOfEveryFormatEndInAPartOrAnInputError)
-{
-    const TriMesh mesh = bent_sheet();
-    const GltfStrip strip;
-    const std::vector<std::pair<std::string, std::string>> seeds = {
-        {"a.obj", obj_text(mesh)},
-        {"a.off", off_text(mesh)},
-        {"a.ply", ply_text(mesh)},
-        {"b.ply", ply_binary(mesh, false)},
-        {"c.ply", ply_binary(mesh, true)},
-        {"a.stl", stl_text(mesh)},
-        {"b.stl", stl_binary(mesh)},
-        {"a.glb", glb(strip.json, strip.binary)},
-        {"a.gltf", GltfStrip("data:application/octet-stream;base64," + base64(strip.binary)).json}};
-    const std::vector<std::string> spice = {"-1",
-                                            "0",
-                                            "999999999",
-                                            "4294967296",
-                                            "1e999",
-                                            "nan",
-                                            "inf",
-                                            "\n",
-                                            "{",
-                                            "[",
-                                            "\"",
-                                            "/",
-                                            "\\",
-                                            "f",
-                                            "v",
-                                            "element face 7\n",
-                                            "outer loop\n",
-                                            "property list char int x\n",
-                                            "\xff\xff\xff\xff"};
-    std::mt19937 random(20240229);
-    const char* wanted = std::getenv("SPIA_FUZZ_ROUNDS"); // for a longer search, e.g. with the sanitizers
-    const int rounds = wanted ? std::atoi(wanted) : 60;
-    int accepted = 0, refused = 0;
-    for (const auto& [name, seed] : seeds)
-        for (int round = 0; round < rounds; ++round) {
-            std::string content = seed;
-            for (uint32_t changes = 1 + random() % 4; changes > 0 && !content.empty(); --changes) {
-                const size_t at = random() % content.size();
-                switch (random() % 6) {
-                case 0: content.resize(at); break;
-                case 1: content[at] = char(random()); break;
-                case 2: content[at] = char(content[at] ^ (1 << random() % 8)); break;
-                case 3: content.erase(at, random() % 40); break;
-                case 4: content.insert(at, spice[random() % spice.size()]); break;
-                case 5: content.insert(at, content.substr(random() % content.size(), random() % 60)); break;
-                }
-            }
-            const fs::path path = write(name, content);
-            try {
-                const PartFile part = read_part(path);
-                EXPECT_GT(part.mesh.triangles(), 0);
-                EXPECT_NO_THROW(halfedges(part.mesh));
-                ++accepted;
-            } catch (const InputError&) {
-                ++refused;
-            } catch (const std::exception& other) {
-                ADD_FAILURE() << name << " round " << round << ": " << other.what();
-            }
-        }
-    EXPECT_GT(accepted, rounds / 4); // small changes often hurt nothing, e.g. a digit or a colour
-    EXPECT_GT(refused, int(seeds.size()) * rounds / 4);
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    EXPECT_LT(usage.ru_maxrss, 2'000'000) << "kilobytes: some damage led to a huge allocation";
-}
 
 } // namespace spia

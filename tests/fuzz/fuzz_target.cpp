@@ -1,0 +1,360 @@
+#include "tests/fuzz/fuzz_target.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <unistd.h>
+
+#include "engine/core/error.h"
+#include "engine/exchange/checked_file.h"
+#include "engine/exchange/deck_choice.h"
+#include "engine/exchange/read_deck.h"
+#include "engine/exchange/read_dxf.h"
+#include "engine/exchange/read_gltf.h"
+#include "engine/exchange/read_openmesh.h"
+#include "engine/exchange/read_part.h"
+#include "engine/forming/two_columns.h"
+#include "engine/mesh/topology.h"
+#include "engine/pipeline/line_file.h"
+#include "engine/pipeline/unfold_file.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/exchange/sample_decks.h"
+#include "tests/unit/exchange/sample_meshes.h"
+
+namespace spia::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require(bool sound, const char* what)
+{
+    if (!sound)
+        throw std::logic_error(what);
+}
+
+void require_finite(const std::vector<Eigen::Vector3d>& places)
+{
+    for (const Eigen::Vector3d& each : places)
+        require(each.allFinite(), "a place that is no number was accepted");
+}
+
+/// Examines faces of a file; the doctor takes what comes. Large ones are left: what a byte more costs is not asked here.
+void examine_faces(const PolygonSoup& soup)
+{
+    constexpr int most = 4000;
+    if (soup.polygons() > most || soup.vertices() > most)
+        return;
+    const PartFile part = examine_soup(soup);
+    require(part.source_face.size() == size_t(part.mesh.triangles()), "faces that come from none");
+    require(part.source_vertex.size() == size_t(part.mesh.vertices()), "vertices that come from none");
+    require(part.mesh.position.allFinite(), "a place that is no number was accepted");
+    if (part.doctor.healthy())
+        halfedges(part.mesh);
+}
+
+template <auto Check> bool read_mesh(std::string_view content)
+{
+    try {
+        const PolygonSoup soup = read_openmesh(Check(content));
+        examine_faces(soup);
+        return soup.polygons() > 0; // the doctor refuses a file without any
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_gltf_content(std::string_view content)
+{
+    try {
+        examine_faces(read_gltf("/nowhere/a.gltf", content).soup);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_deck_content(const char* name, std::string_view content)
+{
+    try {
+        const Deck deck = read_deck(fs::path("/nowhere") / name, std::string(content));
+        require(deck.elements() > 0, "a deck without shells was accepted");
+        require(deck.element.size() == deck.corner.size() && deck.part_of.size() == deck.corner.size(),
+                "shells without ids or parts");
+        require(deck.node.size() == deck.position.size(), "nodes without ids");
+        require_finite(deck.position);
+        for (size_t e = 0; e < deck.corner.size(); ++e) {
+            for (size_t k = 0; k < 4; ++k)
+                require(deck.corner[e][k] >= (k == 3 ? -1 : 0) && deck.corner[e][k] < deck.nodes(),
+                        "a corner that is not there");
+            require(size_t(deck.part_of[e]) < deck.parts.size(), "a part that is not there");
+        }
+        for (const DeckSet& set : deck.sets)
+            for (const int e : set.elements)
+                require(e >= 0 && e < deck.elements(), "a set of shells that are not there");
+        examine_faces(choose_parts(deck, {}).soup);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_k(std::string_view content) { return read_deck_content("a.k", content); }
+bool read_bdf(std::string_view content) { return read_deck_content("a.bdf", content); }
+bool read_inp(std::string_view content) { return read_deck_content("a.inp", content); }
+bool read_msh(std::string_view content) { return read_deck_content("a.msh", content); }
+bool read_rad(std::string_view content) { return read_deck_content("a.rad", content); }
+
+/// A file of this process that holds the content, for readers that open files themselves.
+class Held {
+public:
+    Held(const char* ending, std::string_view content)
+        : path_(fs::temp_directory_path() / ("spia-fuzz-" + std::to_string(::getpid()) + ending))
+    {
+        std::ofstream(path_, std::ios::binary) << content;
+    }
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+    ~Held() { fs::remove(path_); }
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+bool read_dxf_content(std::string_view content)
+{
+    try {
+        const Held file(".dxf", content);
+        for (const SheetLine& line : read_dxf(file.path()).lines)
+            require(line.point.allFinite(), "a line through no place was accepted");
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_json_lines(std::string_view content)
+{
+    try {
+        const Held file(".json", content);
+        for (const SheetLine& line : read_line_file(file.path()).lines)
+            require(line.point.allFinite(), "a line through no place was accepted");
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_table(std::string_view content)
+{
+    try {
+        parse_two_columns(std::string(content), "a.csv");
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_steps(std::string_view content)
+{
+    static const PartFile part = [] {
+        const TriMesh mesh = shapes::rectangle(40, 20, 4, 2);
+        PolygonSoup soup;
+        for (int v = 0; v < mesh.vertices(); ++v)
+            soup.position.emplace_back(mesh.position(0, v), mesh.position(1, v),
+                                       std::max(0., mesh.position(0, v) - 20)); // bent along x = 20
+        for (int f = 0; f < mesh.triangles(); ++f)
+            soup.add_polygon(std::array{mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f)});
+        return examine_soup(soup);
+    }();
+    static const BendMap map = find_bends(part.mesh);
+    try {
+        const Held file(".json", content);
+        read_unfold_script(file.path(), part, map);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+const std::vector<std::string> numbers = {"-1",
+                                          "0",
+                                          "99999999",
+                                          "4294967296",
+                                          "9223372036854775807",
+                                          "-9223372036854775808",
+                                          "1e999",
+                                          "1e300",
+                                          "1.5-3",
+                                          "nan",
+                                          "inf",
+                                          "\n",
+                                          "\r\n",
+                                          "\n\n",
+                                          "\t",
+                                          "\xff\xfe",
+                                          "\xff\xff\xff\xff",
+                                          std::string(1, '\0'),
+                                          std::string(300, ' '),
+                                          std::string(300, '9')};
+
+std::vector<std::string> with_numbers(std::vector<std::string> words)
+{
+    words.insert(words.end(), numbers.begin(), numbers.end());
+    return words;
+}
+
+/// Seeds of the deck samples with one of these endings.
+std::vector<std::string> decks(std::initializer_list<const char*> endings)
+{
+    std::vector<std::string> texts;
+    for (const auto& [name, text] : sample::decks())
+        for (const char* ending : endings)
+            if (name.ends_with(ending))
+                texts.push_back(text);
+    return texts;
+}
+
+/// The keywords of all decks in each, so that one reader meets what is meant for another.
+const std::vector<std::string> deck_words = {"*",
+                                             "*NODE\n",
+                                             "*ELEMENT_SHELL_THICKNESS\n",
+                                             "*PART_INERTIA\n",
+                                             "*PART_COMPOSITE\n",
+                                             "*SECTION_SHELL_TITLE\n",
+                                             "*INCLUDE\n",
+                                             "*INCLUDE\na.k\n",
+                                             "*PARAMETER\nR x 1\n",
+                                             "*KEYWORD LONG=Y\n",
+                                             "*END\n",
+                                             "&x",
+                                             "-&x",
+                                             "$",
+                                             "**",
+                                             "INCLUDE 'a.bdf'\n",
+                                             "INCLUDE '",
+                                             "BEGIN BULK\n",
+                                             "ENDDATA\n",
+                                             "CORD2R,1,1,1.,1.,1.,1.,1.,1.\n",
+                                             "GRDSET,,1\n",
+                                             "PCOMP,7,,,,,,,SYM\n",
+                                             "GRID*",
+                                             ",",
+                                             ",,,,,,,,,,,,",
+                                             "*\n",
+                                             "+\n",
+                                             "*ELSET, ELSET=A, GENERATE\n",
+                                             "1,9000000000000000000,1\n",
+                                             "-9223372036854775808,9223372036854775807,9223372036854775807\n",
+                                             "*ELSET, ELSET=A\nA, HOOD\n",
+                                             "*PART, NAME=\"A\n",
+                                             "*INSTANCE\n",
+                                             "*SHELL SECTION, ELSET=A, COMPOSITE\n",
+                                             "*INCLUDE, INPUT=a.inp\n",
+                                             "*ELEMENT, TYPE=STRI65\n",
+                                             "$EndNodes\n",
+                                             "$Elements\n",
+                                             "$PhysicalNames\n",
+                                             "9000000000000000000\n",
+                                             "/NODE\n",
+                                             "/SHELL/4\n",
+                                             "/PROP/SHELL/-1\n",
+                                             "/PART/",
+                                             "#include a.rad\n"};
+
+std::string dxf_seed()
+{
+    std::string text = "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n";
+    for (const char* entity :
+         {"0 LINE 8 a 10 0 20 0 30 0 11 5 21 6 31 7", "0 CIRCLE 8 b 10 1 20 2 40 3",
+          "0 ARC 8 c 10 1 20 2 40 3 50 10 51 300", "0 LWPOLYLINE 8 d 90 3 70 1 10 0 20 0 42 0.5 10 9 20 0 10 9 20 9",
+          "0 POLYLINE 8 e 70 8", "0 VERTEX 8 e 10 1 20 1 30 1", "0 VERTEX 8 e 10 2 20 2 30 1", "0 SEQEND",
+          "0 ELLIPSE 8 f 10 0 20 0 11 4 21 0 40 0.5 41 0 42 6.2831853",
+          "0 SPLINE 8 g 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 30 0 10 1 20 2 30 0 10 3 20 0 30 0",
+          "0 HATCH 8 h"}) {
+        std::string lines = entity;
+        for (char& c : lines)
+            c = c == ' ' ? '\n' : c;
+        text += lines + "\n";
+    }
+    return text + "  0\nENDSEC\n  0\nEOF\n";
+}
+
+const char* const steps_seed = R"({"schema": "spia.unfold/1",
+ "regions": [{"name": "leg", "kind": "region", "at": [30, 10, 10], "area_mm2": 560}],
+ "steps": [{"name": "leg", "kind": "lay", "freed": {"regions": ["leg"], "faces": [15], "box": [[25, -5, 1], [50, 50, 50]]},
+   "fixed": {"faces": [0, 1, 8, 9]}, "carrying": {"faces": [0]},
+   "target": {"cylinder": {"origin": [0, 0, 0], "axis": [0, 1, 0], "radius": 40}, "offset_mm": 0.01, "extent_mm": 50},
+   "friction": {"coefficient": 0.12, "pressure_MPa": 2.5, "sides": 1}, "options": {"tolerance": 1e-9}},
+  {"kind": "unroll", "carrying": {"regions": ["region 2"]}}, {"kind": "flatten"}]})";
+
+const char* const lines_seed = R"({"schema": "spia.lines/1", "unit": "cm", "lines": [
+ {"name": "hole 1", "closed": true, "points": [[10, 20], [30, 20], [30, 40]]}, {"name": "", "points": [[0, 0, 1], [1, 2, 3]]}]})";
+
+std::vector<FuzzTarget> make_targets()
+{
+    const TriMesh mesh = shapes::rectangle(10. / 3, 7. / 3, 3, 2);
+    const sample::GltfStrip strip;
+    const std::vector<std::string> mesh_words = with_numbers(
+        {"{", "[", "\"", "/", "\\", "f ", "v ", "OFF\n", "CNOFF\n", "element face 7\n", "property list char int x\n",
+         "format binary_big_endian 1.0\n", "outer loop\n", "facet normal", "endfacet\n", "vertex ", "end_header\n"});
+    const std::vector<std::string> gltf_words = with_numbers(
+        {"{", "[", "]", "}", "\"", ",", ":", "\"sparse\":{", "\"matrix\":[", "\"byteStride\":", "\"mode\":6",
+         "\"children\":[0]", "\"extensionsRequired\":[", "\"normalized\":true", "5126", "5120", "\"MAT4\""});
+    const std::vector<std::string> words = with_numbers(deck_words);
+    return {
+        {"obj", {sample::obj_text(mesh)}, mesh_words, read_mesh<check_obj>},
+        {"off", {sample::off_text(mesh)}, mesh_words, read_mesh<check_off>},
+        {"ply",
+         {sample::ply_text(mesh), sample::ply_binary(mesh, false), sample::ply_binary(mesh, true)},
+         mesh_words,
+         read_mesh<check_ply>},
+        {"stl", {sample::stl_text(mesh), sample::stl_binary(mesh)}, mesh_words, read_mesh<check_stl>},
+        {"gltf",
+         {sample::GltfStrip("data:application/octet-stream;base64," + sample::base64(strip.binary)).json,
+          sample::glb(strip.json, strip.binary)},
+         gltf_words,
+         read_gltf_content},
+        {"k", decks({".k", ".key", ".dyn"}), words, read_k},
+        {"bdf", decks({".bdf", ".nas", ".dat"}), words, read_bdf},
+        {"inp", decks({".inp"}), words, read_inp},
+        {"msh", decks({".msh"}), words, read_msh},
+        {"rad", decks({".rad"}), words, read_rad},
+        {"dxf",
+         {dxf_seed()},
+         with_numbers(
+             {"LINE\n", "SPLINE\n", "ELLIPSE\n", "POLYLINE\n", " 10\n", " 42\n", " 71\n", " 70\n", "230\n-1\n"}),
+         read_dxf_content},
+        {"csv",
+         {"strain;stress\n0;200\n0,1;300\n0,2;350,5\n", "# tensile test\n0.0, 200\n0.1, 300\n"},
+         with_numbers({";", ",", "#", "\"", "."}),
+         read_table},
+        {"lines.json",
+         {lines_seed},
+         with_numbers({"{", "}", "[", "]", "\"", "null", "\"inch\"", "\"unit\"", "[]", "[[[["}),
+         read_json_lines},
+        {"steps.json",
+         {steps_seed},
+         with_numbers(
+             {"{", "}", "[", "]", "\"", "\"cylinder\"", "\"smooth\"", "\"faces\":[0]", "\"region 2\"", "null"}),
+         read_steps},
+    };
+}
+
+} // namespace
+
+const std::vector<FuzzTarget>& fuzz_targets()
+{
+    static const std::vector<FuzzTarget> targets = make_targets();
+    return targets;
+}
+
+const FuzzTarget& fuzz_target(std::string_view name)
+{
+    for (const FuzzTarget& target : fuzz_targets())
+        if (target.name == name)
+            return target;
+    throw std::out_of_range("no format of this name: " + std::string(name));
+}
+
+} // namespace spia::fuzz
