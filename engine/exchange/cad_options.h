@@ -9,6 +9,8 @@ struct CadOptions {
                                                  ///< 0: the faces are not sewn
     std::optional<double> deflection = {};       ///< mm between triangle and face; not given: 1/2000 of the diagonal
     double angle = 0.35;                         ///< radians between the tangents at both ends of a chord
+
+    friend bool operator==(const CadOptions&, const CadOptions&) = default;
 };
 
 } // namespace spia

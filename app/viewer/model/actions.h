@@ -19,23 +19,38 @@
 namespace spia::viewer {
 
 // --- the chain
-struct OpenPart {
-    std::filesystem::path file;
-    std::string unit;
-    std::optional<Skin> skin = {};
-}; ///< "open_part"; unit may be empty; skin of a solid of sheet: "outer", "inner" or "middle"
-struct SetUnit {
-    std::string unit;
-}; ///< "set_unit": reads the part again
-/// "set_reading": reads the part again, with vertices at one place joined or not (not given: as the format needs), and with
-/// all but the largest piece of sheet left out or not, and of a solver deck which parts, by ids or names (not given: as they are;
-/// none: all), and of a solid of sheet which skin (as in open_part; not given: the outer one).
-struct SetReading {
+/// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), keep_largest (all
+/// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
+/// all), skin (of a solid of sheet: "outer", the default, "inner" or "middle"), and of CAD files sewing_mm (gaps up to this are closed;
+/// not given: found from the gaps) and deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal).
+struct Reading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
     std::vector<std::string> parts = {};
     std::optional<Skin> skin = {};
+    std::optional<double> sewing_mm = {}, deflection_mm = {};
+
+    friend bool operator==(const Reading&, const Reading&) = default;
 };
+Reading reading_of(const ReadOptions& options);
+void set_reading(ReadOptions& options, const Reading& reading);
+
+/// "list_file": what can be chosen of a file before it is read, in the background; the window shows it.
+struct ListFile {
+    std::filesystem::path file;
+};
+struct CloseList {}; ///< "close_list"
+struct OpenPart {
+    std::filesystem::path file;
+    std::string unit;
+    Reading reading = {};
+}; ///< "open_part"; unit may be empty
+struct SetUnit {
+    std::string unit;
+}; ///< "set_unit": reads the part again
+struct SetReading {
+    Reading reading;
+}; ///< "set_reading": reads the part again otherwise; parts are as they are if not given
 /// "set_seam": mode ("automatic", "none", "given"), path [[vertex of the file, ...], ...]; reads the part again.
 struct SetSeam {
     SeamOptions seam;
@@ -316,15 +331,15 @@ struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
 using Action =
-    std::variant<OpenPart, SetUnit, SetReading, SetSeam, RunTo, CancelJob, SetMaterial, FitMaterial, SetThickness,
-                 SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits, ProposeSteps, RunSteps,
-                 UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep,
-                 MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
-                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
-                 ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
-                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
-                 SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo, OpenProject,
-                 SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, SetSeam, RunTo, CancelJob, SetMaterial,
+                 FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds,
+                 SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
+                 SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
+                 SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection,
+                 ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine,
+                 RemoveLine, PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection,
+                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
+                 Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -32,6 +32,8 @@ struct ViewerModel::Apply {
     /// Ends what runs, whatever it is about, and begins with another document.
     void begin_with(Document fresh);
     void require_no_export() const;
+    void operator()(const ListFile& action);
+    void operator()(const CloseList&);
     void operator()(const OpenPart& action);
     /// Reads the part anew with other options; undo brings the old ones back.
     template <class Edit> void read_again(std::string name, const Edit& edit);

@@ -45,6 +45,23 @@ void ViewerModel::Apply::require_no_export() const
         throw InputError("Wait for the export to end.");
 }
 
+void ViewerModel::Apply::operator()(const ListFile& action)
+{
+    (*this)(CloseList{});
+    state.listing = FileListing{action.file};
+    model.list_job_ = std::make_unique<Job<FileItems>>(
+        [file = action.file](const Progress& progress) { return list_items(file, progress); }, model.wake_);
+}
+
+void ViewerModel::Apply::operator()(const CloseList&)
+{
+    if (model.list_job_) {
+        model.list_job_->cancel();
+        model.ending_lists_.push_back(std::move(model.list_job_));
+    }
+    state.listing.reset();
+}
+
 void ViewerModel::Apply::operator()(const OpenPart& action)
 {
     require_no_export();
@@ -59,7 +76,7 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.session.options.interpolate = session.options.interpolate;
     if (!action.unit.empty())
         fresh.session.options.read.unit = length_unit(action.unit);
-    fresh.session.options.read.skin = action.skin;
+    set_reading(fresh.session.options.read, action.reading);
     fresh.session.file = action.file;
     if (!std::filesystem::exists(action.file))
         throw InputError(fmt::format("There is no file {}.", action.file.string()));
@@ -92,16 +109,8 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
 
 void ViewerModel::Apply::operator()(const SetReading& action)
 {
-    const ReadOptions& now = session.options.read;
-    if (now.weld == action.weld && now.doctor.keep_largest == action.keep_largest && now.parts == action.parts &&
-        now.skin == action.skin)
-        return;
-    read_again("Read the part otherwise", [&](ReadOptions& read) {
-        read.weld = action.weld;
-        read.doctor.keep_largest = action.keep_largest;
-        read.parts = action.parts;
-        read.skin = action.skin;
-    });
+    if (reading_of(session.options.read) != action.reading)
+        read_again("Read the part otherwise", [&](ReadOptions& read) { set_reading(read, action.reading); });
 }
 
 void ViewerModel::Apply::operator()(const SetSeam& action)

@@ -67,6 +67,14 @@ template <>
 inline constexpr auto members_of<SeamOptions> =
     std::tuple{member("mode", &SeamOptions::mode), member("path", &SeamOptions::path, is_path)};
 
+inline constexpr auto gap_width = Between{0, 1e3}, chord_height = Between{1e-6, 1e3}; ///< mm
+template <>
+inline constexpr auto members_of<Reading> = std::tuple{member("weld", &Reading::weld),
+                                                       member("keep_largest", &Reading::keep_largest),
+                                                       member("parts", &Reading::parts),
+                                                       member("skin", &Reading::skin),
+                                                       member("sewing_mm", &Reading::sewing_mm, gap_width),
+                                                       member("deflection_mm", &Reading::deflection_mm, chord_height)};
 template <>
 inline constexpr auto members_of<TensileOptions> =
     std::tuple{member("kind", &TensileOptions::kind), member("in_percent", &TensileOptions::in_percent),

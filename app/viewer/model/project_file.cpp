@@ -23,14 +23,10 @@ struct StoredPath {
     fs::path was_at; ///< absolute
 };
 
-struct StoredPart {
+struct StoredPart : Reading {
     StoredPath path;
     std::optional<LengthUnit> unit;
-    std::optional<bool> weld;
-    bool keep_largest = false;
     SeamOptions seam;
-    std::vector<std::string> parts; ///< of a deck
-    std::optional<Skin> skin;       ///< of a solid of sheet
 };
 
 struct StoredProject {
@@ -123,10 +119,15 @@ inline constexpr auto members_of<StoredPath> =
     std::tuple{required("file", &StoredPath::file), member("was_at", &StoredPath::was_at)};
 template <>
 inline constexpr auto members_of<StoredPart> =
-    std::tuple{required("path", &StoredPart::path), member("unit", &StoredPart::unit),
-               member("weld", &StoredPart::weld),   member("keep_largest", &StoredPart::keep_largest),
-               member("seam", &StoredPart::seam),   member("parts", &StoredPart::parts),
-               member("skin", &StoredPart::skin)};
+    std::tuple{required("path", &StoredPart::path),
+               member("unit", &StoredPart::unit),
+               member("weld", &StoredPart::weld),
+               member("keep_largest", &StoredPart::keep_largest),
+               member("seam", &StoredPart::seam),
+               member("parts", &StoredPart::parts),
+               member("skin", &StoredPart::skin),
+               member("sewing_mm", &StoredPart::sewing_mm, gap_width),
+               member("deflection_mm", &StoredPart::deflection_mm, chord_height)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -227,11 +228,8 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     Session& session = document.session;
     session.file = found_path(stored.part.path, folder);
     session.options.read.unit = stored.part.unit;
-    session.options.read.weld = stored.part.weld;
-    session.options.read.doctor.keep_largest = stored.part.keep_largest;
     session.options.read.seam = stored.part.seam;
-    session.options.read.parts = stored.part.parts;
-    session.options.read.skin = stored.part.skin;
+    set_reading(session.options.read, stored.part);
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -270,9 +268,10 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.schema = fmt::format("{}{}", schema_name, version);
     stored.program = program_name();
     stored.picks = store_picks(document);
-    stored.part = {stored_path(session.file, folder),        session.options.read.unit, session.options.read.weld,
-                   session.options.read.doctor.keep_largest, session.options.read.seam, session.options.read.parts,
-                   session.options.read.skin};
+    static_cast<Reading&>(stored.part) = reading_of(session.options.read);
+    stored.part.path = stored_path(session.file, folder);
+    stored.part.unit = session.options.read.unit;
+    stored.part.seam = session.options.read.seam;
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

@@ -62,12 +62,12 @@ constexpr Between share{0, 1}, pixels{0, 16384};
 
 // Every action, in the order of the variant.
 constexpr std::tuple forms{
+    form<ListFile>("list_file", required("file", &ListFile::file, not_empty)),
+    form<CloseList>("close_list"),
     form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit),
-                   member("skin", &OpenPart::skin)),
+                   member("reading", &OpenPart::reading)),
     form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
-    form<SetReading>("set_reading", member("weld", &SetReading::weld),
-                     member("keep_largest", &SetReading::keep_largest), member("parts", &SetReading::parts),
-                     member("skin", &SetReading::skin)),
+    form_of_inner("set_reading", &SetReading::reading),
     form_of_inner("set_seam", &SetSeam::seam),
     form<RunTo>("run_to", member("stage", &RunTo::stage)),
     form<CancelJob>("cancel_job"),
@@ -219,7 +219,9 @@ template <> ChangeRegion before(const Json& json, const ViewerState& state)
 
 template <> SetReading before(const Json&, const ViewerState& state)
 {
-    return {{}, false, state.document.session.options.read.parts};
+    SetReading result;
+    result.reading.parts = state.document.session.options.read.parts;
+    return result;
 }
 
 template <> ChangeStep before(const Json& json, const ViewerState& state)

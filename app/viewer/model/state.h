@@ -8,6 +8,7 @@
 #include "app/viewer/model/camera.h"
 #include "app/viewer/model/document.h"
 #include "app/viewer/model/history.h"
+#include "engine/exchange/list_items.h"
 
 namespace spia::viewer {
 
@@ -76,6 +77,15 @@ struct LaterResults {
     std::shared_ptr<const SurfaceStage> surface;
 };
 
+/// A file that is about to be opened: what can be chosen of it.
+struct FileListing {
+    std::filesystem::path file;
+    std::shared_ptr<const FileItems> items; ///< null: not yet, or there is a failure
+    std::string failure;                    ///< why it cannot be read; empty: none
+    std::string step;                       ///< of the work; with its fraction
+    double fraction = 0;
+};
+
 struct ViewerState;
 /// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
 const PartFile* examined(const ViewerState& state);
@@ -95,6 +105,7 @@ struct ViewerState {
     std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
     std::optional<ShownFault> fault;         ///< the one that is looked at
     std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
+    std::optional<FileListing> listing;      ///< the file that is looked into
 };
 
 /// How far the view of the part is unfolded: as chosen, as far as there are states that hold.

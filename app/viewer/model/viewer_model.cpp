@@ -122,6 +122,7 @@ bool ViewerModel::poll()
     JobView& view = state_.job;
     std::erase_if(ending_, [](const auto& job) { return job->finished(); });
     std::erase_if(ending_steps_, [](const auto& job) { return job->finished(); });
+    std::erase_if(ending_lists_, [](const auto& job) { return job->finished(); });
     pickers_.follow(state_.document.session);
     pickers_.follow_steps(state_);
     if (chain_job_) {
@@ -145,6 +146,10 @@ bool ViewerModel::poll()
             news = true;
         }
     }
+    if (list_job_) {
+        follow_list();
+        news = true;
+    }
     if (steps_job_) {
         view.fraction = steps_job_->fraction();
         view.step = steps_job_->step();
@@ -164,6 +169,21 @@ bool ViewerModel::poll()
         }
     }
     return news;
+}
+
+void ViewerModel::follow_list()
+{
+    FileListing& listing = *state_.listing;
+    listing.fraction = list_job_->fraction();
+    listing.step = list_job_->step();
+    if (!list_job_->finished())
+        return;
+    const auto job = std::move(list_job_);
+    try {
+        listing.items = std::make_shared<const FileItems>(job->take());
+    } catch (const std::exception& error) {
+        listing.failure = error.what();
+    }
 }
 
 void ViewerModel::take_chain_result()

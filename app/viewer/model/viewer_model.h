@@ -49,7 +49,7 @@ public:
     const std::optional<Probe>& under_mouse() const { return under_mouse_; }
     Pickers& pickers() { return pickers_; }
     /// Whether a job is running; closing the window then cancels it.
-    bool busy() const { return chain_job_ || export_job_ || steps_job_; }
+    bool busy() const { return chain_job_ || export_job_ || steps_job_ || list_job_; }
     /// How many times a part or project was begun to be opened: an action for that either counts here or leaves all as it was.
     int openings() const { return openings_; }
     /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
@@ -80,6 +80,7 @@ private:
     void take_blank_of_project(const BlankNext& next);
     void run_missing_steps(); ///< there must be some
     void take_steps_result();
+    void follow_list();
     void show_step(std::optional<int> step, double position);
     void say_steps_run(const StepsOutcome& outcome);
     void part_opened();
@@ -95,6 +96,8 @@ private:
         ending_; ///< cancelled, nobody waits for them; they end by themselves
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
     std::unique_ptr<Job<StepsOutcome>> steps_job_;
+    std::unique_ptr<Job<FileItems>> list_job_;
+    std::vector<std::unique_ptr<Job<FileItems>>> ending_lists_; ///< as ending_
     StepList running_list_; ///< the one that it runs, or ran: may have been edited meanwhile
     std::vector<std::unique_ptr<Job<StepsOutcome>>> ending_steps_; ///< as ending_
     bool steps_next_ = false;                                      ///< run them when the running job has ended

@@ -8,6 +8,14 @@
 namespace spia::viewer {
 namespace {
 
+/// Reads the part again, one thing otherwise.
+template <class Edit> void read_with(Frame& frame, const Edit& edit)
+{
+    Reading reading = reading_of(frame.state.document.session.options.read);
+    edit(reading);
+    frame.actions.push(SetReading{reading});
+}
+
 /// "Show", which stays pressed; for a fault in several places back and forth between them.
 void show_buttons(Frame& frame, int number, const Finding& finding)
 {
@@ -54,9 +62,9 @@ void fix_button(Frame& frame, const Finding& finding)
         ImGui::SameLine();
     ImGui::BeginDisabled(frame.model.busy());
     if (cut && small_button(frame, "Keep the largest piece"))
-        frame.actions.push(SetReading{read.weld, true, read.parts, read.skin});
+        read_with(frame, [](Reading& reading) { reading.keep_largest = true; });
     if (apart && small_button(frame, "Join them"))
-        frame.actions.push(SetReading{true, read.doctor.keep_largest, read.parts, read.skin});
+        read_with(frame, [](Reading& reading) { reading.weld = true; });
     ImGui::EndDisabled();
     tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
                   "three faces. Undo brings it back."
@@ -99,7 +107,7 @@ void deck_parts(Frame& frame, const PartFile& part)
         tooltip("Of the solver deck. Click for one part, Ctrl and click for more.");
     else {
         if (ImGui::Selectable("all", read.parts.empty()))
-            frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}, read.skin});
+            read_with(frame, [](Reading& reading) { reading.parts.clear(); });
         for (size_t k = 0; k < part.deck->parts.size(); ++k) {
             const DeckPart& each = part.deck->parts[k];
             ImGui::PushID(int(k));
@@ -116,7 +124,7 @@ void deck_parts(Frame& frame, const PartFile& part)
                         parts.push_back(key_of(each));
                 } else
                     parts = {key_of(each)};
-                frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts, read.skin});
+                read_with(frame, [&](Reading& reading) { reading.parts = parts; });
             }
             ImGui::PopID();
         }
@@ -145,11 +153,11 @@ void cad_faces(Frame& frame, const PartFile& part)
                     parts.push_back(std::exchange(one, ""));
             } else if (c != ' ')
                 one += c;
-        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, parts, read.skin});
+        read_with(frame, [&](Reading& reading) { reading.parts = parts; });
     }
     tooltip("Faces of the CAD file by their numbers, from 0: for instance 3, 10-19");
     if (!read.parts.empty() && small_button(frame, "All faces"))
-        frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, {}, read.skin});
+        read_with(frame, [](Reading& reading) { reading.parts.clear(); });
     ImGui::EndDisabled();
 }
 
@@ -165,7 +173,7 @@ void solid_skin(Frame& frame, const PartFile& part)
     if (ImGui::BeginCombo("Skin", name(now))) {
         for (const Skin skin : {Skin::outer, Skin::inner, Skin::middle})
             if (ImGui::Selectable(name(skin), skin == now) && skin != now)
-                frame.actions.push(SetReading{read.weld, read.doctor.keep_largest, read.parts, skin});
+                read_with(frame, [&](Reading& reading) { reading.skin = skin; });
         ImGui::EndCombo();
     } else
         tooltip("The surface that stands for the solid: one of its skins, or the middle between them.");

@@ -23,7 +23,7 @@ TEST_F(Picking, PicksStayOnTheirFacesHoweverReadingThePartAgainEnds)
     };
     model.apply(SelectFaces{{100}, PickMode::replace});
     model.apply(MakeRegion{"clamp", RegionKind::binder});
-    model.apply(SetReading{true, true});
+    model.apply(SetReading{{true, true}});
     EXPECT_EQ(document.regions.size(), 1u); // so a project that is saved now has it
     model.apply(SelectFaces{{100, 200}, PickMode::replace});
     model.apply(CancelJob{});

@@ -83,13 +83,13 @@ TEST_F(RefusedPart, IsTakenWithoutItsSmallerPiecesAndRefusedAgainAfterUndo)
 {
     const TriMesh both = shapes::two_rectangles();
     apply(OpenPart{two_pieces(), ""});
-    apply(SetReading{{}, true});
+    apply(SetReading{{{}, true}});
     ASSERT_NE(state.document.session.part, nullptr);
     EXPECT_EQ(state.refused, nullptr);
     EXPECT_LT(state.document.session.part->mesh.triangles(), both.triangles());
     EXPECT_EQ(first_stale(state.document), Stage::solve);
     EXPECT_EQ(state.history.undo_name(), "Read the part otherwise");
-    apply(SetReading{{}, false}); // refused again: what is there stays to be looked at, out of date
+    apply(SetReading{{{}, false}}); // refused again: what is there stays to be looked at, out of date
     EXPECT_EQ(errors(), 1);
     EXPECT_EQ(first_stale(state.document), Stage::read);
     EXPECT_NE(state.document.session.part, nullptr);
@@ -113,12 +113,12 @@ TEST_F(RefusedPart, KeepsRegionsOnTheirFacesWhenFacesBeforeThemAreLeftOut)
     shapes::write_mesh(folder / "rib.obj", both);
 
     apply(OpenPart{folder / "rib.obj", ""});
-    apply(SetReading{{}, true});
+    apply(SetReading{{{}, true}});
     ASSERT_NE(state.document.session.part, nullptr);
     ASSERT_EQ(state.document.session.part->mesh.triangles(), sheet.triangles());
     apply(SelectFaces{{3, 7}, PickMode::replace});
     apply(MakeRegion{"clamp", RegionKind::binder});
-    apply(SetReading{true, true});
+    apply(SetReading{{true, true}});
     ASSERT_EQ(state.document.regions.size(), 1u);
     EXPECT_EQ(state.document.regions[0].faces, (std::vector<int>{3, 7}));
     EXPECT_EQ(errors(), 0);
@@ -147,7 +147,7 @@ TEST_F(RefusedPart, ReadAgainWithItsFacesInAnotherOrderKeepsPicksWhereTheyAreInS
     apply(AddProbe{{7, {0.2, 0.3, 0.5}}});
     apply(SelectVertices{{4}, PickMode::replace});
     shapes::write_mesh(folder / "sheet.obj", other.mesh); // another program wrote the file in its own order
-    apply(SetReading{true, true});
+    apply(SetReading{{true, true}});
     EXPECT_EQ(errors(), 0);
     const Document& after = state.document;
     ASSERT_EQ(after.session.part->mesh.triangle, other.mesh.triangle);

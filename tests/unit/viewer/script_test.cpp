@@ -40,9 +40,10 @@ std::vector<Action> every_action()
             if (Action(value).index() == kind)
                 action = value;
         };
-        set(OpenPart{"parts/door.stl", "inch", Skin::middle});
+        set(ListFile{"parts/door.stl"});
+        set(OpenPart{"parts/door.stl", "inch", {{}, false, {"7", "body:2"}, Skin::middle, 0.02, 0.1}});
         set(SetUnit{"cm"});
-        set(SetReading{true, true, {"7"}, Skin::inner});
+        set(SetReading{{true, true, {"7"}, Skin::inner, 0., 1e-3}});
         set(SetSeam{{SeamOptions::Mode::given, {{3, 9, 4}, {1, 2}}}});
         set(FitMaterial{"bar.csv",
                         "mine.json",

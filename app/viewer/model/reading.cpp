@@ -1,0 +1,21 @@
+#include "app/viewer/model/actions.h"
+
+namespace spia::viewer {
+
+Reading reading_of(const ReadOptions& options)
+{
+    return {options.weld, options.doctor.keep_largest,  options.parts,
+            options.skin, options.cad.sewing_tolerance, options.cad.deflection};
+}
+
+void set_reading(ReadOptions& options, const Reading& reading)
+{
+    options.weld = reading.weld;
+    options.doctor.keep_largest = reading.keep_largest;
+    options.parts = reading.parts;
+    options.skin = reading.skin;
+    options.cad.sewing_tolerance = reading.sewing_mm;
+    options.cad.deflection = reading.deflection_mm;
+}
+
+} // namespace spia::viewer
