@@ -14,6 +14,17 @@ struct Packer {
         if (count > 0)
             bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof values[0]);
     }
+    void row(const std::vector<CadItem>& items)
+    {
+        one(items.size());
+        for (const CadItem& item : items) {
+            one(item.kind);
+            row(item.name);
+            one(item.number);
+            one(item.parent);
+            one(item.faces);
+        }
+    }
     template <class T> void one(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
 };
 
@@ -25,6 +36,19 @@ struct Unpacker {
         one(count);
         values.resize(count);
         take(reinterpret_cast<char*>(values.data()), count * sizeof values[0]);
+    }
+    void row(std::vector<CadItem>& items)
+    {
+        size_t count = 0;
+        one(count);
+        items.resize(count);
+        for (CadItem& item : items) {
+            one(item.kind);
+            row(item.name);
+            one(item.number);
+            one(item.parent);
+            one(item.faces);
+        }
     }
     template <class T> void one(T& value) { take(reinterpret_cast<char*>(&value), sizeof value); }
 
@@ -46,6 +70,8 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.face);
     way.one(cad.faces);
     way.one(cad.taken);
+    way.row(cad.tree.item);
+    way.row(cad.tree.body_of);
     way.one(cad.solid);
     way.row(cad.format);
     way.row(cad.unit);

@@ -18,6 +18,7 @@
 #include <sstream>
 
 #include "engine/core/error.h"
+#include "engine/exchange/cad_names.h"
 #include "engine/exchange/file_content.h"
 #include "engine/exchange/iges_check.h"
 #include "engine/exchange/occt_progress.h"
@@ -42,7 +43,8 @@ std::string unit_of(IGESControl_Reader& reader)
     return model->GlobalSection().UnitName()->ToCString();
 }
 
-void read_model(XSControl_Reader& reader, const std::filesystem::path& path, CadShape& result, const Progress& progress)
+CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path, CadShape& result,
+                    const Progress& progress)
 {
     if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
         refuse("OpenCASCADE finds no model in it");
@@ -52,6 +54,7 @@ void read_model(XSControl_Reader& reader, const std::filesystem::path& path, Cad
     const Handle(OcctProgress) passed_on = new OcctProgress(progress.part(0.4, 1), "making its faces");
     reader.TransferRoots(passed_on->Start());
     result.shape = reader.OneShape();
+    return CadNames(reader);
 }
 
 void read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
@@ -65,7 +68,7 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
 }
 
-void read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)
+CadNames read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
     const std::string content = file_content(path);
     if (content.substr(0, 1000).find("ISO-10303-21") == std::string::npos)
@@ -74,18 +77,20 @@ void read_step(const std::filesystem::path& path, CadShape& result, const Progre
         content.find("END-ISO-10303-21", content.rfind("ENDSEC")) == std::string::npos)
         refuse("it was cut short (its last line END-ISO-10303-21 is missing)");
     STEPControl_Reader reader;
-    read_model(reader, path, result, progress);
+    CadNames names = read_model(reader, path, result, progress);
     result.unit = unit_of(reader);
+    return names;
 }
 
-void read_iges(const std::filesystem::path& path, CadShape& result, const Progress& progress)
+CadNames read_iges(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
     std::istringstream content(file_content(path));
     if (const std::string fault = fault_of_iges(content); !fault.empty())
         refuse(fault);
     IGESControl_Reader reader;
-    read_model(reader, path, result, progress);
+    CadNames names = read_model(reader, path, result, progress);
     result.unit = unit_of(reader);
+    return names;
 }
 
 } // namespace
@@ -97,22 +102,23 @@ CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progr
                    [](unsigned char c) { return char(std::tolower(c)); });
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     CadShape result;
+    CadNames names;
     if (extension == ".brep") {
         result.format = "BREP";
         read_brep(path, result, progress);
     } else if (extension == ".stp" || extension == ".step") {
         result.format = "STEP";
-        read_step(path, result, progress);
+        names = read_step(path, result, progress);
     } else {
         result.format = "IGES";
-        read_iges(path, result, progress);
+        names = read_iges(path, result, progress);
     }
     if (!result.shape.IsNull())
         for (TopExp_Explorer at(result.shape, TopAbs_FACE); at.More(); at.Next())
             result.face.push_back(TopoDS::Face(at.Current()));
     if (result.face.empty())
         throw InputError("it holds no face; export the part with its surfaces (curves and points alone make no sheet)");
-    result.solid = TopExp_Explorer(result.shape, TopAbs_SOLID).More();
+    result.tree = tree_of(result.shape, names);
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/cad_tree.h"
 
 namespace spia {
 
@@ -13,7 +14,7 @@ namespace spia {
 struct CadShape {
     TopoDS_Shape shape;
     std::vector<TopoDS_Face> face; ///< by its number: the order of the file
-    bool solid = false;            ///< some body is closed and filled
+    CadTree tree;                  ///< assemblies and bodies with these faces
     std::string format;            ///< e.g. "STEP"
     std::string unit;              ///< of the file, e.g. "INCH"; empty if it names none (BREP)
 };

@@ -9,24 +9,27 @@
 
 namespace spia {
 
-/// What can be chosen of a file before it is read as a part: an assembly, a body or a loose face group of a CAD file; a part, property or
-/// element set of a deck.
+/// What can be chosen of a file before it is read as a part: an assembly, a body or loose faces of a CAD file; a part, property or
+/// element set of a deck. A mesh file is one item.
 struct FileItem {
-    std::string choice;                   ///< what ReadOptions::parts takes for it, e.g. "3", "Hood" or "body:2"
-    std::string name;                     ///< in the file; empty: none
-    std::string kind;                     ///< for people, e.g. "assembly", "solid", "sheet body", "part", "element set"
-    int parent = -1;                      ///< index of the item that holds it; -1: none
-    int faces = 0;                        ///< CAD faces, shells or polygons in it and in what it holds
-    double area = 0;                      ///< of the preview, in its unit squared
+    std::string
+        choice;       ///< what ReadOptions::parts takes for it, e.g. "3", "Hood", "body:2" or "assembly:0"; empty: the
+                      ///< file is taken whole
+    std::string name; ///< in the file; empty: none
+    std::string
+        kind; ///< for people, e.g. "assembly", "solid", "sheet body", "loose faces", "part", "element set", "mesh"
+    int parent = -1; ///< index of the item that holds it; -1: none
+    int faces = 0;   ///< CAD faces, shells with all their nodes, or polygons, in it and in what it holds
+    double area = 0; ///< of the preview, in its unit squared, in it and in what it holds
     std::optional<double> thickness = {}; ///< in the unit of the file
     std::string material = {};
-    bool solid = false; ///< a closed body: one of its skins would be taken
+    bool solid = false; ///< of a CAD file: a filled body; one of its skins would be taken
 };
 
 /// What a file holds, at a glance.
 struct FileItems {
     std::string format;         ///< e.g. "STEP"
-    std::string unit;           ///< of length that the file names; empty: none
+    std::string unit;           ///< of length that the file names, as it writes it; empty: none
     std::vector<FileItem> item; ///< holders before what they hold; sets, which may overlap, last
     PolygonSoup preview;        ///< all faces, coarse for CAD; CAD files: mm, else in the unit of the file
     std::vector<int> item_of;   ///< per polygon of the preview: the innermost item it belongs to; -1: none

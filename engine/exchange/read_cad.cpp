@@ -6,7 +6,6 @@
 #include <Standard_Failure.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/core.h>
 #include <set>
@@ -34,33 +33,6 @@ void require_options(const CadOptions& options)
         throw InputError("the deflection must be a length in mm above 0");
     if (!(options.angle > 0.01 && options.angle < 1.6))
         throw InputError("the angle between chord ends must be between 0.01 and 1.6 radians");
-}
-
-/// "7" or "10-19", as a set of numbers below `faces`.
-void choose(const std::string& text, int faces, std::set<int>& chosen)
-{
-    int from = -1, to = -1;
-    const char *end = text.data() + text.size(), *after = std::from_chars(text.data(), end, from).ptr;
-    if (after != end && *after == '-')
-        after = std::from_chars(after + 1, end, to).ptr;
-    else
-        to = from;
-    if (after != end || from < 0 || to < from || to >= faces)
-        throw InputError(fmt::format("'{}' is not a face of the file; give numbers from 0 to {}, or a range like 0-{}",
-                                     text, faces - 1, faces - 1));
-    for (int f = from; f <= to; ++f)
-        chosen.insert(f);
-}
-
-std::vector<int> chosen_faces(std::span<const std::string> wanted, int faces)
-{
-    std::set<int> chosen;
-    for (const std::string& text : wanted)
-        choose(text, faces, chosen);
-    if (wanted.empty())
-        for (int f = 0; f < faces; ++f)
-            chosen.insert(f);
-    return {chosen.begin(), chosen.end()};
 }
 
 double diagonal_of(const TopoDS_Shape& shape)
@@ -108,10 +80,13 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     CadContent result;
     result.format = shape.format;
     result.unit = shape.unit;
-    result.solid = shape.solid;
     result.faces = int(shape.face.size());
-    const std::vector<int> numbers = chosen_faces(wanted, result.faces);
+    const std::vector<int> numbers = chosen_faces(shape.tree, wanted);
     result.taken = int(numbers.size());
+    result.tree = std::move(shape.tree);
+    result.solid = std::any_of(numbers.begin(), numbers.end(), [&](int face) {
+        return result.tree.item[size_t(result.tree.body_of[size_t(face)])].kind == CadItem::Kind::solid;
+    });
     std::vector<TopoDS_Face> taken;
     for (const int number : numbers)
         taken.push_back(shape.face[size_t(number)]);
@@ -144,20 +119,38 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     return result;
 }
 
-CadContent read_here(const std::filesystem::path& path, const CadOptions& options, std::span<const std::string> wanted,
-                     std::optional<LengthUnit> unit, const Progress& progress)
+CadContent coarse(CadShape& shape, const Progress& progress)
 {
-    try {
-        CadShape shape = read_cad_shape(path, progress.part(0, 0.4));
-        if (unit)
-            scale(shape, *unit);
-        return content_of(shape, options, wanted, progress.part(0.4, 1));
-    } catch (const Standard_Failure& failure) {
-        throw InputError(
-            fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
-    } catch (const std::length_error& error) { // a count in a damaged file
-        throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
-    }
+    constexpr double parts_of_diagonal = 500, angle = 0.5;
+    CadContent result;
+    result.format = shape.format;
+    result.unit = shape.unit;
+    result.faces = result.taken = int(shape.face.size());
+    result.tree = std::move(shape.tree);
+    result.deflection = diagonal_of(compound_of(shape.face)) / parts_of_diagonal;
+    FaceTriangles mesh = mesh_faces(shape.face, result.deflection, angle, progress);
+    result.soup = std::move(mesh.soup);
+    result.face = std::move(mesh.face);
+    return result;
+}
+
+/// In a process of its own, with what OpenCASCADE throws said in our words.
+template <class Work> CadContent apart(const Work& work, const Progress& progress)
+{
+    const OcctSession session; // held here for as long as the child works
+    const auto in_it = [&](const Progress& told, const ChildLog& log) {
+        session.redirect(log);
+        try {
+            return packed(work(told));
+        } catch (const Standard_Failure& failure) {
+            throw InputError(
+                fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
+        } catch (const std::length_error& error) { // a count in a damaged file
+            throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
+        }
+    };
+    const auto log = [](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); };
+    return unpacked(in_child(in_it, log, progress));
 }
 
 } // namespace
@@ -172,13 +165,24 @@ CadContent read_cad(const std::filesystem::path& path, const CadOptions& options
                     std::optional<LengthUnit> unit, const Progress& progress)
 {
     require_options(options);
-    const OcctSession session; // held here for as long as the child works
-    const auto work = [&](const Progress& told, const ChildLog& log) {
-        session.redirect(log);
-        return packed(read_here(path, options, wanted, unit, told));
-    };
-    const auto log = [](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); };
-    return unpacked(in_child(work, log, progress));
+    return apart(
+        [&](const Progress& told) {
+            CadShape shape = read_cad_shape(path, told.part(0, 0.4));
+            if (unit)
+                scale(shape, *unit);
+            return content_of(shape, options, wanted, told.part(0.4, 1));
+        },
+        progress);
+}
+
+CadContent preview_cad(const std::filesystem::path& path, const Progress& progress)
+{
+    return apart(
+        [&](const Progress& told) {
+            CadShape shape = read_cad_shape(path, told.part(0, 0.6));
+            return coarse(shape, told.part(0.6, 1));
+        },
+        progress);
 }
 
 } // namespace spia

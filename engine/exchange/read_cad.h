@@ -10,6 +10,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/exchange/cad_options.h"
+#include "engine/exchange/cad_tree.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/mesh/soup.h"
 
@@ -28,7 +29,8 @@ struct CadContent {
     std::vector<int> face;        ///< per triangle the face it lies on
     int faces = 0;                ///< of the file
     int taken = 0;                ///< of them
-    bool solid = false;           ///< the file holds a closed body
+    CadTree tree;                 ///< what the file holds
+    bool solid = false;           ///< some of the faces taken are of a solid
     std::string format;           ///< e.g. "STEP"
     std::string unit;             ///< that the file names, e.g. "INCH"; lengths here are mm; empty: it names none
     double deflection = 0;        ///< mm, largest distance between triangle and face that was asked for
@@ -46,12 +48,17 @@ bool is_cad(std::string_view extension);
 
 /// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one file at a time. That is done in a
 /// process of its own (in_child()), for OpenCASCADE crashes and hangs on some damaged files.
-/// @param wanted  faces to take, "7" or "10-19"; empty: all
+/// @param wanted  faces to take, as chosen_faces() has it; empty: all
 /// @param unit  of a BREP file (not given: mm); the others name their unit, and it is obeyed
 /// @throws InputError  the file is damaged or holds no face, a face wanted does not exist, an option makes no sense, a
 ///         unit is given and the file has its own
 CadContent read_cad(const std::filesystem::path& path, const CadOptions& options = {},
                     std::span<const std::string> wanted = {}, std::optional<LengthUnit> unit = {},
                     const Progress& progress = {});
+
+/// The faces of such a file as they are, neither healed nor sewn, in triangles that are coarse: enough to show what there is. It has soup,
+/// face, faces, tree, format and unit.
+/// @throws InputError  the file is damaged or holds no face
+CadContent preview_cad(const std::filesystem::path& path, const Progress& progress = {});
 
 } // namespace spia

@@ -1,18 +1,15 @@
 #include "engine/exchange/read_part.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
 #include "engine/exchange/cad_findings.h"
-#include "engine/exchange/checked_file.h"
 #include "engine/exchange/deck_choice.h"
 #include "engine/exchange/file_content.h"
+#include "engine/exchange/mesh_file.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
-#include "engine/exchange/read_gltf.h"
-#include "engine/exchange/read_openmesh.h"
 #include "engine/exchange/take_skin.h"
 #include "engine/mesh/topology.h"
 
@@ -20,52 +17,6 @@ namespace spia {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One of stl, obj, ply, off, gltf, glb, or of a deck or CAD file.
-std::string extension_of(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
-        if (extension == known)
-            return extension.substr(1);
-    if (is_deck(extension) || is_cad(extension))
-        return extension.substr(1);
-    throw InputError(fmt::format(
-        "the extension '{}' is not known; parts are read from .stl, .obj, .ply, .off, .gltf and .glb files, "
-        "from CAD files .step, .stp, .iges, .igs and .brep, and from solver decks .k, .key, .dyn, .bdf, .nas, .dat, .inp, .msh and .rad",
-        extension));
-}
-
-CheckedFile check(const std::string& extension, std::string_view content)
-{
-    if (extension == "obj")
-        return check_obj(content);
-    if (extension == "off")
-        return check_off(content);
-    if (extension == "ply")
-        return check_ply(content);
-    return check_stl(content);
-}
-
-/// Fills format and notes of the part.
-PolygonSoup soup_of(const fs::path& path, const std::string& extension, PartFile& part, const Progress& progress)
-{
-    const std::string content = file_content(path);
-    progress.checkpoint(0.2, "reading the file");
-    if (extension == "gltf" || extension == "glb") {
-        GltfContent gltf = read_gltf(path, content, progress.part(0.2, 1));
-        part.format = extension == "glb" ? "glTF (binary)" : "glTF (text)";
-        part.notes = std::move(gltf.notes);
-        return std::move(gltf.soup);
-    }
-    const CheckedFile checked = check(extension, content);
-    progress.checkpoint(0.6, "reading the file");
-    part.format = checked.format;
-    part.notes = checked.notes;
-    return read_openmesh(checked);
-}
 
 /// What leads back to the deck; lengths in its unit.
 DeckOrigin origin_of(const Deck& deck, const DeckChoice& choice)
@@ -229,7 +180,7 @@ void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, b
 
 PartFile examine_file(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
-    const std::string extension = extension_of(path);
+    const std::string extension = part_extension(path);
     PartFile part;
     if (is_deck("." + extension)) {
         const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
@@ -249,12 +200,14 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         throw InputError("parts can be chosen from solver decks and CAD files only; this file is taken whole");
     const bool gltf = extension == "gltf" || extension == "glb";
     part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
-    PolygonSoup soup = soup_of(path, extension, part, progress.part(0, 0.5));
+    MeshFile file = read_mesh_file(path, extension, progress.part(0, 0.5));
+    part.format = std::move(file.format);
+    part.notes = std::move(file.notes);
     if (gltf && !options.unit)
         part.notes.push_back("lengths were taken as metres, as the glTF specification says");
-    for (Eigen::Vector3d& p : soup.position)
+    for (Eigen::Vector3d& p : file.soup.position)
         p *= millimetres(part.unit);
-    fill(part, soup, options, gltf || extension == "stl", false, progress.part(0.5, 1));
+    fill(part, file.soup, options, gltf || extension == "stl", false, progress.part(0.5, 1));
     return part;
 }
 
