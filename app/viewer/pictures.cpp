@@ -136,7 +136,7 @@ Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerStat
     ui.scale = scale;
     ui.fonts = gui.fonts();
     ActionQueue nobody;
-    Frame frame{model, state, nobody, ui, cache, {}, {}};
+    Frame frame{model, state, nobody, ui, cache, {}, {}, {}};
     gui.frame([&] {
         ImDrawList* const draw = ImGui::GetBackgroundDrawList();
         const ImVec2 size{float(width), float(height)};
@@ -170,6 +170,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.show_export = aside.show_picture = aside.show_report = aside.show_material = aside.show_shortcuts = false;
     std::array<Renderer::Image, 4> images;
     std::vector<Renderer::Image> steps;
+    Renderer::Image beside;
     ActionQueue nobody;
     Look look;
     look.dark = model.state().view.dark;
@@ -185,6 +186,9 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
                     const Camera& camera = model.state().view.camera[size_t(view)];
                     return reinterpret_cast<ImTextureID>(
                         uintptr_t(renderer.draw(images[size_t(view)], shown, camera, w, h, look)));
+                },
+                [&](const Scene& shown, const Camera& camera, int w, int h) {
+                    return reinterpret_cast<ImTextureID>(uintptr_t(renderer.draw(beside, shown, camera, w, h, look)));
                 },
                 [&](const StepPicture& small, size_t step, int w, int h) {
                     while (steps.size() <= step)

@@ -140,6 +140,8 @@ private:
     {
         if (file.extension() == project_ending)
             queue_.push(OpenProject{file});
+        else if (has_choices(file) && unit.empty() && !options_.exit && !options_.run_all)
+            queue_.push(ListFile{file});
         else
             queue_.push(OpenPart{file, unit});
     }
@@ -207,20 +209,23 @@ private:
             ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
         ImGui::NewFrame();
         images_.begin_frame();
-        Frame now{model_,
-                  model_.state(),
-                  queue_,
-                  ui_,
-                  cache_,
-                  [&](const Scene& shown, View view, int w, int h) {
-                      return reinterpret_cast<ImTextureID>(
-                          uintptr_t(images_.draw(size_t(view), ui_.busy == view, shown,
-                                                 model_.state().view.camera[size_t(view)], w, h, look())));
-                  },
-                  [&](const StepPicture& picture, size_t step, int w, int h) {
-                      return reinterpret_cast<ImTextureID>(
-                          uintptr_t(images_.draw_small(step, picture.scene, picture.camera, w, h, look())));
-                  }};
+        Frame now{
+            model_,
+            model_.state(),
+            queue_,
+            ui_,
+            cache_,
+            [&](const Scene& shown, View view, int w, int h) {
+                return reinterpret_cast<ImTextureID>(uintptr_t(images_.draw(
+                    size_t(view), ui_.busy == view, shown, model_.state().view.camera[size_t(view)], w, h, look())));
+            },
+            [&](const Scene& shown, const Camera& camera, int w, int h) {
+                return reinterpret_cast<ImTextureID>(uintptr_t(images_.draw_small(0, shown, camera, w, h, look())));
+            },
+            [&](const StepPicture& picture, size_t step, int w, int h) {
+                return reinterpret_cast<ImTextureID>(
+                    uintptr_t(images_.draw_small(1 + step, picture.scene, picture.camera, w, h, look())));
+            }};
         ui_.keys = std::exchange(ui_.keys_later, {});
         for (const KeyPress& press : std::exchange(GlWindow::keys(), {}))
             ui_.keys.push_back(press);

@@ -71,7 +71,7 @@ protected:
     ActionQueue actions;
     Ui ui;
     SceneCache cache;
-    Frame now{model, model.state(), actions, ui, cache, {}, {}};
+    Frame now{model, model.state(), actions, ui, cache, {}, {}, {}};
     double value = 1, step = 0;
     bool focus = false;
     char other[8] = "";

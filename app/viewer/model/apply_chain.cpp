@@ -49,8 +49,8 @@ void ViewerModel::Apply::operator()(const ListFile& action)
 {
     (*this)(CloseList{});
     state.listing = FileListing{action.file};
-    model.list_job_ = std::make_unique<Job<FileItems>>(
-        [file = action.file](const Progress& progress) { return list_items(file, progress); }, model.wake_);
+    model.list_job_ = std::make_unique<Job<ListedFile>>(
+        [file = action.file](const Progress& progress) { return look_into(file, progress); }, model.wake_);
 }
 
 void ViewerModel::Apply::operator()(const CloseList&)

@@ -7,8 +7,8 @@
 
 #include "app/viewer/model/camera.h"
 #include "app/viewer/model/document.h"
+#include "app/viewer/model/file_listing.h"
 #include "app/viewer/model/history.h"
-#include "engine/exchange/list_items.h"
 
 namespace spia::viewer {
 
@@ -75,15 +75,6 @@ struct LaterResults {
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;
     std::shared_ptr<const SurfaceStage> surface;
-};
-
-/// A file that is about to be opened: what can be chosen of it.
-struct FileListing {
-    std::filesystem::path file;
-    std::shared_ptr<const FileItems> items; ///< null: not yet, or there is a failure
-    std::string failure;                    ///< why it cannot be read; empty: none
-    std::string step;                       ///< of the work; with its fraction
-    double fraction = 0;
 };
 
 struct ViewerState;

@@ -35,6 +35,23 @@ Json part_json(const Session& session)
             {"seam_length", session.part->seam_length}};
 }
 
+Json listing_json(const ViewerState& state)
+{
+    if (!state.listing)
+        return nullptr;
+    Json json = {{"file", state.listing->file.string()}, {"failure", state.listing->failure}, {"items", nullptr}};
+    if (state.listing->listed) {
+        json["items"] = Json::array();
+        for (const FileItem& item : state.listing->listed->items.item)
+            json["items"].push_back({{"choice", item.choice},
+                                     {"name", item.name},
+                                     {"kind", item.kind},
+                                     {"faces", item.faces},
+                                     {"parent", item.parent}});
+    }
+    return json;
+}
+
 Json options_json(const Document& document)
 {
     const SessionOptions& options = document.session.options;
@@ -234,6 +251,7 @@ Json state_report(const ViewerState& state)
     const Eigen::VectorXd field = shown_field(document);
     return {{"schema", "spia-state/1"},
             {"part", part_json(document.session)},
+            {"listing", listing_json(state)},
             {"options", options_json(document)},
             {"stages", stages_json(document.session)},
             {"figures", figures_json(document)},

@@ -180,7 +180,7 @@ void ViewerModel::follow_list()
         return;
     const auto job = std::move(list_job_);
     try {
-        listing.items = std::make_shared<const FileItems>(job->take());
+        listing.listed = std::make_shared<const ListedFile>(job->take());
     } catch (const std::exception& error) {
         listing.failure = error.what();
     }

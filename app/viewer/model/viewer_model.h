@@ -96,8 +96,8 @@ private:
         ending_; ///< cancelled, nobody waits for them; they end by themselves
     std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
     std::unique_ptr<Job<StepsOutcome>> steps_job_;
-    std::unique_ptr<Job<FileItems>> list_job_;
-    std::vector<std::unique_ptr<Job<FileItems>>> ending_lists_; ///< as ending_
+    std::unique_ptr<Job<ListedFile>> list_job_;
+    std::vector<std::unique_ptr<Job<ListedFile>>> ending_lists_; ///< as ending_
     StepList running_list_; ///< the one that it runs, or ran: may have been edited meanwhile
     std::vector<std::unique_ptr<Job<StepsOutcome>>> ending_steps_; ///< as ending_
     bool steps_next_ = false;                                      ///< run them when the running job has ended

@@ -124,6 +124,7 @@ void dialogs(Frame& frame)
 {
     unsaved_dialog(frame);
     recovery_dialog(frame);
+    import_dialog(frame);
     export_dialog(frame);
     picture_dialog(frame);
     report_dialog(frame);
@@ -137,7 +138,12 @@ void dialogs(Frame& frame)
         return;
     }
     switch (frame.ui.files.purpose()) {
-    case FileDialog::Purpose::open_part: frame.actions.push(OpenPart{*path, ""}); break;
+    case FileDialog::Purpose::open_part:
+        if (has_choices(*path))
+            frame.actions.push(ListFile{*path});
+        else
+            frame.actions.push(OpenPart{*path, ""});
+        break;
     case FileDialog::Purpose::open_project: frame.actions.push(OpenProject{*path}); break;
     case FileDialog::Purpose::save_project:
         frame.actions.push(SaveProject{*path});

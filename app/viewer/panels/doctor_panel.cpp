@@ -161,6 +161,19 @@ void cad_faces(Frame& frame, const PartFile& part)
     ImGui::EndDisabled();
 }
 
+/// The dialog of import once more.
+void choose_again(Frame& frame)
+{
+    const std::filesystem::path& file = frame.state.document.session.file;
+    if (!has_choices(file))
+        return;
+    ImGui::BeginDisabled(frame.model.busy());
+    if (small_button(frame, "Choose in the file..."))
+        frame.actions.push(ListFile{file});
+    ImGui::EndDisabled();
+    tooltip("Shows what the file holds, and reads it again otherwise");
+}
+
 /// Which surface stands for a solid of sheet.
 void solid_skin(Frame& frame, const PartFile& part)
 {
@@ -218,6 +231,7 @@ void doctor_panel(Frame& frame)
     const PartFile* part = examined(state);
     if (!part)
         return;
+    choose_again(frame);
     deck_parts(frame, *part);
     cad_faces(frame, *part);
     solid_skin(frame, *part);

@@ -21,6 +21,8 @@ void menu_bar(Frame& frame)
                 if (ImGui::MenuItem(file.string().c_str())) {
                     if (file.extension() == project_ending)
                         frame.actions.push(OpenProject{file});
+                    else if (has_choices(file))
+                        frame.actions.push(ListFile{file});
                     else
                         frame.actions.push(OpenPart{file, ""});
                 }

@@ -20,7 +20,4 @@ void blank_of_steps(Frame& frame);
 /// Whether it could be used for the chain and is not.
 bool blank_of_steps_waits(const Document& document);
 
-/// Notes where the last item is, so that a test finds it with the mouse.
-void note_place(Frame& frame, const std::string& name);
-
 } // namespace spia::viewer

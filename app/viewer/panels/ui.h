@@ -14,6 +14,7 @@
 #include "app/viewer/panels/edited_region.h"
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
+#include "app/viewer/panels/import_dialog.h"
 #include "app/viewer/panels/labels.h"
 #include "app/viewer/panels/material_dialog.h"
 #include "app/viewer/panels/picture_dialog.h"
@@ -84,6 +85,7 @@ struct Ui {
     PictureChoices picturing;
     ReportChoices reporting;
     MaterialChoices fitting;
+    ImportChoices importing;
 
     Charts charts;
     std::optional<SectionMark> section_mark;
@@ -94,7 +96,7 @@ struct Ui {
     int step_fixed = 0, step_freed = -1;                ///< regions of the step to be added; -1: the selection
     int step_onto = -1;                                 ///< region whose plane is its target; -1: fitted to what stays
     bool polish_steps = false;                          ///< their blank, when it is taken for the chain
-    std::map<std::string, std::array<ImVec2, 2>> items; ///< of the steps, from and to: where a mouse finds them
+    std::map<std::string, std::array<ImVec2, 2>> items; ///< of steps and import, from and to: where a mouse finds them
     std::vector<StepPicture> step_pictures;
     bool steps_listed = false;          ///< in the last frame
     std::optional<float> playing;       ///< the unfolding, at this position
@@ -123,6 +125,8 @@ struct Frame {
     SceneCache& cache;
     /// Draws a view of this size (pixels) and gives its texture for ImGui.
     std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
+    /// A picture beside the four views; null where it comes a frame later.
+    std::function<ImTextureID(const Scene& scene, const Camera& camera, int width, int height)> draw_small;
     /// The same for the small picture of a step; null where it comes a frame later.
     std::function<ImTextureID(const StepPicture& picture, size_t step, int width, int height)> draw_step;
 };
@@ -136,6 +140,8 @@ void end_line(Frame& frame);
 void regions_section(Frame& frame);
 /// Unfolding step by step.
 void unfolding_section(Frame& frame);
+/// Notes where the last item is, so that a test finds it with the mouse.
+void note_place(Frame& frame, const std::string& name);
 /// What the mesh doctor found, where, and what can be done about it.
 void doctor_panel(Frame& frame);
 /// Residual of the running job over its steps, logarithmic; nothing before there are two.

@@ -1,0 +1,348 @@
+#include "app/viewer/panels/import_dialog.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/viewer/model/picking.h"
+#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/widgets.h"
+#include "app/viewer/views/import_scene.h"
+#include "app/viewer/views/scene_mesh.h"
+
+namespace spia::viewer {
+namespace {
+
+bool is_cad_file(const FileItems& items)
+{
+    return items.format == "STEP" || items.format == "IGES" || items.format == "BREP";
+}
+
+/// The choices that stand when the file appears: those that the part was read with if it is its file.
+void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& listed)
+{
+    ImportChoices fresh;
+    fresh.about = listed;
+    const Session& session = frame.state.document.session;
+    if (session.file == frame.state.listing->file) {
+        const ReadOptions& read = session.options.read;
+        fresh.chosen = items_of(listed->items, read.parts);
+        fresh.unit = read.unit ? std::string(name(*read.unit)) : "";
+        fresh.skin = read.skin;
+        fresh.keep_largest = read.doctor.keep_largest;
+        const auto typed = [](const std::optional<double>& mm) { return mm ? fmt::format("{}", *mm) : std::string(); };
+        fresh.sewing = typed(read.cad.sewing_tolerance);
+        fresh.deflection = typed(read.cad.deflection);
+    } else {
+        fresh.chosen.assign(listed->items.item.size(), 0);
+        if (const int item = proposed_item(listed->items); item >= 0)
+            fresh.chosen[size_t(item)] = 1;
+    }
+    if (listed->mesh.triangles() > 0)
+        fresh.mesh = std::make_shared<SceneMesh>(scene_mesh(listed->mesh));
+    frame.ui.importing = std::move(fresh);
+}
+
+/// A length that was typed: nothing if the field is empty; false if it is none.
+bool read_length(const std::string& text, bool may_be_zero, std::optional<double>& mm)
+{
+    mm.reset();
+    const size_t from = text.find_first_not_of(' ');
+    if (from == text.npos)
+        return true;
+    double value = 0;
+    const char *begin = text.data() + from, *end = text.data() + text.find_last_not_of(' ') + 1;
+    const auto [after, fault] = std::from_chars(begin, end, value);
+    constexpr double most = 1000;
+    if (fault != std::errc() || after != end || !(value >= 0 && value <= most) || (value == 0 && !may_be_zero))
+        return false;
+    mm = value;
+    return true;
+}
+
+std::string size_words(const ListedFile& listed)
+{
+    if (!listed.picker)
+        return "";
+    const Eigen::Vector3d size = listed.picker->box().sizes();
+    return fmt::format("{:.4g} x {:.4g} x {:.4g}", size.x(), size.y(), size.z());
+}
+
+void summary_line(const Frame& frame, const ListedFile& listed)
+{
+    const FileItems& items = listed.items;
+    const std::string unit = is_cad_file(items) ? " mm" : "";
+    std::string text = items.format + (items.unit.empty() ? ", names no unit of length" : ", lengths in " + items.unit);
+    if (const std::string size = size_words(listed); !size.empty())
+        text += ", " + size + unit;
+    muted(frame, text);
+}
+
+std::string item_words(const FileItem& item)
+{
+    std::string text = item.name.empty() ? item.choice : item.name;
+    return text.empty() ? item.kind : text;
+}
+
+std::string item_figures(const FileItem& item)
+{
+    std::string text = fmt::format("{}, {} {}", item.kind, item.faces, item.faces == 1 ? "face" : "faces");
+    if (item.thickness)
+        text += fmt::format(", {:.4g} thick", *item.thickness);
+    if (!item.material.empty())
+        text += ", " + item.material;
+    return text;
+}
+
+void choose(ImportChoices& choices, int item, bool add)
+{
+    const bool was = choices.chosen[size_t(item)] != 0;
+    const auto count = std::count(choices.chosen.begin(), choices.chosen.end(), char(1));
+    if (!add)
+        std::fill(choices.chosen.begin(), choices.chosen.end(), char(0));
+    choices.chosen[size_t(item)] = add ? !was : !was || count > 1;
+}
+
+/// The items as a list, those that hold others before these and farther to the left.
+void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
+{
+    ImportChoices& choices = frame.ui.importing;
+    const FileItems& items = listed.items;
+    const Palette p = palette_of(frame.state.view.dark);
+    const float s = frame.ui.scale;
+    std::optional<int> hovered;
+    ImGui::BeginChild("items", size, true);
+    const bool everything = std::none_of(choices.chosen.begin(), choices.chosen.end(), [](char c) { return c != 0; });
+    if (ImGui::Selectable("The whole file", everything))
+        std::fill(choices.chosen.begin(), choices.chosen.end(), char(0));
+    note_place(frame, "import whole");
+    ImGui::Dummy({0, 2 * s});
+    for (int i = 0; i < int(items.item.size()); ++i) {
+        const FileItem& item = items.item[size_t(i)];
+        int depth = 0;
+        for (int holder = item.parent; holder >= 0; holder = items.item[size_t(holder)].parent)
+            ++depth;
+        ImGui::PushID(i);
+        const float indent = 14 * s * float(std::min(depth, 8));
+        if (indent > 0)
+            ImGui::Indent(indent);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float line = ImGui::GetTextLineHeight(), room = ImGui::GetContentRegionAvail().x;
+        ImGui::BeginDisabled(item.choice.empty() || item.faces == 0);
+        if (ImGui::Selectable("##item", choices.chosen[size_t(i)] != 0, 0, {0, 2 * line}))
+            choose(choices, i, ImGui::GetIO().KeyCtrl);
+        ImGui::EndDisabled();
+        note_place(frame, fmt::format("import item {}", i));
+        if (ImGui::IsItemHovered()) {
+            hovered = i;
+            tooltip(item_words(item) + "\n" + item_figures(item) +
+                    (item.choice.empty() ? "" : "\nClick for this one, Ctrl and click for more"));
+        }
+        ImDrawList* draw = ImGui::GetWindowDrawList();
+        draw->PushClipRect(at, {at.x + room, at.y + 2 * line}, true);
+        draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), item_words(item).c_str());
+        draw->AddText(frame.ui.fonts.small, frame.ui.fonts.small->FontSize, {at.x, at.y + line}, ink(p.muted),
+                      item_figures(item).c_str());
+        draw->PopClipRect();
+        if (indent > 0)
+            ImGui::Unindent(indent);
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+    if (hovered || ImGui::IsItemHovered())
+        choices.hovered = hovered;
+}
+
+/// The preview: turned and zoomed like the views; a click chooses the item there.
+void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
+{
+    ImportChoices& choices = frame.ui.importing;
+    const ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 at = ImGui::GetCursorScreenPos(), to{at.x + size.x, at.y + size.y};
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    ImGui::InvisibleButton("preview", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    note_place(frame, "import preview");
+    const glm::dvec2 view(size.x, size.y), pixel(io.MousePos.x - at.x, io.MousePos.y - at.y);
+    if (!choices.mesh) {
+        draw->AddText({at.x + 12, at.y + 12}, ImGui::GetColorU32(ImGuiCol_TextDisabled), "No faces to be seen");
+        draw->AddRect(at, to, ImGui::GetColorU32(ImGuiCol_Border));
+        return;
+    }
+    if (choices.camera == Camera{})
+        choices.camera = import_camera(listed, view);
+    if (ImGui::IsItemActivated()) {
+        choices.panning = ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(1) && io.KeyShift);
+        choices.moved = false;
+    }
+    if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+        constexpr float slack = 4; // pixels: a click may shake
+        choices.moved = choices.moved || ImGui::IsMouseDragging(0, slack) ||
+                        ImGui::IsMouseDragging(1, slack) || ImGui::IsMouseDragging(2, slack);
+        const glm::dvec2 drag(io.MouseDelta.x, io.MouseDelta.y);
+        if (choices.moved)
+            choices.camera = choices.panning ? pan(choices.camera, drag, view) : orbit(choices.camera, drag, view);
+    }
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0)
+        choices.camera = zoom(choices.camera, std::pow(1.15, io.MouseWheel), pixel, view);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+        const RayHit hit = hit_at(choices.camera, *listed.picker, pixel, view);
+        choices.hovered.reset();
+        if (hit.face >= 0) {
+            const int p = listed.polygon[size_t(hit.face)], item = listed.items.item_of[size_t(p)];
+            if (item >= 0)
+                choices.hovered = item;
+            ImGui::SetTooltip("%s%s %d", item >= 0 ? (item_words(listed.items.item[size_t(item)]) + ", ").c_str() : "",
+                              is_cad_file(listed.items) ? "face" : "shell", listed.items.face_of[size_t(p)]);
+        }
+    }
+    if (ImGui::IsItemDeactivated() && !choices.moved && choices.hovered &&
+        !listed.items.item[size_t(*choices.hovered)].choice.empty())
+        choose(choices, *choices.hovered, io.KeyCtrl);
+    const ImVec2 dots = io.DisplayFramebufferScale;
+    const Scene& scene = choices.scene.of({choices.about, choices.chosen, choices.hovered}, [&] {
+        return import_scene(listed, choices.mesh, choices.chosen, choices.hovered);
+    });
+    if (!frame.draw_small)
+        return;
+    if (const ImTextureID texture = frame.draw_small(scene, choices.camera, int(size.x * dots.x), int(size.y * dots.y)))
+        draw->AddImage(texture, at, to, {0, 1}, {1, 0});
+    draw->AddRect(at, to, ImGui::GetColorU32(ImGuiCol_Border));
+}
+
+void unit_choice(Frame& frame, const FileItems& items)
+{
+    ImportChoices& choices = frame.ui.importing;
+    const bool stated = !items.unit.empty() && is_cad_file(items);
+    ImGui::BeginDisabled(stated);
+    const std::string shown = !choices.unit.empty() ? choices.unit : items.unit.empty() ? "mm" : items.unit;
+    if (ImGui::BeginCombo("Unit", shown.c_str())) {
+        for (const char* unit : {"mm", "cm", "m", "inch"})
+            if (ImGui::Selectable(unit, shown == unit))
+                choices.unit = unit;
+        ImGui::EndCombo();
+    }
+    ImGui::EndDisabled();
+    if (!ImGui::IsPopupOpen("##Combo", ImGuiPopupFlags_AnyPopupId))
+        tooltip(stated ? "The file says its unit itself; lengths are converted to mm"
+                       : "What one unit of the file's coordinates is");
+}
+
+void skin_choice(ImportChoices& choices)
+{
+    if (ImGui::BeginCombo("Skin", choices.skin ? name(*choices.skin) : "outer")) {
+        for (const Skin skin : {Skin::outer, Skin::inner, Skin::middle})
+            if (ImGui::Selectable(name(skin), skin == choices.skin.value_or(Skin::outer)))
+                choices.skin = skin;
+        ImGui::EndCombo();
+    } else
+        tooltip("Of a solid: the side of the sheet that is read, or the surface in the middle between both");
+}
+
+void length_field(const Frame& frame, const char* label, std::string& text, bool sound, const char* help)
+{
+    if (!sound)
+        ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).error);
+    text_input(label, text, false, "found");
+    if (!sound)
+        ImGui::PopStyleColor();
+    tooltip(help);
+}
+
+/// @returns the choices as they are read; nothing if a number is none
+std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
+{
+    ImportChoices& choices = frame.ui.importing;
+    Reading reading;
+    reading.parts = choices_of(items, choices.chosen);
+    const bool sewing = read_length(choices.sewing, true, reading.sewing_mm),
+               deflection = read_length(choices.deflection, false, reading.deflection_mm);
+    const float s = frame.ui.scale, width = 118 * s;
+    if (ImGui::BeginTable("options", 2, ImGuiTableFlags_SizingStretchSame)) {
+        ImGui::TableNextColumn();
+        ImGui::SetNextItemWidth(width);
+        unit_choice(frame, items);
+        ImGui::TableNextColumn();
+        ImGui::SetNextItemWidth(width);
+        skin_choice(choices);
+        if (is_cad_file(items)) {
+            ImGui::TableNextColumn();
+            ImGui::SetNextItemWidth(width);
+            length_field(
+                frame, "Gaps up to, mm", choices.sewing, sewing,
+                "Gaps between faces up to this width are closed. Empty: found from the gaps themselves; 0: none.");
+            ImGui::TableNextColumn();
+            ImGui::SetNextItemWidth(width);
+            length_field(frame, "Chord height, mm", choices.deflection, deflection,
+                         "Largest distance between triangles and faces. Empty: 1/2000 of the diagonal.");
+        }
+        ImGui::EndTable();
+    }
+    ImGui::Checkbox("Keep only the largest piece of sheet", &choices.keep_largest);
+    tooltip("Of what was chosen. Without it several pieces are refused, and the step Part shows them.");
+    reading.skin = choices.skin;
+    reading.keep_largest = choices.keep_largest;
+    return sewing && deflection ? std::optional(reading) : std::nullopt;
+}
+
+void progress_or_failure(Frame& frame, const FileListing& listing)
+{
+    const float s = frame.ui.scale;
+    if (!listing.failure.empty()) {
+        coloured(palette_of(frame.state.view.dark).error, as_sentence(in_viewer_words(listing.failure)));
+        return;
+    }
+    muted(frame, listing.step.empty() ? "Looking into the file" : as_sentence(listing.step));
+    ImGui::ProgressBar(float(listing.fraction), {-1, 6 * s}, "");
+}
+
+} // namespace
+
+void import_dialog(Frame& frame)
+{
+    constexpr const char* title = "Open a part";
+    const auto& listing = frame.state.listing;
+    if (!listing || frame.ui.held)
+        return;
+    ImportChoices& choices = frame.ui.importing;
+    if (!begin_dialog(frame, title, !ImGui::IsPopupOpen(title), 860))
+        return;
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted(listing->file.filename().c_str());
+    ImGui::PopFont();
+    std::optional<Reading> reading;
+    if (const auto& listed = listing->listed) {
+        if (choices.about != listed)
+            begin_choices(frame, listed);
+        summary_line(frame, *listed);
+        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 270 * s);
+        const float wide = ImGui::GetContentRegionAvail().x, list = std::floor(0.38f * wide);
+        item_list(frame, *listed, {list, height});
+        ImGui::SameLine();
+        preview(frame, *listed, {ImGui::GetContentRegionAvail().x, height});
+        for (const std::string& note : listed->items.notes)
+            muted(frame, as_sentence(in_viewer_words(note)));
+        reading = reading_fields(frame, listed->items);
+    } else
+        progress_or_failure(frame, *listing);
+    ImGui::Separator();
+    const bool typing = ImGui::GetIO().WantTextInput;
+    const Answer answer = answer_buttons(frame, "Open", reading.has_value(), palette_of(frame.state.view.dark).accent);
+    note_place(frame, "import open");
+    if (reading && (answer == Answer::yes || (enter_pressed(frame) && !typing))) {
+        frame.actions.push(OpenPart{listing->file, choices.unit, *reading});
+        frame.actions.push(CloseList{});
+        ImGui::CloseCurrentPopup();
+    } else if (answer == Answer::cancel || (pressed(frame, GLFW_KEY_ESCAPE) && !typing)) {
+        frame.actions.push(CloseList{});
+        ImGui::CloseCurrentPopup();
+    }
+    end_dialog();
+}
+
+} // namespace spia::viewer

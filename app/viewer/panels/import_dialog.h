@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/viewer/model/camera.h"
+#include "app/viewer/model/file_listing.h"
+#include "app/viewer/model/scene.h"
+#include "app/viewer/views/scene_cache.h"
+#include "engine/mesh/skin.h"
+
+namespace spia::viewer {
+
+struct Frame;
+
+/// What was chosen of a file that is looked into.
+struct ImportChoices {
+    std::shared_ptr<const ListedFile> about; ///< with it the choices begin anew
+    std::vector<char> chosen;                ///< per item
+    std::string unit;                        ///< empty: as the file says, else mm
+    std::optional<Skin> skin;
+    bool keep_largest = false;
+    std::string sewing, deflection; ///< mm, as typed; empty: found
+    std::optional<int> hovered;     ///< an item
+    Camera camera;
+    bool turning = false, panning = false, moved = false; ///< by the mouse; since it was pressed
+    std::shared_ptr<const SceneMesh> mesh;
+    Memo<Scene, std::shared_ptr<const ListedFile>, std::vector<char>, std::optional<int>> scene;
+};
+
+/// Shows a file that is looked into (ViewerState::listing), lets choose what of it is read and how, and opens it.
+void import_dialog(Frame& frame);
+
+} // namespace spia::viewer
