@@ -85,54 +85,6 @@ std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
     return std::nullopt;
 }
 
-/// By what a part of a deck is chosen.
-std::string key_of(const DeckPart& part) { return part.id ? std::to_string(*part.id) : part.name; }
-
-/// Which parts of a solver deck are read.
-void deck_parts(Frame& frame, const PartFile& part)
-{
-    if (!part.deck || part.deck->parts.size() < 2)
-        return;
-    const ReadOptions& read = frame.state.document.session.options.read;
-    const auto chosen = [&](const DeckPart& each) {
-        return std::find(read.parts.begin(), read.parts.end(), key_of(each)) != read.parts.end();
-    };
-    const std::string text = read.parts.empty()       ? fmt::format("all {} parts", part.deck->parts.size())
-                             : read.parts.size() == 1 ? read.parts[0]
-                                                      : fmt::format("{} parts", read.parts.size());
-    ImGui::BeginDisabled(frame.model.busy());
-    ImGui::SetNextItemWidth(170 * frame.ui.scale);
-    const bool open = ImGui::BeginCombo("Parts", text.c_str());
-    if (!open)
-        tooltip("Of the solver deck. Click for one part, Ctrl and click for more.");
-    else {
-        if (ImGui::Selectable("all", read.parts.empty()))
-            read_with(frame, [](Reading& reading) { reading.parts.clear(); });
-        for (size_t k = 0; k < part.deck->parts.size(); ++k) {
-            const DeckPart& each = part.deck->parts[k];
-            ImGui::PushID(int(k));
-            std::string label = key_of(each);
-            if (each.id && !each.name.empty())
-                label += "  " + each.name;
-            if (ImGui::Selectable(fmt::format("{}  ({} shells)", label, each.elements).c_str(), chosen(each))) {
-                std::vector<std::string> parts;
-                if (ImGui::GetIO().KeyCtrl) {
-                    parts = read.parts;
-                    if (chosen(each))
-                        std::erase(parts, key_of(each));
-                    else
-                        parts.push_back(key_of(each));
-                } else
-                    parts = {key_of(each)};
-                read_with(frame, [&](Reading& reading) { reading.parts = parts; });
-            }
-            ImGui::PopID();
-        }
-        ImGui::EndCombo();
-    }
-    ImGui::EndDisabled();
-}
-
 /// Which faces of a CAD file are read: of a solid those of one skin.
 void cad_faces(Frame& frame, const PartFile& part)
 {
@@ -161,15 +113,26 @@ void cad_faces(Frame& frame, const PartFile& part)
     ImGui::EndDisabled();
 }
 
-/// The dialog of import once more.
-void choose_again(Frame& frame)
+/// What of the file is read, and the dialog of import once more.
+void choose_again(Frame& frame, const PartFile& part)
 {
-    const std::filesystem::path& file = frame.state.document.session.file;
-    if (!has_choices(file))
+    const Session& session = frame.state.document.session;
+    if (!has_choices(session.file))
         return;
+    if (part.deck && !session.options.read.parts.empty()) {
+        std::string all;
+        for (const std::string& each : session.options.read.parts) {
+            const auto named = std::find_if(part.deck->parts.begin(), part.deck->parts.end(), [&](const DeckPart& p) {
+                return p.id && std::to_string(*p.id) == each && !p.name.empty();
+            });
+            all += (all.empty() ? "" : ", ") + each + (named == part.deck->parts.end() ? "" : " " + named->name);
+        }
+        figure(frame, session.options.read.parts.size() == 1 ? "Part" : "Parts", all);
+    }
     ImGui::BeginDisabled(frame.model.busy());
     if (small_button(frame, "Choose in the file..."))
-        frame.actions.push(ListFile{file});
+        frame.actions.push(ListFile{session.file});
+    note_place(frame, "choose in the file");
     ImGui::EndDisabled();
     tooltip("Shows what the file holds, and reads it again otherwise");
 }
@@ -210,11 +173,18 @@ void deck_gauge(Frame& frame, const PartFile& part)
 void file_notes(Frame& frame, const PartFile& part)
 {
     const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
-    for (const std::string& note : part.notes)
+    for (const std::string& note : part.notes) {
+        const std::string text = as_sentence(in_viewer_words(note));
+        constexpr size_t most = 180; // letters: a deck can have many keywords that are not read
+        const size_t end = text.size() > most ? text.rfind(' ', most) : text.npos;
+        const std::string shown = end == text.npos ? text : text.substr(0, end) + " ...";
         if (unit)
-            coloured(palette_of(frame.state.view.dark).warning, as_sentence(in_viewer_words(note)));
+            coloured(palette_of(frame.state.view.dark).warning, shown);
         else
-            muted(frame, as_sentence(in_viewer_words(note)));
+            muted(frame, shown);
+        if (shown != text)
+            tooltip(text);
+    }
     if (!unit || frame.model.busy())
         return;
     if (small_button(frame, fmt::format("Read it in {}", name(*unit)).c_str()))
@@ -231,8 +201,7 @@ void doctor_panel(Frame& frame)
     const PartFile* part = examined(state);
     if (!part)
         return;
-    choose_again(frame);
-    deck_parts(frame, *part);
+    choose_again(frame, *part);
     cad_faces(frame, *part);
     solid_skin(frame, *part);
     deck_gauge(frame, *part);

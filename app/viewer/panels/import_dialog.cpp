@@ -2,6 +2,7 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
@@ -72,25 +73,37 @@ std::string size_words(const ListedFile& listed)
     return fmt::format("{:.4g} x {:.4g} x {:.4g}", size.x(), size.y(), size.z());
 }
 
+/// What the file calls its unit, as people write it.
+std::string unit_words(std::string unit)
+{
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return unit == "millimetre" || unit == "millimeter" ? "mm" : unit == "metre" || unit == "meter" ? "m" : unit;
+}
+
 void summary_line(const Frame& frame, const ListedFile& listed)
 {
     const FileItems& items = listed.items;
     const std::string unit = is_cad_file(items) ? " mm" : "";
-    std::string text = items.format + (items.unit.empty() ? ", names no unit of length" : ", lengths in " + items.unit);
+    std::string text =
+        items.format + (items.unit.empty() ? ", names no unit of length" : ", lengths in " + unit_words(items.unit));
     if (const std::string size = size_words(listed); !size.empty())
         text += ", " + size + unit;
     muted(frame, text);
 }
 
-std::string item_words(const FileItem& item)
+/// What an item is called; in decks numbers are known as well as names.
+std::string item_words(const FileItems& items, const FileItem& item)
 {
-    std::string text = item.name.empty() ? item.choice : item.name;
-    return text.empty() ? item.kind : text;
+    if (item.name.empty())
+        return item.choice.empty() ? item.kind : item.choice;
+    return is_cad_file(items) || item.choice.empty() || item.choice == item.name ? item.name
+                                                                                 : item.choice + "  " + item.name;
 }
 
-std::string item_figures(const FileItem& item)
+std::string item_figures(const FileItems& items, const FileItem& item)
 {
-    std::string text = fmt::format("{}, {} {}", item.kind, item.faces, item.faces == 1 ? "face" : "faces");
+    std::string text = fmt::format("{}, {} {}{}", item.kind, item.faces, is_cad_file(items) ? "face" : "shell",
+                                   item.faces == 1 ? "" : "s");
     if (item.thickness)
         text += fmt::format(", {:.4g} thick", *item.thickness);
     if (!item.material.empty())
@@ -139,14 +152,14 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
         note_place(frame, fmt::format("import item {}", i));
         if (ImGui::IsItemHovered()) {
             hovered = i;
-            tooltip(item_words(item) + "\n" + item_figures(item) +
+            tooltip(item_words(items, item) + "\n" + item_figures(items, item) +
                     (item.choice.empty() ? "" : "\nClick for this one, Ctrl and click for more"));
         }
         ImDrawList* draw = ImGui::GetWindowDrawList();
         draw->PushClipRect(at, {at.x + room, at.y + 2 * line}, true);
-        draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), item_words(item).c_str());
+        draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), item_words(items, item).c_str());
         draw->AddText(frame.ui.fonts.small, frame.ui.fonts.small->FontSize, {at.x, at.y + line}, ink(p.muted),
-                      item_figures(item).c_str());
+                      item_figures(items, item).c_str());
         draw->PopClipRect();
         if (indent > 0)
             ImGui::Unindent(indent);
@@ -182,8 +195,8 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
     }
     if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
         constexpr float slack = 4; // pixels: a click may shake
-        choices.moved = choices.moved || ImGui::IsMouseDragging(0, slack) ||
-                        ImGui::IsMouseDragging(1, slack) || ImGui::IsMouseDragging(2, slack);
+        choices.moved = choices.moved || ImGui::IsMouseDragging(0, slack) || ImGui::IsMouseDragging(1, slack) ||
+                        ImGui::IsMouseDragging(2, slack);
         const glm::dvec2 drag(io.MouseDelta.x, io.MouseDelta.y);
         if (choices.moved)
             choices.camera = choices.panning ? pan(choices.camera, drag, view) : orbit(choices.camera, drag, view);
@@ -197,8 +210,9 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
             const int p = listed.polygon[size_t(hit.face)], item = listed.items.item_of[size_t(p)];
             if (item >= 0)
                 choices.hovered = item;
-            ImGui::SetTooltip("%s%s %d", item >= 0 ? (item_words(listed.items.item[size_t(item)]) + ", ").c_str() : "",
-                              is_cad_file(listed.items) ? "face" : "shell", listed.items.face_of[size_t(p)]);
+            ImGui::SetTooltip(
+                "%s%s %d", item >= 0 ? (item_words(listed.items, listed.items.item[size_t(item)]) + ", ").c_str() : "",
+                is_cad_file(listed.items) ? "face" : "shell", listed.items.face_of[size_t(p)]);
         }
     }
     if (ImGui::IsItemDeactivated() && !choices.moved && choices.hovered &&
@@ -220,7 +234,7 @@ void unit_choice(Frame& frame, const FileItems& items)
     ImportChoices& choices = frame.ui.importing;
     const bool stated = !items.unit.empty() && is_cad_file(items);
     ImGui::BeginDisabled(stated);
-    const std::string shown = !choices.unit.empty() ? choices.unit : items.unit.empty() ? "mm" : items.unit;
+    const std::string shown = !choices.unit.empty() ? choices.unit : items.unit.empty() ? "mm" : unit_words(items.unit);
     if (ImGui::BeginCombo("Unit", shown.c_str())) {
         for (const char* unit : {"mm", "cm", "m", "inch"})
             if (ImGui::Selectable(unit, shown == unit))
@@ -267,10 +281,10 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
         ImGui::TableNextColumn();
         ImGui::SetNextItemWidth(width);
         unit_choice(frame, items);
-        ImGui::TableNextColumn();
-        ImGui::SetNextItemWidth(width);
-        skin_choice(choices);
         if (is_cad_file(items)) {
+            ImGui::TableNextColumn();
+            ImGui::SetNextItemWidth(width);
+            skin_choice(choices);
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
             length_field(

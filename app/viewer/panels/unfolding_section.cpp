@@ -185,7 +185,6 @@ void blank_of_steps(Frame& frame)
 void unfolding_section(Frame& frame)
 {
     const Document& document = frame.state.document;
-    frame.ui.items.clear();
     if (!document.session.part) {
         frame.ui.playing.reset();
         return;

@@ -39,7 +39,7 @@ Scene import_scene(const ListedFile& listed, const std::shared_ptr<const SceneMe
     layer.colour = {0.52f, 0.55f, 0.59f, 1};
     layer.back = layer.colour;
     Scene scene;
-    scene.region_colours = {palette::surface};
+    scene.region_colours = {everything ? palette::surface : palette::chosen};
     scene.layers.push_back(std::move(layer));
     if (listed.picker)
         scene.box = listed.picker->box();

@@ -19,6 +19,7 @@ inline constexpr Colour pilot{0.20f, 0.80f, 0.88f, 1};
 inline constexpr Colour folded{0.90f, 0.12f, 0.16f, 1};
 inline constexpr Colour fixed{0.97f, 0.78f, 0.10f, 1};      ///< faces that carry what a step moves
 inline constexpr Colour freed{0.20f, 0.72f, 0.32f, 1};      ///< faces that a step moves
+inline constexpr Colour chosen{0.26f, 0.55f, 0.96f, 1};    ///< what is read of a file
 inline constexpr Colour target{0.30f, 0.58f, 0.95f, 0.28f}; ///< the face in space onto which it moves them
 inline constexpr Colour quads{0.80f, 0.83f, 0.86f, 1};
 inline constexpr Colour surface{0.60f, 0.72f, 0.84f, 1};

@@ -191,7 +191,7 @@ TEST(Script, AMistakeIsNamedWithItsPlaceAndWhatIsAllowed)
               "s.json: /actions/1/barycentric must be three weights from 0 to 1 whose sum is 1");
     EXPECT_EQ(mistake(R"({"do":"set_view","camera":{"top":{}}})"),
               "s.json: /actions/1/camera is wrong: \"top\" is none of part, blank, quads, surface");
-    EXPECT_NE(mistake(R"({"do":"unfold"})").find("there are: wait, expect, open_part"), std::string::npos);
+    EXPECT_NE(mistake(R"({"do":"unfold"})").find("there are: wait, expect, list_file"), std::string::npos);
     EXPECT_NE(mistake(R"("undo")").find("/actions/1 must be an object"), std::string::npos);
     EXPECT_NE(mistake(R"({"do":"undo"} {)").find("line 1, column"), std::string::npos);
     EXPECT_NE(mistake(R"({"do":"set_thickness","thickness":1e999})").find("s.json: "), std::string::npos);
