@@ -304,6 +304,28 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
     return sewing && deflection ? std::optional(reading) : std::nullopt;
 }
 
+/// What the file left to say, in one line; all of it under the mouse.
+void notes_line(const Frame& frame, const FileItems& items)
+{
+    if (items.notes.empty())
+        return;
+    std::string all, line;
+    for (const std::string& note : items.notes) {
+        const std::string text = as_sentence(in_viewer_words(note));
+        all += (all.empty() ? "" : "\n") + text;
+        line += (line.empty() ? "" : ". ") + text;
+    }
+    const float room = ImGui::GetContentRegionAvail().x;
+    const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+    if (width(line) > room) {
+        while (!line.empty() && width(line + " ...") > room)
+            line.resize(line.find_last_of(' ') == line.npos ? 0 : line.find_last_of(' '));
+        line += " ...";
+    }
+    muted(frame, line);
+    tooltip(all);
+}
+
 void progress_or_failure(Frame& frame, const FileListing& listing)
 {
     const float s = frame.ui.scale;
@@ -334,13 +356,12 @@ void import_dialog(Frame& frame)
         if (choices.about != listed)
             begin_choices(frame, listed);
         summary_line(frame, *listed);
-        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 270 * s);
+        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 300 * s);
         const float wide = ImGui::GetContentRegionAvail().x, list = std::floor(0.38f * wide);
         item_list(frame, *listed, {list, height});
         ImGui::SameLine();
         preview(frame, *listed, {ImGui::GetContentRegionAvail().x, height});
-        for (const std::string& note : listed->items.notes)
-            muted(frame, as_sentence(in_viewer_words(note)));
+        notes_line(frame, listed->items);
         reading = reading_fields(frame, listed->items);
     } else
         progress_or_failure(frame, *listing);
