@@ -76,7 +76,11 @@ struct Entity {
                 return pair.value;
         return "0";
     }
-    bool has_bit(int code, int bit) const { return (int(number(code, 0)) & bit) != 0; }
+    bool has_bit(int code, int bit) const
+    {
+        constexpr double most = 1e9; // flags are small; what is not is none
+        return (int(std::clamp(number(code, 0), -most, most)) & bit) != 0;
+    }
     /// Circles and flat polylines may be drawn in a plane of their own; only that of the drawing is read.
     bool in_plane() const { return number(210, 0) == 0 && number(220, 0) == 0 && number(230, 1) > 0; }
 };
@@ -236,6 +240,10 @@ private:
     /// Points that stand twice are one.
     void add(const Entity& entity, std::vector<Eigen::Vector3d> points, bool closed)
     {
+        if (!std::all_of(points.begin(), points.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); }))
+            throw InputError(
+                fmt::format("{}: the {} of layer {} bends too sharply or too little to be drawn; export it again",
+                            *entity.file, entity.type, entity.layer()));
         points.erase(std::unique(points.begin(), points.end()), points.end());
         if (points.size() > 2 && points.front() == points.back()) {
             closed = true;
