@@ -19,7 +19,8 @@ int main(int count, char** values)
     CLI::App app{
         "SPIA: unfold a stamped part, inspect its strains, export NURBS. Without a part it opens the sample part."};
     app.set_version_flag("--version", SPIA_VERSION);
-    app.add_option("part", options.file, "STL, OBJ, PLY, OFF, glTF or GLB file, or a project (.spia)")
+    app.add_option("part", options.file,
+                   "CAD file, solver deck or mesh (spia-viewer opens what spia run reads), or a project (.spia)")
         ->type_name("PART");
     app.add_option("--unit", options.unit, "length unit of the part")->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     app.add_flag("--run-all", options.run_all, "unfold and fit a surface at once");

@@ -12,8 +12,6 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
-#include "app/viewer/views/import_scene.h"
-#include "app/viewer/views/scene_mesh.h"
 
 namespace spia::viewer {
 namespace {
@@ -43,8 +41,6 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
         if (const int item = proposed_item(listed->items); item >= 0)
             fresh.chosen[size_t(item)] = 1;
     }
-    if (listed->mesh.triangles() > 0)
-        fresh.mesh = std::make_shared<SceneMesh>(scene_mesh(listed->mesh));
     frame.ui.importing = std::move(fresh);
 }
 
@@ -182,7 +178,7 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
                                ImGuiButtonFlags_MouseButtonMiddle);
     note_place(frame, "import preview");
     const glm::dvec2 view(size.x, size.y), pixel(io.MousePos.x - at.x, io.MousePos.y - at.y);
-    if (!choices.mesh) {
+    if (listed.mesh.triangles() == 0) {
         draw->AddText({at.x + 12, at.y + 12}, ImGui::GetColorU32(ImGuiCol_TextDisabled), "No faces to be seen");
         draw->AddRect(at, to, ImGui::GetColorU32(ImGuiCol_Border));
         return;
@@ -220,7 +216,9 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
         choose(choices, *choices.hovered, io.KeyCtrl);
     const ImVec2 dots = io.DisplayFramebufferScale;
     const Scene& scene = choices.scene.of({choices.about, choices.chosen, choices.hovered}, [&] {
-        return import_scene(listed, choices.mesh, choices.chosen, choices.hovered);
+        const PreviewShape& shape =
+            choices.shape.of({choices.about, choices.chosen}, [&] { return preview_shape(listed, choices.chosen); });
+        return import_scene(listed, shape, choices.hovered);
     });
     if (!frame.draw_small)
         return;

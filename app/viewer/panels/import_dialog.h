@@ -9,6 +9,7 @@
 #include "app/viewer/model/camera.h"
 #include "app/viewer/model/file_listing.h"
 #include "app/viewer/model/scene.h"
+#include "app/viewer/views/import_scene.h"
 #include "app/viewer/views/scene_cache.h"
 #include "engine/mesh/skin.h"
 
@@ -27,7 +28,7 @@ struct ImportChoices {
     std::optional<int> hovered;     ///< an item
     Camera camera;
     bool turning = false, panning = false, moved = false; ///< by the mouse; since it was pressed
-    std::shared_ptr<const SceneMesh> mesh;
+    Memo<PreviewShape, std::shared_ptr<const ListedFile>, std::vector<char>> shape;
     Memo<Scene, std::shared_ptr<const ListedFile>, std::vector<char>, std::optional<int>> scene;
 };
 

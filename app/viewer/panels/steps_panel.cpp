@@ -37,7 +37,8 @@ void part_step(Frame& frame)
                  frame.state.refused ? Status::failed : status(frame, Stage::read, session.part != nullptr));
     if (ImGui::Button("Open..."))
         choose_part(frame);
-    tooltip("STL, OBJ, PLY, OFF, glTF or GLB. You can also drop a file on the window.");
+    tooltip("CAD (STEP, IGES, BREP), solver decks (LS-DYNA, Nastran, Abaqus, Gmsh, Radioss), STL, OBJ, PLY, OFF, glTF. "
+            "You can also drop a file on the window.");
     if (!session.part) {
         if (frame.state.refused)
             coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), session.file.filename().string());

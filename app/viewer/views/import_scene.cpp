@@ -1,9 +1,9 @@
 #include "app/viewer/views/import_scene.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/scene_mesh.h"
 
 namespace spia::viewer {
 namespace {
@@ -18,29 +18,70 @@ std::vector<char> with_what_they_hold(const FileItems& items, const std::vector<
     return all;
 }
 
+PreviewPiece piece_of(const ListedFile& listed, std::vector<int> triangle)
+{
+    PreviewPiece piece;
+    TriMesh mesh;
+    std::vector<int> number(size_t(listed.mesh.vertices()), -1), vertex;
+    mesh.triangle.resize(3, Eigen::Index(triangle.size()));
+    for (size_t t = 0; t < triangle.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            int& v = number[size_t(listed.mesh.triangle(k, triangle[t]))];
+            if (v < 0) {
+                v = int(vertex.size());
+                vertex.push_back(listed.mesh.triangle(k, triangle[t]));
+            }
+            mesh.triangle(k, Eigen::Index(t)) = v;
+        }
+    mesh.position = listed.mesh.position(Eigen::all, vertex);
+    if (!triangle.empty())
+        piece.mesh = std::make_shared<SceneMesh>(scene_mesh(mesh));
+    piece.triangle = std::move(triangle);
+    return piece;
+}
+
+SceneLayer layer_of(const ListedFile& listed, const PreviewPiece& piece, const Colour& colour,
+                    std::optional<int> hovered)
+{
+    SceneLayer layer;
+    layer.mesh = piece.mesh;
+    layer.colour = layer.back = colour;
+    if (!hovered)
+        return layer;
+    auto marks = std::make_shared<FaceMarks>();
+    for (const int t : piece.triangle) {
+        const int item = listed.items.item_of[size_t(listed.polygon[size_t(t)])];
+        marks->mark.push_back(item >= 0 && lies_in(listed.items, item, *hovered) ? FaceMarks::hovered : 0);
+    }
+    layer.marks = std::move(marks);
+    return layer;
+}
+
 } // namespace
 
-Scene import_scene(const ListedFile& listed, const std::shared_ptr<const SceneMesh>& mesh,
-                   const std::vector<char>& chosen, std::optional<int> hovered)
+PreviewShape preview_shape(const ListedFile& listed, const std::vector<char>& chosen)
 {
-    const FileItems& items = listed.items;
-    const bool everything = std::none_of(chosen.begin(), chosen.end(), [](char c) { return c != 0; });
-    const std::vector<char> taken = with_what_they_hold(items, chosen);
-    auto marks = std::make_shared<FaceMarks>();
-    for (const int p : listed.polygon) {
-        const int item = items.item_of[size_t(p)];
-        const bool in = everything || (item >= 0 && taken[size_t(item)]);
-        const bool lit = hovered && item >= 0 && lies_in(items, item, *hovered);
-        marks->mark.push_back(uint8_t((in ? 1 : 0) | (lit ? FaceMarks::hovered : 0)));
+    PreviewShape shape;
+    shape.everything = std::none_of(chosen.begin(), chosen.end(), [](char c) { return c != 0; });
+    const std::vector<char> taken = with_what_they_hold(listed.items, chosen);
+    std::vector<int> in, out;
+    for (int t = 0; t < listed.mesh.triangles(); ++t) {
+        const int item = listed.items.item_of[size_t(listed.polygon[size_t(t)])];
+        (shape.everything || (item >= 0 && taken[size_t(item)]) ? in : out).push_back(t);
     }
-    SceneLayer layer;
-    layer.mesh = mesh;
-    layer.marks = std::move(marks);
-    layer.colour = {0.52f, 0.55f, 0.59f, 1};
-    layer.back = layer.colour;
+    shape.chosen = piece_of(listed, std::move(in));
+    shape.rest = piece_of(listed, std::move(out));
+    return shape;
+}
+
+Scene import_scene(const ListedFile& listed, const PreviewShape& shape, std::optional<int> hovered)
+{
     Scene scene;
-    scene.region_colours = {everything ? palette::surface : palette::chosen};
-    scene.layers.push_back(std::move(layer));
+    if (shape.chosen.mesh)
+        scene.layers.push_back(
+            layer_of(listed, shape.chosen, shape.everything ? palette::surface : palette::chosen, hovered));
+    if (shape.rest.mesh)
+        scene.layers.push_back(layer_of(listed, shape.rest, palette::ghost, hovered));
     if (listed.picker)
         scene.box = listed.picker->box();
     return scene;

@@ -16,7 +16,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
         return result;
     }
     if (!session.part) {
-        result.empty = "Drop a part here or open one: STL, OBJ, PLY, OFF, glTF.";
+        result.empty = "Drop a part here or open one: CAD (STEP, IGES, BREP), a solver deck, STL, OBJ, PLY, OFF, glTF.";
         return result;
     }
     if (shows_steps(state))

@@ -9,7 +9,6 @@
 #include "app/viewer/model/script.h"
 #include "app/viewer/model/state_report.h"
 #include "app/viewer/views/import_scene.h"
-#include "app/viewer/views/scene_mesh.h"
 #include "engine/core/error.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -81,17 +80,24 @@ TEST_F(LookedInto, WhatCannotBeReadIsSaidAndAnotherFileTakesItsPlace)
 TEST_F(LookedInto, ThePreviewTellsWhatIsChosen)
 {
     const ListedFile& file = listed();
-    const auto mesh = std::make_shared<SceneMesh>(scene_mesh(file.mesh));
-    const auto marked = [&](const std::vector<char>& chosen, std::optional<int> hovered, uint8_t bit) {
-        const Scene scene = import_scene(file, mesh, chosen, hovered);
-        const auto& mark = scene.layers[0].marks->mark;
-        return std::count_if(mark.begin(), mark.end(), [&](uint8_t m) { return (m & bit) != 0; });
+    const auto faces = [&](const std::vector<char>& chosen) {
+        std::vector<Eigen::Index> count;
+        for (const SceneLayer& layer : import_scene(file, preview_shape(file, chosen), {}).layers)
+            count.push_back(layer.mesh->triangle.cols());
+        return count;
     };
-    EXPECT_EQ(marked({1, 0}, {}, FaceMarks::region), 8);
-    EXPECT_EQ(marked({0, 1}, {}, FaceMarks::region), 4);
-    EXPECT_EQ(marked({0, 0}, {}, FaceMarks::region), 12) << "the whole file";
-    EXPECT_EQ(marked({1, 0}, 1, FaceMarks::hovered), 4);
-    EXPECT_EQ(marked({1, 0}, {}, FaceMarks::hovered), 0);
+    EXPECT_THAT(faces({1, 0}), ElementsAre(8, 4)) << "what is chosen, and the rest";
+    EXPECT_THAT(faces({0, 1}), ElementsAre(4, 8));
+    EXPECT_THAT(faces({0, 0}), ElementsAre(12)) << "the whole file";
+    EXPECT_THAT(faces({1, 1}), ElementsAre(12));
+    const Scene scene = import_scene(file, preview_shape(file, {1, 0}), 1);
+    const auto lit = [](const SceneLayer& layer) {
+        const auto& mark = layer.marks->mark;
+        return std::count_if(mark.begin(), mark.end(), [](uint8_t m) { return m == FaceMarks::hovered; });
+    };
+    EXPECT_EQ(lit(scene.layers[0]), 0);
+    EXPECT_EQ(lit(scene.layers[1]), 4);
+    EXPECT_LT(scene.layers[1].colour[3], 1) << "what lies inside is seen";
 }
 
 TEST(FileItems, WhatLiesInAChosenItemIsNotNamedTwice)
