@@ -24,8 +24,9 @@ void add_parts(CLI::App* command, std::vector<std::string>& parts)
     command
         ->add_option(
             "--part", parts,
-            "of a solver deck: the part, property or element set to take, by id or name; of a CAD file: the faces to "
-            "take, by number from 0, e.g. 7 or 10-19 (default: all)")
+            "of a solver deck: the part, property or element set to take, by id or name; of a CAD file: a body or "
+            "assembly by its number or name as `spia info` lists them, e.g. body:2, or faces by number from 0, e.g. 7 or "
+            "10-19 (default: all)")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("ID|NAME");

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
+#include <string>
 
 #include "engine/mesh/disjoint_sets.h"
 
@@ -103,37 +105,50 @@ std::string ranges(const std::set<int>& faces)
 }
 
 /// The CAD faces of each piece of the mesh.
-std::vector<std::set<int>> bodies(const CadContent& cad, const PartFile& part)
+std::vector<std::set<int>> pieces(const CadContent& cad, const PartFile& part)
 {
-    DisjointSets pieces(size_t(part.mesh.vertices()));
+    DisjointSets joined(size_t(part.mesh.vertices()));
     for (int f = 0; f < part.mesh.triangles(); ++f)
         for (int k = 0; k < 3; ++k)
-            pieces.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
+            joined.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
     std::map<int, std::set<int>> found;
     for (int f = 0; f < part.mesh.triangles(); ++f)
-        found[pieces.root(part.mesh.triangle(0, f))].insert(cad.face[size_t(part.source_face[size_t(f)])]);
+        found[joined.root(part.mesh.triangle(0, f))].insert(cad.face[size_t(part.source_face[size_t(f)])]);
     std::vector<std::set<int>> result;
     for (auto& [root, faces] : found)
         result.push_back(std::move(faces));
     return result;
 }
 
+/// Bodies of the file that some of the faces taken are of.
+std::vector<int> bodies_taken(const CadContent& cad)
+{
+    std::set<int> bodies;
+    for (const int face : cad.face)
+        bodies.insert(cad.tree.body_of[size_t(face)]);
+    return {bodies.begin(), bodies.end()};
+}
+
 /// Several solids are several parts; of a single one a skin was taken (take_skin()), or said why not.
 void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Finding>& findings)
 {
-    if (!cad.solid || cad.taken < cad.faces || part.doctor.components < 2)
+    if (!cad.solid || part.doctor.components < 2)
         return;
-    std::string list;
-    const auto found = bodies(cad, part);
-    for (size_t b = 0; b < std::min(shown, found.size()); ++b)
-        list += fmt::format("{}{}", b == 0 ? "" : "; ", ranges(found[b]));
+    std::vector<std::string> choices; // as they are given to --part
+    if (const std::vector<int> taken = bodies_taken(cad); taken.size() > 1)
+        for (const int body : taken)
+            choices.push_back(choice(cad.tree.item[size_t(body)]));
+    else
+        for (const std::set<int>& faces : pieces(cad, part))
+            choices.push_back(ranges(faces));
+    const std::span<const std::string> named = std::span(choices).first(std::min(shown, choices.size()));
     findings.push_back({Fault::several_components,
                         Severity::fatal,
-                        int(found.size()),
+                        int(choices.size()),
                         -1,
-                        fmt::format("it holds {} bodies that are not connected, with the CAD faces {}{}", found.size(),
-                                    list, found.size() > shown ? " and more" : ""),
-                        fmt::format("choose one of them (--part {})", ranges(found.front())),
+                        fmt::format("it holds {} bodies that are not connected: {}{}", choices.size(),
+                                    fmt::join(named, "; "), choices.size() > shown ? " and more" : ""),
+                        fmt::format("choose one of them (--part {})", choices.front()),
                         {},
                         {}});
 }
