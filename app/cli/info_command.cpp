@@ -54,6 +54,7 @@ int info(const InfoArguments& arguments)
     if (arguments.weld)
         options.weld = true;
     options.parts = arguments.parts;
+    options.cad = cad_options(arguments.cad, arguments.part);
     options.doctor.keep_largest = arguments.keep_largest;
     if (!arguments.skin.empty())
         options.skin = skin_by_name(arguments.skin);

@@ -17,9 +17,9 @@ namespace {
 constexpr double widest_tried_tolerance = 0.5; // mm, of sew()
 constexpr size_t shown = 20;                   // of many faces or gaps
 
-std::string listed(const std::vector<int>& faces)
+template <class Name> std::string listed(const std::vector<Name>& faces)
 {
-    const std::vector<int> first(faces.begin(), faces.begin() + long(std::min(shown, faces.size())));
+    const std::vector<Name> first(faces.begin(), faces.begin() + long(std::min(shown, faces.size())));
     return fmt::format("{}{}", fmt::join(first, ", "),
                        faces.size() > shown ? fmt::format(" and {} more", faces.size() - shown) : "");
 }
@@ -55,17 +55,50 @@ void report_gaps(const CadContent& cad, std::vector<Finding>& findings)
 
 void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
 {
+    const auto report = [&](int count, std::string text) {
+        findings.push_back({Fault::unmeshed_face,
+                            cad.unmeshed_left_out ? Severity::repaired : Severity::fatal,
+                            count,
+                            -1,
+                            cad.unmeshed_left_out ? text + "; left out" : text,
+                            cad.unmeshed_left_out
+                                ? "look at the holes that they leave"
+                                : "repair them in the CAD system, choose the other faces (--part), or leave "
+                                  "these out and take the rest (--skip-bad-faces)",
+                            {},
+                            {}});
+    };
     if (!cad.unmeshed.empty())
-        findings.push_back(
-            {Fault::unmeshed_face,
-             Severity::fatal,
-             int(cad.unmeshed.size()),
-             -1,
-             fmt::format("no triangles could be made of {}: {}",
-                         counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)),
-             "repair them in the CAD system, or choose the other faces (--part)",
-             {},
-             {}});
+        report(int(cad.unmeshed.size()),
+               fmt::format("no triangles could be made of {}: {}",
+                           counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)));
+    if (cad.lost.empty())
+        return;
+    report(int(cad.lost.size()),
+           fmt::format("{} of the file could not be read: {}",
+                       counted(int(cad.lost.size()), "face or body", "faces and bodies"), listed(cad.lost)));
+    if (cad.taken < cad.faces) { // perhaps of what was not chosen
+        findings.back().severity = Severity::note;
+        findings.back().advice = "see whether what was chosen is whole";
+    }
+}
+
+void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (cad.slivers.empty())
+        return;
+    const CadSliver& widest = cad.slivers.front();
+    Finding finding{Fault::gap, Severity::repaired, int(cad.slivers.size()), -1, "", "", {}, {}};
+    for (size_t k = 0; k < std::min(shown, cad.slivers.size()) && cad.soup.vertices() > 0; ++k) {
+        finding.where.push_back(nearest_vertex(cad.soup, cad.slivers[k].place));
+        finding.place.push_back(cad.slivers[k].place);
+    }
+    finding.first = finding.where.empty() ? -1 : finding.where.front();
+    finding.text = fmt::format(
+        "{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g}: CAD face {}",
+        counted(int(cad.slivers.size()), "sliver among the CAD faces was", "slivers among the CAD faces were"),
+        widest.width, widest.place.x(), widest.place.y(), widest.place.z(), widest.face);
+    findings.push_back(std::move(finding));
 }
 
 void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
@@ -178,6 +211,7 @@ void report_cad(const CadContent& cad, PartFile& part)
     report_unmeshed(cad, findings);
     report_overlaps(cad, findings);
     report_gaps(cad, findings);
+    report_slivers(cad, findings);
     part.doctor.findings.insert(part.doctor.findings.begin(), findings.begin(), findings.end());
 }
 
