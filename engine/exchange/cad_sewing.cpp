@@ -19,6 +19,7 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "engine/exchange/cad_swept.h"
 #include "engine/exchange/occt_progress.h"
 
 namespace spia {
@@ -186,10 +187,9 @@ TopoDS_Compound compound_of(std::span<const TopoDS_Face> faces)
 SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, const Progress& progress)
 {
     SewnFaces loose;
-    for (size_t f = 0; f < faces.size(); ++f) {
-        loose.face.push_back(faces[f]);
+    for (size_t f = 0; f < faces.size(); ++f)
         loose.number.push_back(int(f));
-    }
+    loose.face = without_swept_cylinders(faces);
     SewnFaces whole = healed(loose, progress.part(0, 0.2));
     const EdgeFaces edges(whole.face);
     whole.free_before = whole.free_after = edges.free();

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
@@ -90,6 +91,24 @@ TEST(CadFaults, AFaceThatOpenCascadeCannotMakeIsNotLostSilently)
     options.parts = {"Cover"};
     const PartFile other = read_part(folder / "car.step", options);
     EXPECT_EQ(other.doctor.find(Fault::unmeshed_face)->severity, Severity::note);
+}
+
+TEST(CadFaults, ASweptCylinderIsMeshedAlongItsStraightLines)
+{
+    const ScratchFolder folder;
+    for (const Swept swept : {Swept::line_up, Swept::line_down, Swept::circle_up, Swept::circle_down}) {
+        write_swept_cylinder(folder / "swept.brep", swept);
+        const CadContent cad = read_cad(folder / "swept.brep", {.deflection = 0.1});
+        ASSERT_GT(cad.soup.polygons(), 10);
+        double angle = 0;
+        for (const Eigen::Vector3d& p : cad.soup.position) {
+            EXPECT_NEAR(p.head<2>().norm(), 10, 1e-5);
+            EXPECT_LT(std::min(std::abs(p.z()), std::abs(p.z() - 30)), 1e-6)
+                << "a vertex between the ends of a straight line";
+            angle = std::max(angle, std::abs(std::atan2(p.y(), p.x())));
+        }
+        EXPECT_NEAR(angle, 1, 1e-6) << "the same part of the circle";
+    }
 }
 
 TEST(CadFaults, OptionsWithoutSenseAreRefusedInWords)

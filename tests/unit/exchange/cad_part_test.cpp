@@ -315,6 +315,16 @@ INSTANTIATE_TEST_SUITE_P(Files, RealCad,
                              return name;
                          });
 
+TEST(RealCadModel, CylindersOfIgesAreMeshedAsThoseOfStep)
+{
+    if (!fs::exists(cad_folder / "fan_bracket_skin.igs"))
+        GTEST_SKIP() << "no " << cad_folder;
+    const CadContent step = read_cad(cad_folder / "fan_bracket_skin.step"),
+                     iges = read_cad(cad_folder / "fan_bracket_skin.igs");
+    EXPECT_EQ(iges.soup.polygons(), step.soup.polygons());
+    EXPECT_EQ(iges.soup.vertices(), step.soup.vertices());
+}
+
 TEST(RealCadModel, NoseIsSewnAndItsDoubledFacesAreNamed)
 {
     for (const char* name : {"race_car_nose.stp", "race_car_nose.igs"}) {

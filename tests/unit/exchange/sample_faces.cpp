@@ -1,11 +1,20 @@
 #include "tests/unit/exchange/sample_faces.h"
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <TopoDS.hxx>
+#include <gp.hxx>
 #include <gp_Pln.hxx>
 #include <stdexcept>
 
@@ -73,6 +82,32 @@ void write_two_squares(const std::filesystem::path& brep, ThirdFace third)
     builder.Add(compound, square(20));
     if (!BRepTools::Write(compound, brep.c_str()))
         throw std::runtime_error("no faces were written");
+}
+
+void write_swept_cylinder(const std::filesystem::path& brep, Swept swept)
+{
+    const OcctSession session;
+    const bool line = swept == Swept::line_up || swept == Swept::line_down;
+    const bool up = swept == Swept::line_up || swept == Swept::circle_up;
+    const double z = up ? 0 : 30, way = up ? 1 : -1;
+    Handle(Geom_Surface) surface;
+    if (line)
+        surface = new Geom_SurfaceOfRevolution(new Geom_Line(gp_Pnt(10, 0, z), gp_Dir(0, 0, way)), gp::OZ());
+    else
+        surface = new Geom_SurfaceOfLinearExtrusion(new Geom_Circle(gp_Ax2(gp_Pnt(0, 0, z), gp::DZ()), 10),
+                                                    gp_Dir(0, 0, way));
+    // Borders in the plane of its parameters: angle, and height from z on.
+    const gp_Pnt2d corners[] = {{-1, 0}, {1, 0}, {1, 30}, {-1, 30}};
+    BRepBuilderAPI_MakeWire wire;
+    for (int k = 0; k < 4; ++k) {
+        const gp_Vec2d side(corners[k], corners[(k + 1) % 4]);
+        TopoDS_Edge edge =
+            BRepBuilderAPI_MakeEdge(new Geom2d_Line(corners[k], gp_Dir2d(side)), surface, 0, side.Magnitude());
+        BRepLib::BuildCurves3d(edge);
+        wire.Add(edge);
+    }
+    if (!BRepTools::Write(bounded(surface, wire.Wire()), brep.c_str()))
+        throw std::runtime_error("no cylinder was written");
 }
 
 } // namespace spia

@@ -14,4 +14,10 @@ constexpr double sliver_width = 1e-9; // mm
 /// Writes them as BREP.
 void write_two_squares(const std::filesystem::path& brep, ThirdFace third);
 
+/// How a face of a cylinder about z, radius 10, comes to be.
+enum class Swept { line_up, line_down, circle_up, circle_down };
+
+/// Writes it as BREP, from -1 to 1 rad about z and from z = 0 to 30.
+void write_swept_cylinder(const std::filesystem::path& brep, Swept swept);
+
 } // namespace spia
