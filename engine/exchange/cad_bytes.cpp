@@ -91,6 +91,7 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.unit);
     way.one(cad.deflection);
     way.one(cad.sewing_tolerance);
+    way.one(cad.widest_closed);
     way.one(cad.shortest_edge);
     way.one(cad.free_before);
     way.one(cad.free_after);

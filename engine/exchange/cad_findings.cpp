@@ -14,8 +14,7 @@
 namespace spia {
 namespace {
 
-constexpr double widest_tried_tolerance = 0.5; // mm, of sew()
-constexpr size_t shown = 20;                   // of many faces or gaps
+constexpr size_t shown = 20; // of many faces or gaps
 
 template <class Name> std::string listed(const std::vector<Name>& faces)
 {
@@ -198,14 +197,11 @@ void report_cad(const CadContent& cad, PartFile& part)
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",
                                            cad.sewing_tolerance, cad.free_before, cad.free_after)
                              : fmt::format("not sewn: {} free edges", cad.free_after));
-    if (cad.sewing_tolerance > cad.shortest_edge / 2)
-        part.notes.push_back(fmt::format("the sewing tolerance is more than half the shortest edge, {:.3g} mm: small "
-                                         "faces may have closed up",
-                                         cad.shortest_edge));
-    else if (cad.free_after > 0 && cad.shortest_edge < 2 * widest_tried_tolerance)
-        part.notes.push_back(fmt::format("an edge of {:.3g} mm keeps the sewing tolerance below half of that; give a "
-                                         "larger one if gaps are left open",
-                                         cad.shortest_edge));
+    if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.widest_closed)
+        part.notes.push_back(
+            fmt::format("the sewing tolerance is about half the length of edges, the shortest {:.3g} mm: small faces "
+                        "may have closed up, and wider gaps are open",
+                        cad.shortest_edge));
     std::vector<Finding> findings;
     report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);

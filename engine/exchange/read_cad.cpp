@@ -114,9 +114,10 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     const double diagonal = diagonal_of(compound_of(taken));
     require_sense(options, diagonal);
     result.deflection = options.deflection.value_or(diagonal / 2000);
-    SewnFaces sewn = sew(taken, options.sewing_tolerance, progress.part(0, 0.5));
+    SewnFaces sewn = sew(taken, options.sewing_tolerance, diagonal, progress.part(0, 0.5));
     result.sewing_tolerance = sewn.tolerance;
     result.shortest_edge = sewn.shortest_edge;
+    result.widest_closed = sewn.widest_closed;
     result.free_before = sewn.free_before;
     result.free_after = sewn.free_after;
     const auto number_of = [&](int face) { return numbers[size_t(face)]; };

@@ -42,6 +42,7 @@ struct CadContent {
     std::string unit;            ///< that the file names, e.g. "INCH"; lengths here are mm; empty: it names none
     double deflection = 0;       ///< mm, largest distance between triangle and face that was asked for
     double sewing_tolerance = 0; ///< mm; 0: the faces were taken as they are
+    double widest_closed = 0;    ///< mm, the widest gap that is closed unasked
     double shortest_edge = 0;    ///< mm
     int free_before = 0;         ///< edges of one face only, before sewing
     int free_after = 0;          ///< and after it
