@@ -6,6 +6,7 @@
 #include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopoDS_Compound.hxx>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -37,7 +38,7 @@ template <class Value> std::array<double, 4> bezier(double t0, double t1, const 
 }
 
 /// The panel over a rectangle, exactly.
-NurbsSurface piece(double x0, double x1, double y0, double y1)
+NurbsSurface piece(double x0, double x1, double y0, double y1, double lift)
 {
     NurbsSurface s;
     s.degree_u = s.degree_v = 3;
@@ -51,7 +52,7 @@ NurbsSurface piece(double x0, double x1, double y0, double y1)
     for (int i = 0; i < 4; ++i) {
         const auto along_y = bezier(0, 1, [&](double t) { return along_x[size_t(std::lround(3 * t))][size_t(i)]; });
         for (int j = 0; j < 4; ++j)
-            s.control.col(s.index(i, j)) << x0 + (x1 - x0) * i / 3, y0 + (y1 - y0) * j / 3, along_y[size_t(j)];
+            s.control.col(s.index(i, j)) << x0 + (x1 - x0) * i / 3, y0 + (y1 - y0) * j / 3, along_y[size_t(j)] + lift;
     }
     return s;
 }
@@ -73,19 +74,23 @@ void write_panel(const std::filesystem::path& file, int count, double gap)
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     Interface_Static::SetCVal("write.step.unit", "MM"); // whatever another test has left
     std::mt19937 random(2026);
-    const auto moved = [&] { return gap * (double(random()) / double(std::mt19937::max()) - 0.5); };
+    const auto upto = [&](double most) { return most * (2 * double(random()) / double(std::mt19937::max()) - 1); };
+    const auto moved = [&] { return upto(0.45 * gap); };
     TopoDS_Compound faces;
     const BRep_Builder builder;
     builder.MakeCompound(faces);
     constexpr double further = 1; // mm
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) {
-            const double x0 = length * i / count, x1 = length * (i + 1) / count, y0 = width * j / count,
+    for (int j = 0; j < count; ++j)
+        for (int i = 0; i < count + (j % 2); ++i) { // every second row by half a patch to the side
+            const double shift = j % 2 * 0.5;
+            const double x0 = std::max(0.0, length * (i - shift) / count),
+                         x1 = std::min(length, length * (i + 1 - shift) / count), y0 = width * j / count,
                          y1 = width * (j + 1) / count;
-            const double west = i > 0 ? x0 + moved() : x0, east = i + 1 < count ? x1 + moved() : x1,
+            const double west = x0 > 0 ? x0 + moved() : x0, east = x1 < length ? x1 + moved() : x1,
                          south = j > 0 ? y0 + moved() : y0, north = j + 1 < count ? y1 + moved() : y1;
             const double u_span = x1 - x0 + 2 * further, v_span = y1 - y0 + 2 * further;
-            const auto surface = to_occt(piece(x0 - further, x1 + further, y0 - further, y1 + further));
+            const auto surface =
+                to_occt(piece(x0 - further, x1 + further, y0 - further, y1 + further, upto(0.1 * gap)));
             builder.Add(faces,
                         BRepBuilderAPI_MakeFace(surface, (west - x0 + further) / u_span, (east - x0 + further) / u_span,
                                                 (south - y0 + further) / v_span, (north - y0 + further) / v_span, 1e-7)
