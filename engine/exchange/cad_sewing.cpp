@@ -20,7 +20,6 @@
 #include <utility>
 
 #include "engine/exchange/cad_gaps.h"
-#include "engine/exchange/cad_slivers.h"
 #include "engine/exchange/cad_swept.h"
 #include "engine/exchange/occt_progress.h"
 
@@ -164,18 +163,6 @@ std::vector<CadGap> gaps_between(const SewnFaces& sewn)
     return gaps;
 }
 
-/// Whether every face is there still that is more than a sliver: one that is smaller than the tolerance vanishes.
-bool all_there(const SewnFaces& before, const SewnFaces& after)
-{
-    std::vector<char> there(before.face.size(), 0);
-    for (const int number : after.number)
-        there[size_t(number)] = 1;
-    for (size_t f = 0; f < before.face.size(); ++f)
-        if (!there[size_t(before.number[f])] && !sliver(before.face[f], after.tolerance))
-            return false;
-    return true;
-}
-
 /// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
 SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optional<double> given,
                     const Progress& progress)
@@ -187,13 +174,12 @@ SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optiona
         if (edges.faces(e).size() == 1)
             free.push_back({edges.edge(e), edges.faces(e)[0]});
     const std::vector<double> gaps = gaps_to_others(free, whole.widest_closed, progress.part(0, 0.2));
-    double tolerance = tolerance_for(gaps, int(free.size()), std::min(flaw, whole.widest_closed), whole.widest_closed);
-    for (; tolerance >= flaw / 10; tolerance /= 4) {
-        SewnFaces next = sewn(whole, tolerance, progress.part(0.2, 1));
-        if (all_there(whole, next))
-            return next.free_after < whole.free_after ? next : whole;
-    }
-    return whole;
+    const double tolerance =
+        tolerance_for(gaps, int(free.size()), std::min(flaw, whole.widest_closed), whole.widest_closed);
+    if (!(tolerance > 0))
+        return whole;
+    SewnFaces next = sewn(whole, tolerance, progress.part(0.2, 1));
+    return next.free_after < whole.free_after ? next : whole;
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct SewnFaces {
 };
 
 /// Heals faces (ShapeFix) and joins those that meet within the tolerance. Not given, it is found from how far free edges are from one
-/// another (tolerance_for()), is not above half the length of nearly all edges, and leaves every face there that is no sliver. For .cpp
+/// another (tolerance_for()), and is not above half the length of nearly all edges. For .cpp
 /// files of engine/exchange that hold an OcctSession.
 /// @param diagonal  of the faces, mm
 SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, double diagonal,

@@ -271,6 +271,19 @@ TEST(CadSewing, LooksPastATinyEdge)
     EXPECT_EQ(examine_part(folder / "wall.igs").doctor.components, 1);
 }
 
+TEST(CadSewing, KeepsAThinFace)
+{
+    const ScratchFolder folder;
+    std::vector<NurbsSurface> wall = gappy_bricks();
+    wall.push_back(rectangle(200, 240, 0, 0.2)); // its sides are as near as a gap, but they are its own
+    write_iges(folder / "wall.igs", wall);
+    const CadContent cad = read_cad(folder / "wall.igs");
+    EXPECT_GT(cad.sewing_tolerance, 0.08);
+    EXPECT_LT(cad.sewing_tolerance, 0.2);
+    EXPECT_TRUE(cad.slivers.empty());
+    EXPECT_EQ(cad.face.back(), int(wall.size()) - 1);
+}
+
 TEST(CadSewing, LeavesSlotsOpenBesideNarrowGaps)
 {
     const ScratchFolder folder;
