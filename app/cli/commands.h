@@ -8,6 +8,16 @@
 
 namespace spia::cli {
 
+/// How a CAD file becomes triangles.
+struct CadArguments {
+    std::optional<double> sewing, deflection; ///< mm; not given: found from the part
+    std::optional<double> angle_deg;
+    bool skip_bad_faces = false;
+};
+
+/// @throws InputError if some is given and the part is no CAD file
+CadOptions cad_options(const CadArguments& arguments, const std::filesystem::path& part);
+
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, process;
     std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: outer
@@ -27,6 +37,7 @@ struct RunArguments {
     double max_thinning = 25, max_thickening = 10; ///< percent
     std::string seam = "auto";                     ///< auto, none, or a file of paths
     bool strict = false, weld = false, keep_largest = false, skins = false;
+    CadArguments cad;
 };
 
 /// Runs the whole chain on a part, writes the files and prints a summary.
@@ -38,6 +49,7 @@ struct InfoArguments {
     std::string unit, seam = "auto", skin;
     std::vector<std::string> parts; ///< of a solver deck, ids or names
     bool weld = false, keep_largest = false;
+    CadArguments cad;
 };
 
 /// Prints what the mesh doctor says. @returns 0, or 2 if the part would be refused
@@ -51,6 +63,7 @@ struct CompareArguments {
     std::vector<double> direction;
     std::vector<std::string> methods;
     bool markdown = false, weld = false, keep_largest = false;
+    CadArguments cad;
 };
 
 /// Unfolds a part by several methods and prints how their maps compare.
@@ -71,6 +84,7 @@ struct UnfoldArguments {
     std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
+    CadArguments cad;
 };
 
 /// Unfolds a part step by step, as a script says or by steps of its own, writes the states and prints a summary.

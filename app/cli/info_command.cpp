@@ -26,6 +26,13 @@ void print_parts(const DeckOrigin& deck)
         say("element sets    and {} more\n", deck.sets.size() - most);
 }
 
+/// Assemblies and bodies of a CAD file.
+void print_items(const CadTree& tree)
+{
+    for (size_t i = 0; i < tree.item.size(); ++i)
+        say("{:<15} {}\n", i == 0 ? "holds" : "", in_words(tree, int(i)));
+}
+
 void print_solid(const SolidOrigin& solid)
 {
     say("solid           {} faces, {:.6g} mm3; taken: {} skin{}\n", solid.faces, solid.volume, name(solid.skin),
@@ -47,6 +54,7 @@ int info(const InfoArguments& arguments)
     if (arguments.weld)
         options.weld = true;
     options.parts = arguments.parts;
+    options.cad = cad_options(arguments.cad, arguments.part);
     options.doctor.keep_largest = arguments.keep_largest;
     if (!arguments.skin.empty())
         options.skin = skin_by_name(arguments.skin);
@@ -64,6 +72,8 @@ int info(const InfoArguments& arguments)
     say("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices, part.file_faces);
     if (part.deck)
         print_parts(*part.deck);
+    if (part.cad)
+        print_items(part.cad->tree);
     if (part.solid)
         print_solid(*part.solid);
     say("components      {}\n", doctor.components);

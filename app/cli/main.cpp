@@ -24,11 +24,30 @@ void add_parts(CLI::App* command, std::vector<std::string>& parts)
     command
         ->add_option(
             "--part", parts,
-            "of a solver deck: the part, property or element set to take, by id or name; of a CAD file: the faces to "
-            "take, by number from 0, e.g. 7 or 10-19 (default: all)")
+            "of a solver deck: the part, property or element set to take, by id or name; of a CAD file: a body or "
+            "assembly by its number or name as `spia info` lists them, e.g. body:2, or faces by number from 0, e.g. 7 or "
+            "10-19 (default: all)")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("ID|NAME");
+}
+
+void add_cad(CLI::App* command, spia::cli::CadArguments& cad)
+{
+    command
+        ->add_option("--sewing", cad.sewing,
+                     "of a CAD file: gaps between faces up to this are closed, 0: none (default: found from the gaps)")
+        ->type_name("MM");
+    command
+        ->add_option("--deflection", cad.deflection,
+                     "of a CAD file: distance between triangles and faces (default: 1/2000 of the diagonal)")
+        ->type_name("MM");
+    command
+        ->add_option("--angle", cad.angle_deg,
+                     "of a CAD file: between the tangents at both ends of a chord (default 20)")
+        ->type_name("DEG");
+    command->add_flag("--skip-bad-faces", cad.skip_bad_faces,
+                      "of a CAD file: leave out faces that cannot be read or meshed, and take the rest");
 }
 
 void add_skin(CLI::App* command, std::string& skin)
@@ -79,6 +98,7 @@ int main(int count, char** values)
     run_command->add_option("part", run.part, part_files)->required()->type_name("PART");
     run_command->add_option("--out", run.folder, "folder for the files")->type_name("DIR")->capture_default_str();
     add_parts(run_command, run.parts);
+    add_cad(run_command, run.cad);
     add_skin(run_command, run.skin);
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
@@ -172,6 +192,7 @@ int main(int count, char** values)
         app.add_subcommand("info", "Examine a part: what it is, what is wrong with it, what to do");
     info_command->add_option("part", info.part, part_files)->required()->type_name("PART");
     add_parts(info_command, info.parts);
+    add_cad(info_command, info.cad);
     add_skin(info_command, info.skin);
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
@@ -218,6 +239,7 @@ int main(int count, char** values)
         ->type_name("auto|none|FILE")
         ->capture_default_str();
     add_parts(compare_command, comparison.parts);
+    add_cad(compare_command, comparison.cad);
     add_skin(compare_command, comparison.skin);
     compare_command->add_option("--unit", comparison.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
@@ -278,6 +300,7 @@ int main(int count, char** values)
         ->capture_default_str();
     add_thickness(unfold_command, unfolding.thickness, "of the flat sheet (default: that of the part, else 1)");
     add_parts(unfold_command, unfolding.parts);
+    add_cad(unfold_command, unfolding.cad);
     add_skin(unfold_command, unfolding.skin);
     unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));

@@ -46,6 +46,7 @@ SessionOptions options(const RunArguments& arguments)
     if (arguments.weld)
         result.read.weld = true;
     result.read.parts = arguments.parts;
+    result.read.cad = cad_options(arguments.cad, arguments.part);
     result.read.doctor.keep_largest = arguments.keep_largest;
     if (!arguments.skin.empty())
         result.read.skin = skin_by_name(arguments.skin);

@@ -54,6 +54,7 @@ PartFile part_of(const UnfoldArguments& arguments)
     if (arguments.weld)
         read.weld = true;
     read.parts = arguments.parts;
+    read.cad = cad_options(arguments.cad, arguments.part);
     read.doctor.keep_largest = arguments.keep_largest;
     if (!arguments.skin.empty())
         read.skin = skin_by_name(arguments.skin);

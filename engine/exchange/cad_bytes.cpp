@@ -14,6 +14,12 @@ struct Packer {
         if (count > 0)
             bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof values[0]);
     }
+    void row(const std::vector<std::string>& texts)
+    {
+        one(texts.size());
+        for (const std::string& text : texts)
+            row(text);
+    }
     void row(const std::vector<CadItem>& items)
     {
         one(items.size());
@@ -36,6 +42,14 @@ struct Unpacker {
         one(count);
         values.resize(count);
         take(reinterpret_cast<char*>(values.data()), count * sizeof values[0]);
+    }
+    void row(std::vector<std::string>& texts)
+    {
+        size_t count = 0;
+        one(count);
+        texts.resize(count);
+        for (std::string& text : texts)
+            row(text);
     }
     void row(std::vector<CadItem>& items)
     {
@@ -77,11 +91,15 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.unit);
     way.one(cad.deflection);
     way.one(cad.sewing_tolerance);
+    way.one(cad.widest_closed);
     way.one(cad.shortest_edge);
     way.one(cad.free_before);
     way.one(cad.free_after);
     way.row(cad.gaps);
+    way.row(cad.lost);
     way.row(cad.unmeshed);
+    way.row(cad.slivers);
+    way.one(cad.unmeshed_left_out);
     way.row(cad.overlapping);
 }
 

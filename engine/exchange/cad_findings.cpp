@@ -6,18 +6,19 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
+#include <string>
 
 #include "engine/mesh/disjoint_sets.h"
 
 namespace spia {
 namespace {
 
-constexpr double widest_tried_tolerance = 0.5; // mm, of sew()
-constexpr size_t shown = 20;                   // of many faces or gaps
+constexpr size_t shown = 20; // of many faces or gaps
 
-std::string listed(const std::vector<int>& faces)
+template <class Name> std::string listed(const std::vector<Name>& faces)
 {
-    const std::vector<int> first(faces.begin(), faces.begin() + long(std::min(shown, faces.size())));
+    const std::vector<Name> first(faces.begin(), faces.begin() + long(std::min(shown, faces.size())));
     return fmt::format("{}{}", fmt::join(first, ", "),
                        faces.size() > shown ? fmt::format(" and {} more", faces.size() - shown) : "");
 }
@@ -53,17 +54,50 @@ void report_gaps(const CadContent& cad, std::vector<Finding>& findings)
 
 void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
 {
+    const auto report = [&](int count, std::string text) {
+        findings.push_back({Fault::unmeshed_face,
+                            cad.unmeshed_left_out ? Severity::repaired : Severity::fatal,
+                            count,
+                            -1,
+                            cad.unmeshed_left_out ? text + "; left out" : text,
+                            cad.unmeshed_left_out
+                                ? "look at the holes that they leave"
+                                : "repair them in the CAD system, choose the other faces (--part), or leave "
+                                  "these out and take the rest (--skip-bad-faces)",
+                            {},
+                            {}});
+    };
     if (!cad.unmeshed.empty())
-        findings.push_back(
-            {Fault::unmeshed_face,
-             Severity::fatal,
-             int(cad.unmeshed.size()),
-             -1,
-             fmt::format("no triangles could be made of {}: {}",
-                         counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)),
-             "repair them in the CAD system, or choose the other faces (--part)",
-             {},
-             {}});
+        report(int(cad.unmeshed.size()),
+               fmt::format("no triangles could be made of {}: {}",
+                           counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)));
+    if (cad.lost.empty())
+        return;
+    report(int(cad.lost.size()),
+           fmt::format("{} of the file could not be read: {}",
+                       counted(int(cad.lost.size()), "face or body", "faces and bodies"), listed(cad.lost)));
+    if (cad.taken < cad.faces) { // perhaps of what was not chosen
+        findings.back().severity = Severity::note;
+        findings.back().advice = "see whether what was chosen is whole";
+    }
+}
+
+void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (cad.slivers.empty())
+        return;
+    const CadSliver& widest = cad.slivers.front();
+    Finding finding{Fault::gap, Severity::repaired, int(cad.slivers.size()), -1, "", "", {}, {}};
+    for (size_t k = 0; k < std::min(shown, cad.slivers.size()) && cad.soup.vertices() > 0; ++k) {
+        finding.where.push_back(nearest_vertex(cad.soup, cad.slivers[k].place));
+        finding.place.push_back(cad.slivers[k].place);
+    }
+    finding.first = finding.where.empty() ? -1 : finding.where.front();
+    finding.text = fmt::format(
+        "{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g}: CAD face {}",
+        counted(int(cad.slivers.size()), "sliver among the CAD faces was", "slivers among the CAD faces were"),
+        widest.width, widest.place.x(), widest.place.y(), widest.place.z(), widest.face);
+    findings.push_back(std::move(finding));
 }
 
 void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
@@ -103,37 +137,50 @@ std::string ranges(const std::set<int>& faces)
 }
 
 /// The CAD faces of each piece of the mesh.
-std::vector<std::set<int>> bodies(const CadContent& cad, const PartFile& part)
+std::vector<std::set<int>> pieces(const CadContent& cad, const PartFile& part)
 {
-    DisjointSets pieces(size_t(part.mesh.vertices()));
+    DisjointSets joined(size_t(part.mesh.vertices()));
     for (int f = 0; f < part.mesh.triangles(); ++f)
         for (int k = 0; k < 3; ++k)
-            pieces.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
+            joined.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
     std::map<int, std::set<int>> found;
     for (int f = 0; f < part.mesh.triangles(); ++f)
-        found[pieces.root(part.mesh.triangle(0, f))].insert(cad.face[size_t(part.source_face[size_t(f)])]);
+        found[joined.root(part.mesh.triangle(0, f))].insert(cad.face[size_t(part.source_face[size_t(f)])]);
     std::vector<std::set<int>> result;
     for (auto& [root, faces] : found)
         result.push_back(std::move(faces));
     return result;
 }
 
+/// Bodies of the file that some of the faces taken are of.
+std::vector<int> bodies_taken(const CadContent& cad)
+{
+    std::set<int> bodies;
+    for (const int face : cad.face)
+        bodies.insert(cad.tree.body_of[size_t(face)]);
+    return {bodies.begin(), bodies.end()};
+}
+
 /// Several solids are several parts; of a single one a skin was taken (take_skin()), or said why not.
 void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Finding>& findings)
 {
-    if (!cad.solid || cad.taken < cad.faces || part.doctor.components < 2)
+    if (!cad.solid || part.doctor.components < 2)
         return;
-    std::string list;
-    const auto found = bodies(cad, part);
-    for (size_t b = 0; b < std::min(shown, found.size()); ++b)
-        list += fmt::format("{}{}", b == 0 ? "" : "; ", ranges(found[b]));
+    std::vector<std::string> choices; // as they are given to --part
+    if (const std::vector<int> taken = bodies_taken(cad); taken.size() > 1)
+        for (const int body : taken)
+            choices.push_back(choice(cad.tree.item[size_t(body)]));
+    else
+        for (const std::set<int>& faces : pieces(cad, part))
+            choices.push_back(ranges(faces));
+    const std::span<const std::string> named = std::span(choices).first(std::min(shown, choices.size()));
     findings.push_back({Fault::several_components,
                         Severity::fatal,
-                        int(found.size()),
+                        int(choices.size()),
                         -1,
-                        fmt::format("it holds {} bodies that are not connected, with the CAD faces {}{}", found.size(),
-                                    list, found.size() > shown ? " and more" : ""),
-                        fmt::format("choose one of them (--part {})", ranges(found.front())),
+                        fmt::format("it holds {} bodies that are not connected: {}{}", choices.size(),
+                                    fmt::join(named, "; "), choices.size() > shown ? " and more" : ""),
+                        fmt::format("choose one of them (--part {})", choices.front()),
                         {},
                         {}});
 }
@@ -150,19 +197,17 @@ void report_cad(const CadContent& cad, PartFile& part)
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",
                                            cad.sewing_tolerance, cad.free_before, cad.free_after)
                              : fmt::format("not sewn: {} free edges", cad.free_after));
-    if (cad.sewing_tolerance > cad.shortest_edge / 2)
-        part.notes.push_back(fmt::format("the sewing tolerance is more than half the shortest edge, {:.3g} mm: small "
-                                         "faces may have closed up",
-                                         cad.shortest_edge));
-    else if (cad.free_after > 0 && cad.shortest_edge < 2 * widest_tried_tolerance)
-        part.notes.push_back(fmt::format("an edge of {:.3g} mm keeps the sewing tolerance below half of that; give a "
-                                         "larger one if gaps are left open",
-                                         cad.shortest_edge));
+    if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.widest_closed)
+        part.notes.push_back(
+            fmt::format("the sewing tolerance is about half the length of edges, the shortest {:.3g} mm: small faces "
+                        "may have closed up, and wider gaps are open",
+                        cad.shortest_edge));
     std::vector<Finding> findings;
     report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);
     report_overlaps(cad, findings);
     report_gaps(cad, findings);
+    report_slivers(cad, findings);
     part.doctor.findings.insert(part.doctor.findings.begin(), findings.begin(), findings.end());
 }
 

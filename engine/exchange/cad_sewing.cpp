@@ -19,13 +19,14 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "engine/exchange/cad_gaps.h"
+#include "engine/exchange/cad_swept.h"
 #include "engine/exchange/occt_progress.h"
 
 namespace spia {
 namespace {
 
 constexpr double flaw = 1e-3; // mm; an edge shorter than this is a slip of the file, not a feature
-constexpr std::array<double, 4> tried = {1e-3, 1e-2, 0.1, 0.5}; // mm
 
 /// Which faces use each edge, a seam twice.
 class EdgeFaces {
@@ -55,20 +56,30 @@ private:
     std::vector<std::vector<int>> use_;
 };
 
-double shortest_edge(const EdgeFaces& edges)
+/// Lengths of those that are more than flaws, ascending, mm.
+std::vector<double> lengths_of(const EdgeFaces& edges)
 {
-    double shortest = 0;
+    std::vector<double> lengths;
     for (int e = 0; e < edges.edges(); ++e) {
-        double length = 0;
         try {
-            length = GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edges.edge(e)), flaw / 10);
+            const double length = GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edges.edge(e)), flaw / 10);
+            if (length > flaw)
+                lengths.push_back(length);
         } catch (const Standard_Failure&) {
             continue; // an edge without a curve has no length to go by
         }
-        if (length > flaw && (shortest == 0 || length < shortest))
-            shortest = length;
     }
-    return shortest;
+    std::sort(lengths.begin(), lengths.end());
+    return lengths;
+}
+
+/// The widest gap that is closed unasked, mm. Edges that are much shorter than nearly all others are slips, and do not count.
+double widest_closed(const std::vector<double>& lengths, double diagonal)
+{
+    constexpr double usual = 0.5, of_diagonal = 1e-3, slips = 0.05;
+    if (lengths.empty())
+        return flaw;
+    return std::min(lengths[size_t(slips * double(lengths.size()))] / 2, std::max(usual, of_diagonal * diagonal));
 }
 
 /// What has become of each face; it may be several or none.
@@ -153,22 +164,22 @@ std::vector<CadGap> gaps_between(const SewnFaces& sewn)
 }
 
 /// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
-SewnFaces best_sewn(const SewnFaces& whole, std::optional<double> given, const Progress& progress)
+SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optional<double> given,
+                    const Progress& progress)
 {
     if (given)
         return *given > 0 ? sewn(whole, *given, progress) : whole;
-    const double most = whole.shortest_edge / 2;
-    SewnFaces best = whole;
-    for (size_t k = 0; k < tried.size() && best.free_after > 0; ++k) {
-        const double tolerance = k == 0 ? std::min(tried[0], most) : tried[k];
-        if (tolerance > most)
-            break;
-        SewnFaces next = sewn(whole, tolerance, progress.part(double(k) / tried.size(), double(k + 1) / tried.size()));
-        const bool all_there = next.face.size() >= best.face.size(); // a face smaller than the tolerance vanishes
-        if (all_there && next.free_after < best.free_after)
-            best = std::move(next);
-    }
-    return best;
+    std::vector<FreeEdge> free;
+    for (int e = 0; e < edges.edges(); ++e)
+        if (edges.faces(e).size() == 1)
+            free.push_back({edges.edge(e), edges.faces(e)[0]});
+    const std::vector<double> gaps = gaps_to_others(free, whole.widest_closed, progress.part(0, 0.2));
+    const double tolerance =
+        tolerance_for(gaps, int(free.size()), std::min(flaw, whole.widest_closed), whole.widest_closed);
+    if (!(tolerance > 0))
+        return whole;
+    SewnFaces next = sewn(whole, tolerance, progress.part(0.2, 1));
+    return next.free_after < whole.free_after ? next : whole;
 }
 
 } // namespace
@@ -183,20 +194,23 @@ TopoDS_Compound compound_of(std::span<const TopoDS_Face> faces)
     return compound;
 }
 
-SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, const Progress& progress)
+SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, double diagonal,
+              const Progress& progress)
 {
     SewnFaces loose;
-    for (size_t f = 0; f < faces.size(); ++f) {
-        loose.face.push_back(faces[f]);
+    for (size_t f = 0; f < faces.size(); ++f)
         loose.number.push_back(int(f));
-    }
+    loose.face = without_swept_cylinders(faces);
     SewnFaces whole = healed(loose, progress.part(0, 0.2));
     const EdgeFaces edges(whole.face);
     whole.free_before = whole.free_after = edges.free();
-    whole.shortest_edge = shortest_edge(edges);
-    SewnFaces result = best_sewn(whole, tolerance, progress.part(0.2, 1));
+    const std::vector<double> lengths = lengths_of(edges);
+    whole.shortest_edge = lengths.empty() ? 0 : lengths.front();
+    whole.widest_closed = widest_closed(lengths, diagonal);
+    SewnFaces result = best_sewn(whole, edges, tolerance, progress.part(0.2, 1));
     result.free_before = whole.free_before;
     result.shortest_edge = whole.shortest_edge;
+    result.widest_closed = whole.widest_closed;
     result.gaps = gaps_between(result);
     return result;
 }

@@ -17,15 +17,18 @@ struct SewnFaces {
     std::vector<int> number;  ///< per face: which of the faces given it came from
     double tolerance = 0;     ///< mm, with which they were sewn; 0: they were taken as they are
     double shortest_edge = 0; ///< mm, among edges that are more than flaws
+    double widest_closed = 0; ///< mm, the widest gap that would have been closed unasked
     int free_before = 0;      ///< edges of one face only
     int free_after = 0;
     std::vector<CadGap> gaps; ///< between the two faces of an edge, the widest first
 };
 
-/// Heals faces (ShapeFix) and joins those that meet within the tolerance. Not given, it is the smallest of 0, 0.001, 0.01, 0.1 and 0.5 mm
-/// that leaves the fewest free edges and is not above half the shortest edge. For .cpp files of engine/exchange that
-/// hold an OcctSession.
-SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, const Progress& progress);
+/// Heals faces (ShapeFix) and joins those that meet within the tolerance. Not given, it is found from how far free edges are from one
+/// another (tolerance_for()), and is not above half the length of nearly all edges. For .cpp
+/// files of engine/exchange that hold an OcctSession.
+/// @param diagonal  of the faces, mm
+SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> tolerance, double diagonal,
+              const Progress& progress);
 
 TopoDS_Compound compound_of(std::span<const TopoDS_Face> faces);
 

@@ -54,6 +54,7 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     const Handle(OcctProgress) passed_on = new OcctProgress(progress.part(0.4, 1), "making its faces");
     reader.TransferRoots(passed_on->Start());
     result.shape = reader.OneShape();
+    result.lost = not_translated(reader);
     return CadNames(reader);
 }
 

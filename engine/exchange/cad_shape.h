@@ -15,6 +15,7 @@ struct CadShape {
     TopoDS_Shape shape;
     std::vector<TopoDS_Face> face; ///< by its number: the order of the file
     CadTree tree;                  ///< assemblies and bodies with these faces
+    std::vector<std::string> lost; ///< labels of faces and bodies that could not be made
     std::string format;            ///< e.g. "STEP"
     std::string unit;              ///< of the file, e.g. "INCH"; empty if it names none (BREP)
 };

@@ -17,6 +17,7 @@
 #include "engine/exchange/cad_mesh.h"
 #include "engine/exchange/cad_sewing.h"
 #include "engine/exchange/cad_shape.h"
+#include "engine/exchange/cad_slivers.h"
 #include "engine/exchange/child_process.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/mesh/edge_uses.h"
@@ -25,14 +26,31 @@
 namespace spia {
 namespace {
 
+constexpr double rounding = 1e-3; // mm; what is narrower is a slip of the file
+
 void require_options(const CadOptions& options)
 {
     if (options.sewing_tolerance && !(*options.sewing_tolerance >= 0 && std::isfinite(*options.sewing_tolerance)))
         throw InputError("the sewing tolerance must be a length in mm, or 0 to leave the faces as they are");
     if (options.deflection && !(*options.deflection > 0 && std::isfinite(*options.deflection)))
         throw InputError("the deflection must be a length in mm above 0");
-    if (!(options.angle > 0.01 && options.angle < 1.6))
-        throw InputError("the angle between chord ends must be between 0.01 and 1.6 radians");
+    if (!(options.angle >= 0.01 && options.angle <= 1.6))
+        throw InputError(
+            "the angle between chord ends must be from 0.01 to 1.6 radians, that is from 0.58 to 91 degrees");
+}
+
+/// Beyond these a part closes up, or has more triangles than any computer holds.
+void require_sense(const CadOptions& options, double diagonal)
+{
+    if (options.sewing_tolerance.value_or(0) > diagonal / 20)
+        throw InputError(
+            fmt::format("a sewing tolerance of {:.4g} mm would close up the part itself, which is {:.4g} mm "
+                        "across; give {:.3g} mm at most",
+                        *options.sewing_tolerance, diagonal, diagonal / 20));
+    if (options.deflection && *options.deflection < diagonal * 1e-6)
+        throw InputError(fmt::format("a deflection of {:.4g} mm takes too many triangles for a part that is {:.4g} mm "
+                                     "across; give {:.3g} mm at least",
+                                     *options.deflection, diagonal, diagonal * 1e-6));
 }
 
 double diagonal_of(const TopoDS_Shape& shape)
@@ -80,6 +98,8 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     CadContent result;
     result.format = shape.format;
     result.unit = shape.unit;
+    result.lost = std::move(shape.lost);
+    result.unmeshed_left_out = options.leave_out_unmeshed;
     result.faces = int(shape.face.size());
     const std::vector<int> numbers = chosen_faces(shape.tree, wanted);
     result.taken = int(numbers.size());
@@ -91,10 +111,13 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     for (const int number : numbers)
         taken.push_back(shape.face[size_t(number)]);
 
-    result.deflection = options.deflection.value_or(diagonal_of(compound_of(taken)) / 2000);
-    SewnFaces sewn = sew(taken, options.sewing_tolerance, progress.part(0, 0.5));
+    const double diagonal = diagonal_of(compound_of(taken));
+    require_sense(options, diagonal);
+    result.deflection = options.deflection.value_or(diagonal / 2000);
+    SewnFaces sewn = sew(taken, options.sewing_tolerance, diagonal, progress.part(0, 0.5));
     result.sewing_tolerance = sewn.tolerance;
     result.shortest_edge = sewn.shortest_edge;
+    result.widest_closed = sewn.widest_closed;
     result.free_before = sewn.free_before;
     result.free_after = sewn.free_after;
     const auto number_of = [&](int face) { return numbers[size_t(face)]; };
@@ -111,10 +134,18 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
         meshed[size_t(face)] = 1;
         result.face.push_back(number_of(face));
     }
+    const double closed = std::max(result.sewing_tolerance, rounding);
     for (size_t f = 0; f < taken.size(); ++f)
-        if (!meshed[f])
-            result.unmeshed.push_back(number_of(int(f)));
-    result.overlapping = overlapping(result, std::max(result.sewing_tolerance, 1e-6 * diagonal_of(compound_of(taken))));
+        if (!meshed[f]) {
+            if (auto narrow = sliver(taken[f], closed)) {
+                narrow->face = number_of(int(f));
+                result.slivers.push_back(*narrow);
+            } else
+                result.unmeshed.push_back(number_of(int(f)));
+        }
+    std::stable_sort(result.slivers.begin(), result.slivers.end(),
+                     [](const CadSliver& a, const CadSliver& b) { return a.width > b.width; });
+    result.overlapping = overlapping(result, std::max(result.sewing_tolerance, 1e-6 * diagonal));
     progress.checkpoint(1, "looking for overlapping faces");
     return result;
 }

@@ -23,24 +23,36 @@ struct CadGap {
     std::array<int, 2> face;
 };
 
+/// A face that is narrower than gaps that are closed, and has no triangles.
+struct CadSliver {
+    double width = 0;      ///< mm
+    Eigen::Vector3d place; ///< where it is widest, mm
+    int face = -1;
+};
+
 /// Faces of a CAD file as one triangle mesh. Faces are numbered as the file has them, from 0.
 struct CadContent {
-    PolygonSoup soup;             ///< triangles, mm; neighbours share the vertices of their common edge
-    std::vector<int> face;        ///< per triangle the face it lies on
-    int faces = 0;                ///< of the file
-    int taken = 0;                ///< of them
-    CadTree tree;                 ///< what the file holds
-    bool solid = false;           ///< some of the faces taken are of a solid
-    std::string format;           ///< e.g. "STEP"
-    std::string unit;             ///< that the file names, e.g. "INCH"; lengths here are mm; empty: it names none
-    double deflection = 0;        ///< mm, largest distance between triangle and face that was asked for
-    double sewing_tolerance = 0;  ///< mm; 0: the faces were taken as they are
-    double shortest_edge = 0;     ///< mm
-    int free_before = 0;          ///< edges of one face only, before sewing
-    int free_after = 0;           ///< and after it
-    std::vector<CadGap> gaps;     ///< at edges that two faces share now, the widest first
-    std::vector<int> unmeshed;    ///< faces without triangles
-    std::vector<int> overlapping; ///< faces at edges of three or more triangles, once points at one place are one
+    PolygonSoup soup;            ///< triangles, mm; neighbours share the vertices of their common edge
+    std::vector<int> face;       ///< per triangle the face it lies on
+    int faces = 0;               ///< of the file
+    int taken = 0;               ///< of them
+    CadTree tree;                ///< what the file holds
+    bool solid = false;          ///< some of the faces taken are of a solid
+    std::string format;          ///< e.g. "STEP"
+    std::string unit;            ///< that the file names, e.g. "INCH"; lengths here are mm; empty: it names none
+    double deflection = 0;       ///< mm, largest distance between triangle and face that was asked for
+    double sewing_tolerance = 0; ///< mm; 0: the faces were taken as they are
+    double widest_closed = 0;    ///< mm, the widest gap that is closed unasked
+    double shortest_edge = 0;    ///< mm
+    int free_before = 0;         ///< edges of one face only, before sewing
+    int free_after = 0;          ///< and after it
+    std::vector<CadGap> gaps;    ///< at edges that two faces share now, the widest first
+    std::vector<std::string>
+        lost;                  ///< labels of faces and bodies of the file that could not be made; they have no numbers
+    std::vector<int> unmeshed; ///< faces without triangles, but for slivers
+    std::vector<CadSliver> slivers; ///< that were closed
+    bool unmeshed_left_out = false; ///< as was asked for
+    std::vector<int> overlapping;   ///< faces at edges of three or more triangles, once points at one place are one
 };
 
 /// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.

@@ -190,7 +190,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     if (is_cad("." + extension)) {
         const CadContent cad = read_cad(path, options.cad, options.parts, options.unit, progress.part(0, 0.8));
         part.format = cad.format;
-        part.cad = CadOrigin{cad.face, cad.faces, cad.deflection, cad.sewing_tolerance, !cad.unit.empty()};
+        part.cad = CadOrigin{cad.face, cad.faces, cad.deflection, cad.sewing_tolerance, !cad.unit.empty(), cad.tree};
         part.unit = options.unit.value_or(LengthUnit::mm);
         fill(part, cad.soup, options, true, cad.solid, progress.part(0.8, 1));
         report_cad(cad, part);
@@ -243,7 +243,12 @@ PartFile read_part(const std::filesystem::path& path, const ReadOptions& options
         try {
             require_healthy(part.doctor);
         } catch (const InputError& error) {
-            if (!part.deck || !options.parts.empty() || part.deck->parts.size() < 2)
+            if (!options.parts.empty())
+                throw;
+            if (part.cad && part.cad->tree.bodies() > 1)
+                throw InputError(fmt::format("{}\nThe file has several bodies; choose by number or name (--part):\n{}",
+                                             error.what(), item_list(part.cad->tree)));
+            if (!part.deck || part.deck->parts.size() < 2)
                 throw;
             throw InputError(fmt::format("{}\nThe deck has several parts; choose by id or name (--part):\n{}",
                                          error.what(), part_list(part.deck->parts)));

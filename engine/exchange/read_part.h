@@ -6,6 +6,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/exchange/cad_options.h"
+#include "engine/exchange/cad_tree.h"
 #include "engine/exchange/deck.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/mesh/cut.h"
@@ -21,7 +22,8 @@ struct ReadOptions {
     std::optional<bool> weld = {};       ///< join vertices at one place; not given: for STL and glTF, which repeat them
     DoctorOptions doctor = {};           ///< its `weld` is ignored
     std::vector<std::string> parts =
-        {};                        ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
+        {};                        ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"), bodies and
+                                   ///< assemblies ("body:2", "assembly:0", names: chosen_faces()); empty: all
     CadOptions cad = {};           ///< of a CAD file
     SeamOptions seam = {};         ///< where a part is cut open that is no sheet; vertices of the file
     std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
@@ -50,6 +52,7 @@ struct CadOrigin {
     double deflection = 0;       ///< mm, largest distance between triangle and CAD face that was asked for
     double sewing_tolerance = 0; ///< mm; 0: nothing had to be sewn
     bool unit_stated = false;    ///< by the file; a unit given for it is refused
+    CadTree tree = {};           ///< what the file holds
 };
 
 /// What a part that is one surface of a solid of sheet comes from.

@@ -31,7 +31,7 @@ enum class Fault {
     handle,             ///< genus above 0 [face]
     seam,               ///< cut open, after the examination [vertex, of the seam]
     sliver,             ///< a very small angle [face]
-    gap,                ///< between faces of a CAD file, closed [vertex]
+    gap,                ///< between faces of a CAD file, or a sliver of a face, closed [vertex]
     unmeshed_face,      ///< a face of a CAD file that gave no triangle [none]
     overlap             ///< faces of a CAD file that lie on one another [face]
 };

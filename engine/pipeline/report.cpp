@@ -532,19 +532,23 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
                                      {"material", each.material}});
         json["sets"] = part.deck->sets;
     }
+    if (part.cad) {
+        json["items"] = Json::array();
+        for (const CadItem& item : part.cad->tree.item)
+            json["items"].push_back({{"choice", choice(item)},
+                                     {"name", item.name},
+                                     {"kind", name(item.kind)},
+                                     {"parent", item.parent < 0 ? Json(nullptr) : Json(item.parent)},
+                                     {"faces", item.faces}});
+    }
     if (part.solid) {
         const SolidOrigin& solid = *part.solid;
         json["thickness_mm"] = solid.thickness;
-        json["solid"] = {{"skin", name(solid.skin)},
-                         {"thickness_least_mm", solid.least},
-                         {"thickness_most_mm", solid.most},
-                         {"outer_area_mm2", solid.outer_area},
-                         {"inner_area_mm2", solid.inner_area},
-                         {"rim_area_mm2", solid.rim_area},
-                         {"volume_mm3", solid.volume},
-                         {"faces", solid.faces},
-                         {"outer_faces", solid.outer_faces},
-                         {"inner_faces", solid.inner_faces}};
+        json["solid"] = {{"skin", name(solid.skin)},           {"thickness_least_mm", solid.least},
+                         {"thickness_most_mm", solid.most},    {"outer_area_mm2", solid.outer_area},
+                         {"inner_area_mm2", solid.inner_area}, {"rim_area_mm2", solid.rim_area},
+                         {"volume_mm3", solid.volume},         {"faces", solid.faces},
+                         {"outer_faces", solid.outer_faces},   {"inner_faces", solid.inner_faces}};
     }
     if (part.doctor.healthy()) {
         const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(),

@@ -22,13 +22,15 @@ namespace spia::viewer {
 /// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), keep_largest (all
 /// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
 /// all), skin (of a solid of sheet: "outer", the default, "inner" or "middle"), and of CAD files sewing_mm (gaps up to this are closed;
-/// not given: found from the gaps) and deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal).
+/// not given: found from the gaps), deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal) and leave_out_bad_faces
+/// (those that cannot be read or meshed).
 struct Reading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
     std::vector<std::string> parts = {};
     std::optional<Skin> skin = {};
     std::optional<double> sewing_mm = {}, deflection_mm = {};
+    bool leave_out_bad_faces = false;
 
     friend bool operator==(const Reading&, const Reading&) = default;
 };

@@ -74,7 +74,8 @@ inline constexpr auto members_of<Reading> = std::tuple{member("weld", &Reading::
                                                        member("parts", &Reading::parts),
                                                        member("skin", &Reading::skin),
                                                        member("sewing_mm", &Reading::sewing_mm, gap_width),
-                                                       member("deflection_mm", &Reading::deflection_mm, chord_height)};
+                                                       member("deflection_mm", &Reading::deflection_mm, chord_height),
+                                                       member("leave_out_bad_faces", &Reading::leave_out_bad_faces)};
 template <>
 inline constexpr auto members_of<TensileOptions> =
     std::tuple{member("kind", &TensileOptions::kind), member("in_percent", &TensileOptions::in_percent),

@@ -127,7 +127,8 @@ inline constexpr auto members_of<StoredPart> =
                member("parts", &StoredPart::parts),
                member("skin", &StoredPart::skin),
                member("sewing_mm", &StoredPart::sewing_mm, gap_width),
-               member("deflection_mm", &StoredPart::deflection_mm, chord_height)};
+               member("deflection_mm", &StoredPart::deflection_mm, chord_height),
+               member("leave_out_bad_faces", &StoredPart::leave_out_bad_faces)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),

@@ -4,8 +4,13 @@ namespace spia::viewer {
 
 Reading reading_of(const ReadOptions& options)
 {
-    return {options.weld, options.doctor.keep_largest,  options.parts,
-            options.skin, options.cad.sewing_tolerance, options.cad.deflection};
+    return {options.weld,
+            options.doctor.keep_largest,
+            options.parts,
+            options.skin,
+            options.cad.sewing_tolerance,
+            options.cad.deflection,
+            options.cad.leave_out_unmeshed};
 }
 
 void set_reading(ReadOptions& options, const Reading& reading)
@@ -16,6 +21,7 @@ void set_reading(ReadOptions& options, const Reading& reading)
     options.skin = reading.skin;
     options.cad.sewing_tolerance = reading.sewing_mm;
     options.cad.deflection = reading.deflection_mm;
+    options.cad.leave_out_unmeshed = reading.leave_out_bad_faces;
 }
 
 } // namespace spia::viewer

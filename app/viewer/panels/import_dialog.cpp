@@ -33,6 +33,7 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
         fresh.unit = read.unit ? std::string(name(*read.unit)) : "";
         fresh.skin = read.skin;
         fresh.keep_largest = read.doctor.keep_largest;
+        fresh.leave_out_bad_faces = read.cad.leave_out_unmeshed;
         const auto typed = [](const std::optional<double>& mm) { return mm ? fmt::format("{}", *mm) : std::string(); };
         fresh.sewing = typed(read.cad.sewing_tolerance);
         fresh.deflection = typed(read.cad.deflection);
@@ -297,6 +298,11 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
     }
     ImGui::Checkbox("Keep only the largest piece of sheet", &choices.keep_largest);
     tooltip("Of what was chosen. Without it several pieces are refused, and the step Part shows them.");
+    if (is_cad_file(items)) {
+        ImGui::Checkbox("Leave out faces that cannot be meshed", &choices.leave_out_bad_faces);
+        tooltip("They are named, and the rest is read. Without it the part is refused for them.");
+        reading.leave_out_bad_faces = choices.leave_out_bad_faces;
+    }
     reading.skin = choices.skin;
     reading.keep_largest = choices.keep_largest;
     return sewing && deflection ? std::optional(reading) : std::nullopt;
@@ -354,7 +360,7 @@ void import_dialog(Frame& frame)
         if (choices.about != listed)
             begin_choices(frame, listed);
         summary_line(frame, *listed);
-        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 300 * s);
+        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 330 * s);
         const float wide = ImGui::GetContentRegionAvail().x, list = std::floor(0.38f * wide);
         item_list(frame, *listed, {list, height});
         ImGui::SameLine();

@@ -23,7 +23,7 @@ struct ImportChoices {
     std::vector<char> chosen;                ///< per item
     std::string unit;                        ///< empty: as the file says, else mm
     std::optional<Skin> skin;
-    bool keep_largest = false;
+    bool keep_largest = false, leave_out_bad_faces = false;
     std::string sewing, deflection; ///< mm, as typed; empty: found
     std::optional<int> hovered;     ///< an item
     Camera camera;

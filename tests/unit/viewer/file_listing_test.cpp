@@ -141,7 +141,7 @@ TEST(FileItems, DecksAndCadFilesAreWorthLookingInto)
 
 TEST(Readings, AreWhatTheyWereAfterTheOptionsAndAProject)
 {
-    const Reading reading{true, true, {"7", "body:2"}, Skin::middle, 0.02, 0.1};
+    const Reading reading{true, true, {"7", "body:2"}, Skin::middle, 0.02, 0.1, true};
     ReadOptions options;
     options.unit = LengthUnit::inch;
     set_reading(options, reading);

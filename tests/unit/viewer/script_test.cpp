@@ -41,7 +41,7 @@ std::vector<Action> every_action()
                 action = value;
         };
         set(ListFile{"parts/door.stl"});
-        set(OpenPart{"parts/door.stl", "inch", {{}, false, {"7", "body:2"}, Skin::middle, 0.02, 0.1}});
+        set(OpenPart{"parts/door.stl", "inch", {{}, false, {"7", "body:2"}, Skin::middle, 0.02, 0.1, true}});
         set(SetUnit{"cm"});
         set(SetReading{{true, true, {"7"}, Skin::inner, 0., 1e-3}});
         set(SetSeam{{SeamOptions::Mode::given, {{3, 9, 4}, {1, 2}}}});

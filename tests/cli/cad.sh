@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# usage: cad.sh SPIA SOURCE FOLDER - CAD files on the command line
+set -euo pipefail
+spia=$1 source=$2 out=$3
+[ ! -e "$out" ] || [ -e "$out/.made_by_a_test" ] || { echo "FAILED: $out is no folder of an earlier run"; exit 2; }
+rm -rf "$out"
+mkdir -p "$out"
+touch "$out/.made_by_a_test"
+fail() { echo "FAILED: $*"; exit 1; }
+expect() { # CODE WORDS COMMAND...
+    local wanted=$1 words=$2 got=0
+    shift 2
+    "$@" > "$out/log" 2>&1 || got=$?
+    [ "$got" = "$wanted" ] || { cat "$out/log"; fail "exit $got, not $wanted: $*"; }
+    grep -q -- "$words" "$out/log" || { cat "$out/log"; fail "no '$words': $*"; }
+}
+triangles() { grep -o '"triangles": [0-9]*' "$out/info.json" | grep -o '[0-9]*'; }
+expect 0 "" "$spia" run "$source/assets/parts/dome.obj" --out "$out" --formats step --name dome
+step="$out/dome.step"
+expect 0 "holds  *body:0  *dome .*1 faces, sheet body" "$spia" info "$step" --json "$out/info.json"
+grep -q '"choice": "body:0"' "$out/info.json" || fail "no items in the JSON"
+usual=$(triangles)
+expect 0 "can be unfolded" "$spia" info "$step" --part dome --json "$out/info.json"
+expect 2 "'roof' is not in the file.*" "$spia" info "$step" --part roof
+expect 0 "within 0.5 mm of them" "$spia" info "$step" --deflection 0.5 --json "$out/info.json"
+[ "$(triangles)" -lt "$usual" ] || fail "a larger deflection gave no fewer triangles"
+expect 0 "can be unfolded" "$spia" info "$step" --angle 2 --json "$out/info.json"
+[ "$(triangles)" -gt "$usual" ] || fail "a smaller angle gave no more triangles"
+expect 0 "not sewn" "$spia" info "$step" --sewing 0 --skip-bad-faces
+for wrong in "--sewing -1" "--sewing nan" "--sewing 1e9" "--deflection 0" "--deflection inf" "--deflection 1e-300" "--angle 0" "--angle 95" "--angle nan"; do
+    expect 2 "sewing tolerance\|deflection\|angle" "$spia" info "$step" $wrong
+done
+expect 2 "are for CAD files" "$spia" run "$source/assets/parts/dome.obj" --out "$out" --deflection 1
+expect 2 "are for CAD files" "$spia" unfold "$source/assets/parts/dome.obj" --auto --skip-bad-faces
+echo "CAD files on the command line are well"

@@ -1,0 +1,113 @@
+#include "tests/unit/exchange/sample_faces.h"
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_Line.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <TopoDS.hxx>
+#include <gp.hxx>
+#include <gp_Pln.hxx>
+#include <stdexcept>
+
+#include "engine/exchange/occt_session.h"
+#include "engine/exchange/occt_surface.h"
+
+namespace spia {
+namespace {
+
+TopoDS_Wire polygon(std::initializer_list<gp_Pnt> corners)
+{
+    BRepBuilderAPI_MakePolygon maker;
+    for (const gp_Pnt& corner : corners)
+        maker.Add(corner);
+    maker.Close();
+    return maker.Wire();
+}
+
+/// A square of 20 mm in the plane z = 0.
+TopoDS_Face square(double x)
+{
+    return BRepBuilderAPI_MakeFace(gp_Pln(), polygon({{x, 0, 0}, {x + 20, 0, 0}, {x + 20, 20, 0}, {x, 20, 0}}), true)
+        .Face();
+}
+
+TopoDS_Face bounded(const Handle(Geom_Surface) & surface, const TopoDS_Wire& border)
+{
+    TopoDS_Face face;
+    const BRep_Builder builder;
+    builder.MakeFace(face, surface, 1e-7);
+    builder.Add(face, border);
+    return face;
+}
+
+/// A face with its border far from its surface.
+TopoDS_Face torn()
+{
+    NurbsSurface surface;
+    surface.degree_u = surface.degree_v = 1;
+    surface.count_u = surface.count_v = 2;
+    surface.knots_u = surface.knots_v = {0, 0, 1, 1};
+    surface.control.resize(3, 4);
+    surface.control << 0, 20, 0, 20, 30, 30, 50, 50, 0, 0, 0, 0;
+    surface.weight.setOnes(4);
+    return bounded(to_occt(surface), polygon({{100, 30, 90}, {120, 30, 90}, {120, 50, 90}}));
+}
+
+/// Between the two squares, nowhere wider than that.
+TopoDS_Face narrow(double width)
+{
+    return bounded(new Geom_Plane(gp_Pln()), polygon({{20, 0, 0}, {20 + width, 10, 0}, {20, 20, 0}}));
+}
+
+} // namespace
+
+void write_two_squares(const std::filesystem::path& brep, ThirdFace third)
+{
+    const OcctSession session;
+    TopoDS_Compound compound;
+    const BRep_Builder builder;
+    builder.MakeCompound(compound);
+    builder.Add(compound, square(0));
+    if (third != ThirdFace::none)
+        builder.Add(compound, third == ThirdFace::torn ? torn() : narrow(sliver_width));
+    builder.Add(compound, square(20));
+    if (!BRepTools::Write(compound, brep.c_str()))
+        throw std::runtime_error("no faces were written");
+}
+
+void write_swept_cylinder(const std::filesystem::path& brep, Swept swept)
+{
+    const OcctSession session;
+    const bool line = swept == Swept::line_up || swept == Swept::line_down;
+    const bool up = swept == Swept::line_up || swept == Swept::circle_up;
+    const double z = up ? 0 : 30, way = up ? 1 : -1;
+    Handle(Geom_Surface) surface;
+    if (line)
+        surface = new Geom_SurfaceOfRevolution(new Geom_Line(gp_Pnt(10, 0, z), gp_Dir(0, 0, way)), gp::OZ());
+    else
+        surface = new Geom_SurfaceOfLinearExtrusion(new Geom_Circle(gp_Ax2(gp_Pnt(0, 0, z), gp::DZ()), 10),
+                                                    gp_Dir(0, 0, way));
+    // Borders in the plane of its parameters: angle, and height from z on.
+    const gp_Pnt2d corners[] = {{-1, 0}, {1, 0}, {1, 30}, {-1, 30}};
+    BRepBuilderAPI_MakeWire wire;
+    for (int k = 0; k < 4; ++k) {
+        const gp_Vec2d side(corners[k], corners[(k + 1) % 4]);
+        TopoDS_Edge edge =
+            BRepBuilderAPI_MakeEdge(new Geom2d_Line(corners[k], gp_Dir2d(side)), surface, 0, side.Magnitude());
+        BRepLib::BuildCurves3d(edge);
+        wire.Add(edge);
+    }
+    if (!BRepTools::Write(bounded(surface, wire.Wire()), brep.c_str()))
+        throw std::runtime_error("no cylinder was written");
+}
+
+} // namespace spia

@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+
+namespace spia {
+
+/// What lies between two squares of 20 mm in a row along x, in the plane z = 0, as face 1.
+enum class ThirdFace {
+    none,
+    torn,  ///< its border is far from its surface
+    sliver ///< between both, widest at 20, 10, 0
+};
+constexpr double sliver_width = 1e-9; // mm
+
+/// Writes them as BREP.
+void write_two_squares(const std::filesystem::path& brep, ThirdFace third);
+
+/// How a face of a cylinder about z, radius 10, comes to be.
+enum class Swept { line_up, line_down, circle_up, circle_down };
+
+/// Writes it as BREP, from -1 to 1 rad about z and from z = 0 to 30.
+void write_swept_cylinder(const std::filesystem::path& brep, Swept swept);
+
+} // namespace spia
