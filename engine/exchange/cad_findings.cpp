@@ -123,8 +123,10 @@ void report_doubles(const CadContent& cad, std::vector<Finding>& findings)
         finding.place.push_back(middle_of(cad.soup, finding.where.back()));
     }
     finding.first = finding.where.empty() ? -1 : finding.where.front();
-    finding.text = fmt::format("{} on others and left out: {}",
-                               counted(int(cad.doubled.size()), "CAD face lies", "CAD faces lie"), listed(pairs));
+    finding.text = fmt::format(
+        "{} left out: {}",
+        counted(int(cad.doubled.size()), "CAD face lies on another and was", "CAD faces lie on others and were"),
+        listed(pairs));
     findings.push_back(std::move(finding));
 }
 

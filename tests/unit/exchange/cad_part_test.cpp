@@ -304,14 +304,14 @@ TEST(CadSewing, LeavesOutFacesThatLieOnOthers)
 {
     const ScratchFolder folder;
     NurbsSurface arched = rectangle(0, 20, 0, 20); // the same border, but not the same face
-    arched.degree_u = 2;
-    arched.count_u = 3;
-    arched.knots_u = {0, 0, 0, 1, 1, 1};
-    arched.control.resize(3, 6);
-    arched.weight.setOnes(6);
-    for (int j = 0; j < 2; ++j)
+    arched.degree_u = arched.degree_v = 2;
+    arched.count_u = arched.count_v = 3;
+    arched.knots_u = arched.knots_v = {0, 0, 0, 1, 1, 1};
+    arched.control.resize(3, 9);
+    arched.weight.setOnes(9);
+    for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i)
-            arched.control.col(arched.index(i, j)) = Vector3d(10 * i, 20 * j, i == 1 ? 3 : 0);
+            arched.control.col(arched.index(i, j)) = Vector3d(10 * i, 10 * j, i == 1 && j == 1 ? 3 : 0);
     std::vector<NurbsSurface> faces = {rectangle(0, 20, 0, 20), rectangle(20, 40, 0, 20), rectangle(40, 60, 0, 20)};
     faces.push_back(rectangle(20, 40, 0, 20)); // the same as 1
     faces.push_back(rectangle(45, 50, 5, 10)); // within 2
