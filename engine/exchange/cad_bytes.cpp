@@ -100,6 +100,7 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.unmeshed);
     way.row(cad.slivers);
     way.one(cad.unmeshed_left_out);
+    way.row(cad.doubled);
     way.row(cad.overlapping);
 }
 

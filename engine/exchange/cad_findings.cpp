@@ -31,6 +31,14 @@ int nearest_vertex(const PolygonSoup& soup, const Eigen::Vector3d& place)
     return int(std::min_element(soup.position.begin(), soup.position.end(), nearer) - soup.position.begin());
 }
 
+Eigen::Vector3d middle_of(const PolygonSoup& soup, int triangle)
+{
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int v : soup.polygon(triangle))
+        middle += soup.position[size_t(v)] / 3;
+    return middle;
+}
+
 /// Gaps narrower than a thousandth of the deflection are rounding, not gaps.
 void report_gaps(const CadContent& cad, std::vector<Finding>& findings)
 {
@@ -100,6 +108,28 @@ void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
     findings.push_back(std::move(finding));
 }
 
+void report_doubles(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (cad.doubled.empty())
+        return;
+    Finding finding{Fault::overlap, Severity::repaired, int(cad.doubled.size()), -1, "", "", {}, {}};
+    std::vector<std::string> pairs;
+    for (const auto& [face, on] : cad.doubled) {
+        pairs.push_back(fmt::format("{} on {}", face, on));
+        const auto t = std::find(cad.face.begin(), cad.face.end(), on);
+        if (t == cad.face.end() || finding.where.size() == shown)
+            continue;
+        finding.where.push_back(int(t - cad.face.begin()));
+        finding.place.push_back(middle_of(cad.soup, finding.where.back()));
+    }
+    finding.first = finding.where.empty() ? -1 : finding.where.front();
+    finding.text = fmt::format(
+        "{} left out: {}",
+        counted(int(cad.doubled.size()), "CAD face lies on another and was", "CAD faces lie on others and were"),
+        listed(pairs));
+    findings.push_back(std::move(finding));
+}
+
 void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
 {
     if (cad.overlapping.empty())
@@ -107,11 +137,8 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
     Finding finding{Fault::overlap, Severity::note, int(cad.overlapping.size()), -1, "", "", {}, {}};
     for (const int face : cad.overlapping) {
         const auto t = int(std::find(cad.face.begin(), cad.face.end(), face) - cad.face.begin());
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (const int v : cad.soup.polygon(t))
-            middle += cad.soup.position[size_t(v)] / 3;
         finding.where.push_back(t);
-        finding.place.push_back(middle);
+        finding.place.push_back(middle_of(cad.soup, t));
         if (finding.where.size() == shown)
             break;
     }
@@ -205,6 +232,7 @@ void report_cad(const CadContent& cad, PartFile& part)
     std::vector<Finding> findings;
     report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);
+    report_doubles(cad, findings);
     report_overlaps(cad, findings);
     report_gaps(cad, findings);
     report_slivers(cad, findings);

@@ -114,7 +114,7 @@ std::vector<double> gaps_to_others(std::span<const FreeEdge> edges, double most,
 
 double tolerance_for(std::span<const double> gaps, int edges, double least, double most)
 {
-    constexpr double nearly_all = 0.9, few = 0.0025, hardly_any = 0.02; // of the gaps, of the edges
+    constexpr double nearly_all = 0.9, few = 0.0025, hardly_any = 0.05; // of the gaps, of the edges
     if (double(gaps.size()) < hardly_any * edges || gaps.empty())
         return 0;
     const auto up_to = [&](double t) { return std::upper_bound(gaps.begin(), gaps.end(), t) - gaps.begin(); };

@@ -19,6 +19,7 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "engine/exchange/cad_doubles.h"
 #include "engine/exchange/cad_gaps.h"
 #include "engine/exchange/cad_swept.h"
 #include "engine/exchange/occt_progress.h"
@@ -115,6 +116,7 @@ SewnFaces sewn(const SewnFaces& faces, double tolerance, const Progress& progres
         return modified.IsNull() ? TopoDS_Shape(face) : modified;
     });
     result.tolerance = tolerance;
+    result.doubles = faces.doubles;
     result.free_after = EdgeFaces(result.face).free();
     return result;
 }
@@ -163,12 +165,30 @@ std::vector<CadGap> gaps_between(const SewnFaces& sewn)
     return gaps;
 }
 
+/// Without faces that lie exactly on others; they are listed.
+SewnFaces without_doubles(const SewnFaces& whole, const Progress& progress)
+{
+    const std::vector<int> on = doubled_faces(whole.face, std::min(flaw, whole.widest_closed), progress);
+    SewnFaces rest = whole;
+    rest.face.clear();
+    rest.number.clear();
+    for (size_t f = 0; f < on.size(); ++f)
+        if (on[f] < 0) {
+            rest.face.push_back(whole.face[f]);
+            rest.number.push_back(whole.number[f]);
+        } else
+            rest.doubles.push_back({whole.number[f], whole.number[size_t(on[f])]});
+    return rest;
+}
+
 /// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
 SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optional<double> given,
                     const Progress& progress)
 {
     if (given)
-        return *given > 0 ? sewn(whole, *given, progress) : whole;
+        return *given > 0 ? sewn(without_doubles(whole, progress.part(0, 0.3)), *given, progress.part(0.3, 1)) : whole;
+    if (whole.free_after == 0)
+        return whole; // closed bodies
     std::vector<FreeEdge> free;
     for (int e = 0; e < edges.edges(); ++e)
         if (edges.faces(e).size() == 1)
@@ -176,10 +196,11 @@ SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optiona
     const std::vector<double> gaps = gaps_to_others(free, whole.widest_closed, progress.part(0, 0.2));
     const double tolerance =
         tolerance_for(gaps, int(free.size()), std::min(flaw, whole.widest_closed), whole.widest_closed);
+    const SewnFaces rest = without_doubles(whole, progress.part(0.2, 0.4));
     if (!(tolerance > 0))
-        return whole;
-    SewnFaces next = sewn(whole, tolerance, progress.part(0.2, 1));
-    return next.free_after < whole.free_after ? next : whole;
+        return rest;
+    SewnFaces next = sewn(rest, tolerance, progress.part(0.4, 1));
+    return next.free_after < rest.free_after ? next : rest;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,7 +15,9 @@ namespace spia {
 /// Faces that share an edge wherever they meet.
 struct SewnFaces {
     std::vector<TopoDS_Face> face;
-    std::vector<int> number;  ///< per face: which of the faces given it came from
+    std::vector<int> number; ///< per face: which of the faces given it came from
+    std::vector<std::array<int, 2>> doubles =
+        {};                   ///< faces given that were left out, each with the one on which it lies
     double tolerance = 0;     ///< mm, with which they were sewn; 0: they were taken as they are
     double shortest_edge = 0; ///< mm, among edges that are more than flaws
     double widest_closed = 0; ///< mm, the widest gap that would have been closed unasked

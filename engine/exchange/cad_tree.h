@@ -11,7 +11,7 @@ struct CadItem {
     enum class Kind { assembly, solid, sheet_body, loose_faces };
     Kind kind = Kind::solid;
     std::string name =
-        {}; ///< in the file; empty: none. One product at several places: the names of the places, if they differ
+        {};          ///< in the file; empty: none; of a product at several places that of the place, if they differ
     int number = 0;  ///< among the assemblies, or among the bodies, from 0 in the order of the file
     int parent = -1; ///< index of the assembly that holds it; -1: none
     int faces = 0;   ///< in it and in what it holds

@@ -129,6 +129,10 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     progress.checkpoint(0.95, "looking for overlapping faces");
     result.soup = std::move(mesh.soup);
     std::vector<char> meshed(taken.size(), 0);
+    for (const auto& [face, on] : sewn.doubles) {
+        meshed[size_t(face)] = 1; // by the other
+        result.doubled.push_back({number_of(face), number_of(on)});
+    }
     for (const int f : mesh.face) {
         const int face = sewn.number[size_t(f)];
         meshed[size_t(face)] = 1;

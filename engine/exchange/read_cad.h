@@ -50,9 +50,10 @@ struct CadContent {
     std::vector<std::string>
         lost;                  ///< labels of faces and bodies of the file that could not be made; they have no numbers
     std::vector<int> unmeshed; ///< faces without triangles, but for slivers
-    std::vector<CadSliver> slivers; ///< that were closed
-    bool unmeshed_left_out = false; ///< as was asked for
-    std::vector<int> overlapping;   ///< faces at edges of three or more triangles, once points at one place are one
+    std::vector<CadSliver> slivers;          ///< that were closed
+    bool unmeshed_left_out = false;          ///< as was asked for
+    std::vector<std::array<int, 2>> doubled; ///< faces that were left out, each with the one on which it lies
+    std::vector<int> overlapping; ///< faces at edges of three or more triangles, once points at one place are one
 };
 
 /// Whether the ending (lower case, with its dot) is .step, .stp, .iges, .igs or .brep.

@@ -300,6 +300,34 @@ TEST(CadSewing, LeavesSlotsOpenBesideNarrowGaps)
     EXPECT_EQ(examine_part(folder / "strips.igs").doctor.components, 2);
 }
 
+TEST(CadSewing, LeavesOutFacesThatLieOnOthers)
+{
+    const ScratchFolder folder;
+    NurbsSurface arched = rectangle(0, 20, 0, 20); // the same border, but not the same face
+    arched.degree_u = arched.degree_v = 2;
+    arched.count_u = arched.count_v = 3;
+    arched.knots_u = arched.knots_v = {0, 0, 0, 1, 1, 1};
+    arched.control.resize(3, 9);
+    arched.weight.setOnes(9);
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+            arched.control.col(arched.index(i, j)) = Vector3d(10 * i, 10 * j, i == 1 && j == 1 ? 3 : 0);
+    std::vector<NurbsSurface> faces = {rectangle(0, 20, 0, 20), rectangle(20, 40, 0, 20), rectangle(40, 60, 0, 20)};
+    faces.push_back(rectangle(20, 40, 0, 20)); // the same as 1
+    faces.push_back(rectangle(45, 50, 5, 10)); // within 2
+    write_iges(folder / "doubled.igs", faces);
+    const CadContent cad = read_cad(folder / "doubled.igs");
+    EXPECT_EQ(cad.doubled, (std::vector<std::array<int, 2>>{{3, 1}, {4, 2}}));
+    EXPECT_TRUE(cad.unmeshed.empty());
+    const PartFile part = read_part(folder / "doubled.igs");
+    EXPECT_NEAR(area(part.mesh), 1200, 1e-6);
+    ASSERT_TRUE(part.doctor.find(Fault::overlap));
+    EXPECT_EQ(part.doctor.find(Fault::overlap)->severity, Severity::repaired);
+    faces = {rectangle(0, 20, 0, 20), arched};
+    write_iges(folder / "pillow.igs", faces);
+    EXPECT_TRUE(read_cad(folder / "pillow.igs").doubled.empty());
+}
+
 TEST(CadSewing, NamesFacesThatBranchOff)
 {
     const ScratchFolder folder;
@@ -371,7 +399,7 @@ TEST(RealCadModel, CylindersOfIgesAreMeshedAsThoseOfStep)
     EXPECT_EQ(iges.soup.vertices(), step.soup.vertices());
 }
 
-TEST(RealCadModel, NoseIsSewnAndItsDoubledFacesAreNamed)
+TEST(RealCadModel, NoseIsSewnAndOneSheetWithoutTheFaceThatBranchesOff)
 {
     for (const char* name : {"race_car_nose.stp", "race_car_nose.igs"}) {
         if (!fs::exists(cad_folder / name))
@@ -382,7 +410,22 @@ TEST(RealCadModel, NoseIsSewnAndItsDoubledFacesAreNamed)
         EXPECT_LE(cad.free_after, 26);
         EXPECT_TRUE(cad.unmeshed.empty());
         EXPECT_FALSE(cad.overlapping.empty());
+        ReadOptions without; // the last face, one of three at an edge
+        without.parts = {"0-139"};
+        const PartFile part = read_part(cad_folder / name, without);
+        EXPECT_EQ(part.doctor.components, 1);
+        EXPECT_EQ(part.doctor.boundary_loops, 2);
     }
+}
+
+TEST(RealCadModel, CarBodyIsOnePieceWithoutItsDoubledFaces)
+{
+    if (!fs::exists(cad_folder / "asmo.igs"))
+        GTEST_SKIP() << "no " << cad_folder / "asmo.igs";
+    const CadContent cad = read_cad(cad_folder / "asmo.igs");
+    EXPECT_EQ(cad.doubled, (std::vector<std::array<int, 2>>{{97, 27}, {166, 165}, {238, 237}}));
+    EXPECT_EQ(examine_part(cad_folder / "asmo.igs").doctor.components, 2)
+        << "the body, and the box of the wind tunnel around it";
 }
 
 TEST(RealCadModel, SternOfMetresIsOneSheetDespiteItsTinyEdge)
