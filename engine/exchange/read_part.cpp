@@ -89,6 +89,8 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
     DeckOrigin& origin = part.deck.emplace();
     for (const int e : choice.element)
         origin.element_id.push_back(deck.element[size_t(e)]);
+    for (const int e : choice.element)
+        origin.part_of.push_back(deck.part_of[size_t(e)]);
     for (const int v : choice.node)
         origin.node_id.push_back(deck.node[size_t(v)]);
     origin.element = std::move(choice.element);
@@ -247,6 +249,17 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     return part;
 }
 
+/// Healthy parts alone can be remeshed.
+PartFile remeshed_where_asked(const fs::path& path, const ReadOptions& options, const Progress& progress)
+{
+    if (!options.remesh)
+        return examine_file(path, options, progress);
+    PartFile part = examine_file(path, options, progress.part(0, 0.4));
+    if (part.doctor.healthy())
+        remesh_part(part, *options.remesh, progress.part(0.4, 1));
+    return part;
+}
+
 /// Does the work and puts the file's name before whatever is wrong with it.
 template <class Work> PartFile named(const fs::path& path, const Work& work)
 {
@@ -261,7 +274,7 @@ template <class Work> PartFile named(const fs::path& path, const Work& work)
 
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
-    return named(path, [&] { return examine_file(path, options, progress); });
+    return named(path, [&] { return remeshed_where_asked(path, options, progress); });
 }
 
 PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const Progress& progress)
@@ -275,7 +288,7 @@ PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
     return named(path, [&] {
-        PartFile part = examine_file(path, options, progress);
+        PartFile part = remeshed_where_asked(path, options, progress);
         try {
             require_healthy(part.doctor);
         } catch (const InputError& error) {

@@ -8,6 +8,7 @@
 #include "engine/exchange/cad_options.h"
 #include "engine/exchange/deck.h"
 #include "engine/exchange/length_unit.h"
+#include "engine/exchange/remesh_part.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/tri_mesh.h"
@@ -23,6 +24,8 @@ struct ReadOptions {
         {};                ///< of a solver deck, by id or name; of a CAD file, faces ("7", "10-19"); empty: all
     CadOptions cad = {};   ///< of a CAD file
     SeamOptions seam = {}; ///< where a part is cut open that is no sheet; vertices of the file
+    std::optional<RemeshOptions> remesh =
+        {}; ///< not given: the triangles stay as they are; a part that is refused has none
 };
 
 /// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
@@ -30,6 +33,7 @@ struct ReadOptions {
 struct DeckOrigin {
     std::vector<int> element;             ///< per face of the file: its index among all shells of the deck
     std::vector<std::int64_t> element_id; ///< per face of the file
+    std::vector<int> part_of;             ///< per face of the file: index into parts
     std::vector<std::int64_t> node_id;    ///< per vertex of the file
     std::vector<DeckPart> parts;          ///< all of the deck; thicknesses in its unit
     std::vector<std::string> sets;        ///< names of element sets that can be chosen as well
@@ -62,6 +66,7 @@ struct PartFile {
     std::string material = {};               ///< what the file calls it; empty: nothing
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
     std::optional<CadOrigin> cad = {};       ///< of CAD files
+    std::optional<Remeshed> remeshed = {};   ///< if it was asked for: mesh, source_vertex and source_face are new
 };
 
 /// Reads an STL, OBJ, PLY, OFF, glTF or GLB file, the shells of a solver deck (read_deck()) or the faces of a STEP, IGES or
