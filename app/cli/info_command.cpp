@@ -38,6 +38,7 @@ int info(const InfoArguments& arguments)
     options.parts = arguments.parts;
     options.doctor.keep_largest = arguments.keep_largest;
     options.seam = seam_options(arguments.seam);
+    options.remesh = remesh_options(arguments.remesh);
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

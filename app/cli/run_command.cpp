@@ -48,6 +48,7 @@ SessionOptions options(const RunArguments& arguments)
     result.read.parts = arguments.parts;
     result.read.doctor.keep_largest = arguments.keep_largest;
     result.read.seam = seam_options(arguments.seam);
+    result.read.remesh = remesh_options(arguments.remesh);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     if (arguments.thickness) // else that of the deck, once it is read
         result.flatten.thickness = *arguments.thickness;

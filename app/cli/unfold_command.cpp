@@ -53,6 +53,7 @@ PartFile part_of(const UnfoldArguments& arguments)
     read.parts = arguments.parts;
     read.doctor.keep_largest = arguments.keep_largest;
     read.seam = seam_options(arguments.seam);
+    read.remesh = remesh_options(arguments.remesh);
     JobDisplay display{"read"};
     return read_part(arguments.part, read, display.progress());
 }
