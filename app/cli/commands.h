@@ -8,6 +8,12 @@
 
 namespace spia::cli {
 
+/// Of the part's triangles.
+struct RemeshArguments {
+    bool wanted = false;
+    std::optional<double> size, tolerance; ///< mm; not given: chosen from the part
+};
+
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, process;
     std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: outer
@@ -26,6 +32,7 @@ struct RunArguments {
     std::optional<double> marginal;                ///< percent
     double max_thinning = 25, max_thickening = 10; ///< percent
     std::string seam = "auto";                     ///< auto, none, or a file of paths
+    RemeshArguments remesh;
     bool strict = false, weld = false, keep_largest = false, skins = false;
 };
 
@@ -37,6 +44,7 @@ struct InfoArguments {
     std::filesystem::path part, json;
     std::string unit, seam = "auto", skin;
     std::vector<std::string> parts; ///< of a solver deck, ids or names
+    RemeshArguments remesh;
     bool weld = false, keep_largest = false;
 };
 
@@ -69,6 +77,7 @@ struct UnfoldArguments {
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
     std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
+    RemeshArguments remesh;
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
 };
@@ -91,6 +100,9 @@ struct FitArguments {
 
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
+
+/// Not given unless it is wanted.
+std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments);
 
 /// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.
 /// @throws InputError unless it is above 0
