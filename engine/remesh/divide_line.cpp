@@ -29,8 +29,9 @@ LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, cons
     std::vector<size_t> before(n, 0);
     cost[0] = 0;
     const bool closed = line.front() == line.back();
+    constexpr size_t most_left_out = 256; // at a time: what was finer by more stays somewhat finer
     for (size_t j = 1; j < n; ++j)
-        for (size_t i = j; i-- > 0;) {
+        for (size_t i = j; i-- > (j > most_left_out ? j - most_left_out : 0);) {
             const double length = std::max(along[j] - along[i], 1e-6);
             if (j > i + 1) {
                 if (length > longest_chord || (closed && i == 0 && j + 1 == n))

@@ -1,568 +1,247 @@
 #include "engine/remesh/incremental.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 
-#include "engine/mesh/topology.h"
-#include "engine/remesh/divide_line.h"
+#include "engine/remesh/evolving_mesh.h"
 #include "engine/remesh/triangle_quality.h"
 
 namespace spia {
 namespace {
 
-using Vector = Eigen::Vector3d;
-using Vertex = OpenMesh::VertexHandle;
-using Edge = OpenMesh::EdgeHandle;
-using Halfedge = OpenMesh::HalfedgeHandle;
-using Face = OpenMesh::FaceHandle;
+using Vector = EvolvingMesh::Vector;
+using Vertex = EvolvingMesh::Vertex;
+using Edge = EvolvingMesh::Edge;
+using Face = EvolvingMesh::Face;
+using Quad = EvolvingMesh::Quad;
 
-constexpr double too_long = 4.0 / 3,
-                 too_short = 4.0 / 5; // of the size; both sides of a split or collapse are nearer to it
+constexpr double degrees = std::numbers::pi / 180;
 
-class Remesher {
-public:
-    Remesher(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
-             const ClosestPointSearch& search, double sagitta)
-        : original_(original), original_normal_(area_vectors(original)), original_size_(size), search_(search),
-          sagitta_(sagitta), mesh_(halfedges(original)), on_line_(lines.on_line.begin(), lines.on_line.end()),
-          drop_(size_t(original.vertices()), 0), size_(size.begin(), size.end())
-    {
-        mesh_.request_vertex_status();
-        mesh_.request_halfedge_status();
-        mesh_.request_edge_status();
-        mesh_.request_face_status();
-        line_edge_.assign(mesh_.n_edges(), 0);
-        for (const std::vector<int>& line : lines.line)
-            for (size_t i = 0; i + 1 < line.size(); ++i)
-                line_edge_[size_t(edge_between(Vertex(line[i]), Vertex(line[i + 1])).idx())] = 1;
-        for (const std::vector<int>& line : lines.line)
-            divide(line);
-        for (const std::vector<int>& line : lines.line)
-            if (line.front() != line.back())
-                forget_crumb(line);
+/// Calls each(i) for 0 <= i < count; large meshes take seconds.
+template <class Each> void for_all(int count, const Progress& progress, const char* what, const Each& each)
+{
+    constexpr int at_a_time = 16384;
+    for (int i = 0; i < count; ++i) {
+        if (i % at_a_time == 0)
+            progress.checkpoint(double(i) / count, what);
+        each(i);
     }
+}
 
-    void drop_line_vertices()
-    {
-        for (int v = 0; v < int(drop_.size()); ++v)
-            if (drop_[size_t(v)])
-                drop(Vertex(v));
-    }
+/// Calls each(edge) for those that are free to change, but none that the calls make.
+template <class Each>
+void for_free_edges(const EvolvingMesh& mesh, const Progress& progress, const char* what, const Each& each)
+{
+    for_all(int(mesh.mesh().n_edges()), progress, what, [&](int e) {
+        if (const Edge edge(e); !mesh.mesh().status(edge).deleted() && !mesh.on_line(edge))
+            each(edge);
+    });
+}
 
-    void split_long()
-    {
-        constexpr int most_sweeps = 12; // each halves
-        bool again = true;
-        for (int sweep = 0; sweep < most_sweeps && again; ++sweep) {
-            again = false;
-            const int edges = int(mesh_.n_edges());
-            for (int e = 0; e < edges; ++e) {
-                const Edge edge(e);
-                if (mesh_.status(edge).deleted() || line_edge_[size_t(e)])
-                    continue;
-                const auto [a, b] = ends(edge);
-                if (length(a, b) <= too_long * std::min(size(a), size(b)))
-                    continue;
-                const Placed middle = place((at(a) + at(b)) / 2);
-                split(edge, middle.position, middle.size, false);
-                again = true;
-            }
-        }
-    }
+/// How long it is beside the shorter one of the sizes at its ends.
+double relative_length(const EvolvingMesh& mesh, Edge edge)
+{
+    const auto [a, b] = mesh.ends(edge);
+    return mesh.length(a, b) / std::min(mesh.size(a), mesh.size(b));
+}
 
-    void collapse_short()
-    {
-        for (int e = 0; e < int(mesh_.n_edges()); ++e) {
-            const Edge edge(e);
-            if (mesh_.status(edge).deleted() || line_edge_[size_t(e)])
-                continue;
-            const auto [a, b] = ends(edge);
-            if (length(a, b) >= too_short * std::min(size(a), size(b)))
-                continue;
-            for (const int side : {0, 1})
-                if (const Halfedge h = mesh_.halfedge_handle(edge, side); may_collapse(h, true)) {
-                    collapse(h);
-                    break;
-                }
-        }
-    }
-
-    /// Towards six neighbours of inner vertices and four of those at the boundary.
-    void flip_for_valence()
-    {
-        const auto excess = [&](Vertex v, int change) {
-            const int wanted = mesh_.is_boundary(v) ? 4 : 6, off = int(mesh_.valence(v)) + change - wanted;
-            return off * off;
-        };
-        for_flippable([&](Edge edge, const std::array<Vertex, 4>& v) {
-            const int before = excess(v[0], 0) + excess(v[1], 0) + excess(v[2], 0) + excess(v[3], 0);
-            const int after = excess(v[0], -1) + excess(v[1], -1) + excess(v[2], 1) + excess(v[3], 1);
-            constexpr double still_good = 20 * std::numbers::pi / 180;
-            if (after < before)
-                flip_if_sound(edge, v, std::min(worst_before(v), still_good));
+void split_long(EvolvingMesh& mesh, const Progress& progress)
+{
+    constexpr int most_sweeps = 12; // each halves
+    bool again = true;
+    for (int sweep = 0; sweep < most_sweeps && again; ++sweep) {
+        again = false;
+        for_free_edges(mesh, sweep == 0 ? progress : progress.part(1, 1), "splitting long edges", [&](Edge edge) {
+            if (relative_length(mesh, edge) <= EvolvingMesh::too_long)
+                return;
+            mesh.split(edge);
+            again = true;
         });
     }
+}
 
-    void flip_for_angle()
-    {
-        for_flippable([&](Edge edge, const std::array<Vertex, 4>& v) { flip_if_sound(edge, v, worst_before(v)); });
-    }
+void collapse_short(EvolvingMesh& mesh, const Progress& progress)
+{
+    for_free_edges(mesh, progress, "collapsing short edges", [&](Edge edge) {
+        if (relative_length(mesh, edge) < EvolvingMesh::too_short)
+            mesh.collapse_if_sound(edge);
+    });
+}
 
-    /// To the mean of the middles of the faces around, each with its share of what the sizes ask for.
-    void smooth()
-    {
-        for (int i = 0; i < int(mesh_.n_vertices()); ++i) {
-            const Vertex v(i);
-            if (mesh_.status(v).deleted() || on_line_[size_t(i)])
-                continue;
-            Vector sum = Vector::Zero(), normal = Vector::Zero();
-            double weights = 0;
-            for (const Face f : mesh_.vf_range(v)) {
-                const Eigen::Matrix3d t = triangle(f);
-                const Vector area = area_of(t);
-                double mean_size = 0;
-                for (const Vertex w : mesh_.fv_range(f))
-                    mean_size += size(w) / 3;
-                const double weight = area.norm() / (mean_size * mean_size);
-                sum += weight * t.rowwise().mean();
-                weights += weight;
-                normal += area;
-            }
-            if (!(weights > 0) || !(normal.norm() > 0))
-                continue;
-            normal.normalize();
-            Vector way = sum / weights - at(v);
-            way -= normal.dot(way) * normal;
-            constexpr double good_enough = 35 * std::numbers::pi / 180;
-            for (const double share : {1.0, 0.4})
-                if (move(v, at(v) + share * way, normal, good_enough))
-                    break;
-        }
-    }
-
-    /// Flips, collapses and moves what is left of thin triangles.
-    /// @returns how many there are
-    int mend_thin(double thin)
-    {
-        int left = 0;
-        const int faces = int(mesh_.n_faces());
-        for (int i = 0; i < faces; ++i) {
-            const Face f(i);
-            if (mesh_.status(f).deleted() || least_angle(triangle(f)) >= thin)
-                continue;
-            ++left;
-            if (!flip_longest(f) && !collapse_shortest(f))
-                climb(f);
-        }
-        return left;
-    }
-
-    TriMesh finished()
-    {
-        mesh_.garbage_collection();
-        TriMesh result;
-        result.position.resize(3, Eigen::Index(mesh_.n_vertices()));
-        for (const Vertex v : mesh_.vertices())
-            result.position.col(v.idx()) = at(v);
-        result.triangle.resize(3, Eigen::Index(mesh_.n_faces()));
-        for (const Face f : mesh_.faces()) {
-            int k = 0;
-            for (const Vertex v : mesh_.fv_range(f))
-                result.triangle(k++, f.idx()) = v.idx();
-        }
-        return result;
-    }
-
-private:
-    struct Placed {
-        Vector position;
-        double size; ///< mm
-        int face;    ///< of the given mesh
+/// Towards six neighbours of inner vertices and four of those at the boundary.
+void flip_for_valence(EvolvingMesh& mesh, const Progress& progress)
+{
+    const auto excess = [&](Vertex v, int change) {
+        const int wanted = mesh.mesh().is_boundary(v) ? 4 : 6, off = int(mesh.mesh().valence(v)) + change - wanted;
+        return off * off;
     };
-
-    Vector at(Vertex v) const
-    {
-        const auto& p = mesh_.point(v);
-        return {p[0], p[1], p[2]};
-    }
-    double size(Vertex v) const { return size_[size_t(v.idx())]; }
-    double length(Vertex a, Vertex b) const { return (at(a) - at(b)).norm(); }
-    std::pair<Vertex, Vertex> ends(Edge e) const
-    {
-        const Halfedge h = mesh_.halfedge_handle(e, 0);
-        return {mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)};
-    }
-    Edge edge_between(Vertex a, Vertex b) const { return mesh_.edge_handle(mesh_.find_halfedge(a, b)); }
-    Eigen::Matrix3d triangle(Face f) const
-    {
-        Eigen::Matrix3d result;
-        int k = 0;
-        for (const Vertex v : mesh_.fv_range(f))
-            result.col(k++) = at(v);
-        return result;
-    }
-    static Vector area_of(const Eigen::Matrix3d& t) { return (t.col(1) - t.col(0)).cross(t.col(2) - t.col(0)) / 2; }
-
-    Placed place(const Vector& point) const
-    {
-        const ClosestPoint found = search_.nearest(point);
-        double asked = 0;
-        for (int k = 0; k < 3; ++k)
-            asked += found.barycentric[k] * original_size_[original_.triangle(k, found.face)];
-        return {found.position, asked, found.face};
-    }
-
-    /// Whether the middle of a new edge is near the given mesh.
-    bool near(const Vector& a, const Vector& b) const { return search_.nearest((a + b) / 2, sagitta_).face >= 0; }
-
-    /// One edge becomes two, and a vertex lies between them.
-    Vertex split(Edge edge, const Vector& position, double asked, bool line)
-    {
-        const auto [a, b] = ends(edge);
-        const Vertex v = mesh_.add_vertex({position.x(), position.y(), position.z()});
-        mesh_.split(edge, v);
-        size_.push_back(asked);
-        on_line_.push_back(line);
-        drop_.push_back(0);
-        line_edge_.resize(mesh_.n_edges(), 0);
-        line_edge_[size_t(edge.idx())] = 0;
-        if (line)
-            for (const Vertex end : {a, b})
-                line_edge_[size_t(edge_between(v, end).idx())] = 1;
-        return v;
-    }
-
-    /// Puts all new vertices on the line; those that are not kept go in drop_line_vertices().
-    void divide(const std::vector<int>& line)
-    {
-        const LineDivision division = divide_line(original_, line, original_size_, sagitta_);
-        for (size_t i = 0; i + 1 < line.size(); ++i) {
-            Vertex from(line[i]);
-            const Vertex to(line[i + 1]);
-            const Vector a = at(from), b = at(to);
-            for (int k = 1; k < division.pieces[i]; ++k) {
-                const double t = double(k) / division.pieces[i];
-                from = split(edge_between(from, to), a + t * (b - a), (1 - t) * size(Vertex(line[i])) + t * size(to),
-                             true);
-            }
-        }
-        for (size_t i = 0; i < line.size(); ++i)
-            if (!division.keep[i])
-                drop_[size_t(line[i])] = 1;
-    }
-
-    /// A line that is a crumb beside the tolerance, as where CAD faces do not quite meet: one of its ends is no corner.
-    void forget_crumb(const std::vector<int>& line)
-    {
-        constexpr double crumb = 0.25; // of the sagitta
-        double length_of_it = 0;
-        for (size_t i = 0; i + 1 < line.size(); ++i)
-            length_of_it += (original_.position.col(line[i]) - original_.position.col(line[i + 1])).norm();
-        if (length_of_it >= crumb * sagitta_)
+    for_free_edges(mesh, progress, "flipping edges", [&](Edge edge) {
+        const auto v = mesh.quad(edge);
+        if (!v)
             return;
-        for (const int end : {line.front(), line.back()}) {
-            int edges = 0;
-            for (const Edge e : mesh_.ve_range(Vertex(end)))
-                edges += line_edge_[size_t(e.idx())];
-            const int other = end == line.front() ? line.back() : line.front();
-            if (edges == 2 && !drop_[size_t(other)]) {
-                drop_[size_t(end)] = 1;
-                return;
-            }
+        const int before = excess((*v)[0], 0) + excess((*v)[1], 0) + excess((*v)[2], 0) + excess((*v)[3], 0);
+        const int after = excess((*v)[0], -1) + excess((*v)[1], -1) + excess((*v)[2], 1) + excess((*v)[3], 1);
+        constexpr double still_good = 20 * degrees;
+        if (after < before)
+            mesh.flip_if_sound(edge, *v, std::min(mesh.worst_angle(*v), still_good));
+    });
+}
+
+void flip_for_angle(EvolvingMesh& mesh, const Progress& progress)
+{
+    for_free_edges(mesh, progress, "flipping edges", [&](Edge edge) {
+        if (const auto v = mesh.quad(edge))
+            mesh.flip_if_sound(edge, *v, mesh.worst_angle(*v));
+    });
+}
+
+/// To the mean of the middles of the faces around, each with its share of what the sizes ask for.
+void smooth(EvolvingMesh& mesh, const Progress& progress)
+{
+    const HalfedgeMesh& around = mesh.mesh();
+    for_all(int(around.n_vertices()), progress, "smoothing", [&](int i) {
+        const Vertex v(i);
+        if (around.status(v).deleted() || mesh.on_line(v))
+            return;
+        Vector sum = Vector::Zero(), normal = Vector::Zero();
+        double weights = 0;
+        for (const Face f : around.vf_range(v)) {
+            const EvolvingMesh::Corners t = mesh.triangle(f);
+            const Vector area = EvolvingMesh::area_of(t);
+            double mean_size = 0;
+            for (const Vertex w : around.fv_range(f))
+                mean_size += mesh.size(w) / 3;
+            const double weight = area.norm() / (mean_size * mean_size);
+            sum += weight * t.rowwise().mean();
+            weights += weight;
+            normal += area;
+        }
+        if (!(weights > 0) || !(normal.norm() > 0))
+            return;
+        normal.normalize();
+        Vector way = sum / weights - mesh.at(v);
+        way -= normal.dot(way) * normal;
+        constexpr double arrived = 0.01; // of the size
+        if (way.norm() < arrived * mesh.size(v))
+            return;
+        constexpr double good_enough = 35 * degrees;
+        for (const double share : {1.0, 0.4})
+            if (mesh.move(v, mesh.at(v) + share * way, normal, good_enough))
+                break;
+    });
+}
+
+/// The shortest and the longest.
+std::pair<Edge, Edge> extreme_edges(const EvolvingMesh& mesh, Face f)
+{
+    Edge shortest, longest;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const Edge e : mesh.mesh().fe_range(f)) {
+        const auto [a, b] = mesh.ends(e);
+        const double length = mesh.length(a, b);
+        if (length < least) {
+            least = length;
+            shortest = e;
+        }
+        if (length > most) {
+            most = length;
+            longest = e;
         }
     }
+    return {shortest, longest};
+}
 
-    void drop(Vertex v)
-    {
-        std::vector<Halfedge> along;
-        for (const Halfedge h : mesh_.voh_range(v))
-            if (line_edge_[size_t(mesh_.edge_handle(h).idx())])
-                along.push_back(h);
-        std::sort(along.begin(), along.end(), [&](Halfedge a, Halfedge b) {
-            const double la = length(v, mesh_.to_vertex_handle(a)), lb = length(v, mesh_.to_vertex_handle(b));
-            return la < lb || (la == lb && a.idx() < b.idx());
-        });
-        for (const Halfedge h : along)
-            if (may_collapse(h, false)) {
-                collapse(h);
-                drop_[size_t(v.idx())] = 0;
-                return;
+bool flip_longest(EvolvingMesh& mesh, Face f)
+{
+    const Edge longest = extreme_edges(mesh, f).second;
+    const auto v = longest.is_valid() ? mesh.quad(longest) : std::nullopt;
+    return v && mesh.flip_if_sound(longest, *v, mesh.worst_angle(*v));
+}
+
+bool collapse_shortest(EvolvingMesh& mesh, Face f)
+{
+    const Edge shortest = extreme_edges(mesh, f).first;
+    return shortest.is_valid() && !mesh.on_line(shortest) && mesh.collapse_if_sound(shortest);
+}
+
+/// Moves the free corners of the face up the least angle around them, by trial in eight directions.
+void climb(EvolvingMesh& mesh, Face f)
+{
+    constexpr int directions = 8;
+    std::array<Vertex, 3> corners;
+    size_t corner = 0;
+    for (const Vertex v : mesh.mesh().fv_range(f))
+        corners[corner++] = v;
+    for (const Vertex v : corners) {
+        if (mesh.on_line(v))
+            continue;
+        Vector normal = Vector::Zero();
+        for (const Face g : mesh.mesh().vf_range(v))
+            normal += EvolvingMesh::area_of(mesh.triangle(g));
+        if (!(normal.norm() > 0))
+            continue;
+        normal.normalize();
+        const Vector u = normal.unitOrthogonal(), w = normal.cross(u);
+        for (double step = 0.3 * mesh.size(v); step > 0.02 * mesh.size(v); step /= 2)
+            for (int k = 0; k < directions; ++k) {
+                const double turn = 2 * std::numbers::pi * k / directions;
+                mesh.move(v, mesh.at(v) + step * (std::cos(turn) * u + std::sin(turn) * w), normal, std::numbers::pi);
             }
     }
+}
 
-    /// Whether its first vertex can be pulled into its second one.
-    bool may_collapse(Halfedge h, bool inner)
-    {
-        const Vertex from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-        if ((inner && on_line_[size_t(from.idx())]) || !mesh_.is_collapse_ok(h))
-            return false;
-        if (!inner && closes_line(h))
-            return false;
-        const Vector target = at(to);
-        if (inner)
-            for (const Vertex w : mesh_.vv_range(from))
-                if (w != to && (at(w) - target).norm() > too_long * std::min(size(w), size(to)))
-                    return false;
-        double worst = std::numbers::pi, worst_of_new = std::numbers::pi;
-        Vector around = Vector::Zero();
-        for (const Face f : mesh_.vf_range(from))
-            around += area_of(triangle(f));
-        for (const Face f : mesh_.vf_range(from)) {
-            bool vanishes = false;
-            Eigen::Matrix3d before, after;
-            int k = 0;
-            for (const Vertex w : mesh_.fv_range(f)) {
-                vanishes = vanishes || w == to;
-                before.col(k) = at(w);
-                after.col(k++) = w == from ? target : at(w);
-            }
-            worst = std::min(worst, least_angle(before));
-            if (vanishes)
-                continue;
-            constexpr double sliver = 0.02; // radians; its normal is noise
-            if (!same_side(least_angle(before) < sliver ? around : area_of(before), area_of(after)))
-                return false;
-            worst_of_new = std::min(worst_of_new, least_angle(after));
-        }
-        constexpr double poor = 10 * std::numbers::pi / 180;
-        if (worst_of_new < std::min(worst, poor))
-            return false;
-        for (const Vertex w : mesh_.vv_range(from))
-            if (w != to && !mesh_.find_halfedge(w, to).is_valid() && !near(at(w), target))
-                return false;
-        return true;
-    }
-
-    /// Whether a face still looks to about the same side.
-    static bool same_side(const Vector& before, const Vector& after)
-    {
-        constexpr double most_turn = 0.5; // cosine
-        return after.dot(before) > most_turn * after.norm() * before.norm();
-    }
-
-    /// Whether a line of three edges would be left with two on the same vertices.
-    bool closes_line(Halfedge h) const
-    {
-        const Vertex from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-        for (const Halfedge out : mesh_.voh_range(from)) {
-            const Vertex w = mesh_.to_vertex_handle(out);
-            if (w == to || !line_edge_[size_t(mesh_.edge_handle(out).idx())])
-                continue;
-            const Halfedge other = mesh_.find_halfedge(w, to);
-            if (other.is_valid() && line_edge_[size_t(mesh_.edge_handle(other).idx())])
-                return true;
-        }
-        return false;
-    }
-
-    void collapse(Halfedge h)
-    {
-        const Vertex to = mesh_.to_vertex_handle(h), from = mesh_.from_vertex_handle(h);
-        std::vector<Vertex> joined; // ends of line edges that fall on other edges
-        for (const Halfedge out : mesh_.voh_range(from))
-            if (line_edge_[size_t(mesh_.edge_handle(out).idx())] && mesh_.to_vertex_handle(out) != to)
-                joined.push_back(mesh_.to_vertex_handle(out));
-        for (const Vertex w : mesh_.vv_range(from)) // of two edges that become one either may be the one that stays
-            if (const Halfedge other = mesh_.find_halfedge(w, to);
-                other.is_valid() && line_edge_[size_t(mesh_.edge_handle(other).idx())])
-                joined.push_back(w);
-        mesh_.collapse(h);
-        for (const Vertex w : joined)
-            line_edge_[size_t(edge_between(w, to).idx())] = 1;
-    }
-
-    /// Calls take(edge, {a, b, c, d}): the edge ab, and cd in its place after a flip.
-    template <class Take> void for_flippable(const Take& take)
-    {
-        for (int e = 0; e < int(mesh_.n_edges()); ++e)
-            if (const auto v = quad(Edge(e)))
-                take(Edge(e), *v);
-    }
-
-    std::optional<std::array<Vertex, 4>> quad(Edge edge) const
-    {
-        if (mesh_.status(edge).deleted() || line_edge_[size_t(edge.idx())] || mesh_.is_boundary(edge) ||
-            !mesh_.is_flip_ok(edge))
-            return std::nullopt;
-        const Halfedge h = mesh_.halfedge_handle(edge, 0), o = mesh_.halfedge_handle(edge, 1);
-        return std::array{mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h),
-                          mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
-                          mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o))};
-    }
-
-    Eigen::Matrix3d triangle(Vertex a, Vertex b, Vertex c) const
-    {
-        Eigen::Matrix3d result;
-        result << at(a), at(b), at(c);
-        return result;
-    }
-
-    double worst_before(const std::array<Vertex, 4>& v) const
-    {
-        return std::min(least_angle(triangle(v[0], v[1], v[2])), least_angle(triangle(v[1], v[0], v[3])));
-    }
-
-    /// If both new triangles have larger angles than that and look to the side of the old ones.
-    bool flip_if_sound(Edge edge, const std::array<Vertex, 4>& v, double worst)
-    {
-        const Eigen::Matrix3d p = triangle(v[0], v[3], v[2]), q = triangle(v[1], v[2], v[3]);
-        if (std::min(least_angle(p), least_angle(q)) <= worst * (1 + 1e-9))
-            return false;
-        const Vector side = area_of(triangle(v[0], v[1], v[2])) + area_of(triangle(v[1], v[0], v[3]));
-        if (!same_side(side, area_of(p)) || !same_side(side, area_of(q)) || !near(at(v[2]), at(v[3])))
-            return false;
-        mesh_.flip(edge);
-        return true;
-    }
-
-    double worst_around(Vertex v) const
-    {
-        double worst = std::numbers::pi;
-        for (const Face f : mesh_.vf_range(v))
-            worst = std::min(worst, least_angle(triangle(f)));
-        return worst;
-    }
-
-    /// Puts the vertex on the given mesh near the place, unless a face turns over or the least angle falls below
-    /// what it is and below good_enough.
-    bool move(Vertex v, const Vector& place_of_it, const Vector& normal, double good_enough)
-    {
-        const Placed placed = place(place_of_it);
-        const Vector before = at(v), side = original_normal_.col(placed.face);
-        constexpr double same_layer = 0.5; // cosine; the nearest place may be on a sheet that lies behind this one
-        if (side.dot(normal) < same_layer * side.norm())
-            return false;
-        std::vector<Vector> areas;
-        double worst = std::numbers::pi;
-        for (const Face f : mesh_.vf_range(v)) {
-            const Eigen::Matrix3d t = triangle(f);
-            areas.push_back(area_of(t));
-            worst = std::min(worst, least_angle(t));
-        }
-        const double needed = std::min(worst, good_enough);
-        mesh_.set_point(v, {placed.position.x(), placed.position.y(), placed.position.z()});
-        size_t i = 0;
-        bool sound = true;
-        for (const Face f : mesh_.vf_range(v)) {
-            const Eigen::Matrix3d t = triangle(f);
-            sound = sound && same_side(areas[i++], area_of(t)) && least_angle(t) >= needed;
-        }
-        if (!sound)
-            mesh_.set_point(v, {before.x(), before.y(), before.z()});
-        else
-            size_[size_t(v.idx())] = placed.size;
-        return sound;
-    }
-
-    bool flip_longest(Face f)
-    {
-        Halfedge longest;
-        double most = 0;
-        for (const Halfedge h : mesh_.fh_range(f))
-            if (const double l = length(mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)); l > most) {
-                most = l;
-                longest = h;
-            }
-        const Edge edge = mesh_.edge_handle(longest);
-        const auto v = quad(edge);
-        return v && flip_if_sound(edge, *v, worst_before(*v));
-    }
-
-    /// If that leaves no worse angle.
-    bool collapse_shortest(Face f)
-    {
-        Halfedge shortest;
-        double least = std::numeric_limits<double>::infinity();
-        for (const Halfedge h : mesh_.fh_range(f))
-            if (const double l = length(mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)); l < least) {
-                least = l;
-                shortest = h;
-            }
-        if (line_edge_[size_t(mesh_.edge_handle(shortest).idx())])
-            return false;
-        for (const Halfedge h : {shortest, mesh_.opposite_halfedge_handle(shortest)})
-            if (may_collapse(h, true)) {
-                collapse(h);
-                return true;
-            }
-        return false;
-    }
-
-    /// Moves the free corners of the face up the least angle around them, by trial in eight directions.
-    void climb(Face f)
-    {
-        constexpr int directions = 8;
-        for (const Vertex v : {*mesh_.cfv_iter(f), *++mesh_.cfv_iter(f), *++(++mesh_.cfv_iter(f))}) {
-            if (on_line_[size_t(v.idx())])
-                continue;
-            Vector normal = Vector::Zero();
-            for (const Face g : mesh_.vf_range(v))
-                normal += area_of(triangle(g));
-            if (!(normal.norm() > 0))
-                continue;
-            normal.normalize();
-            const Vector u = normal.unitOrthogonal(), w = normal.cross(u);
-            for (double step = 0.3 * size(v); step > 0.02 * size(v); step /= 2)
-                for (int k = 0; k < directions; ++k) {
-                    const double turn = 2 * std::numbers::pi * k / directions, before = worst_around(v);
-                    const Vector old = at(v);
-                    if (move(v, old + step * (std::cos(turn) * u + std::sin(turn) * w), normal, std::numbers::pi) &&
-                        worst_around(v) < before)
-                        mesh_.set_point(v, {old.x(), old.y(), old.z()});
-                }
-        }
-    }
-
-    const TriMesh& original_;
-    Eigen::Matrix3Xd original_normal_;
-    const Eigen::VectorXd& original_size_;
-    const ClosestPointSearch& search_;
-    double sagitta_;
-    HalfedgeMesh mesh_;
-    std::vector<char> line_edge_;      ///< per edge
-    std::vector<char> on_line_, drop_; ///< per vertex
-    std::vector<double> size_;         ///< per vertex, mm
-};
+/// Flips, collapses and moves what is left of thin triangles.
+/// @param thin  radians
+/// @returns how many there are
+int mend_thin(EvolvingMesh& mesh, double thin, const Progress& progress)
+{
+    int left = 0;
+    for_all(int(mesh.mesh().n_faces()), progress, "mending thin triangles", [&](int i) {
+        const Face f(i);
+        if (mesh.mesh().status(f).deleted() || least_angle(mesh.triangle(f)) >= thin)
+            return;
+        ++left;
+        if (!flip_longest(mesh, f) && !collapse_shortest(mesh, f))
+            climb(mesh, f);
+    });
+    return left;
+}
 
 } // namespace
 
-TriMesh remesh_incrementally(const TriMesh& mesh, const KeptLines& lines, const Eigen::VectorXd& size,
+TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const Eigen::VectorXd& size,
                              const ClosestPointSearch& search, const IncrementalOptions& options,
                              const Progress& progress)
 {
     progress.checkpoint(0, "dividing the kept lines");
-    Remesher remesher(mesh, lines, size, search, options.sagitta);
-    remesher.flip_for_angle(); // thin triangles hinder collapses
+    EvolvingMesh mesh(part, lines, size, search, options.sagitta);
+    flip_for_angle(mesh, progress.part(0, 0.02)); // thin triangles hinder collapses
     for (int round = 0; round < options.rounds; ++round) {
-        const auto step = [&](double share, const char* what) {
-            progress.checkpoint(0.9 * (round + share) / options.rounds, what);
+        const auto step = [&](double from, double to) {
+            return progress.part(0.02 + 0.78 * (round + from) / options.rounds,
+                                 0.02 + 0.78 * (round + to) / options.rounds);
         };
-        step(0.0, "splitting long edges");
-        remesher.split_long();
-        step(0.2, "collapsing short edges");
-        remesher.drop_line_vertices();
-        remesher.collapse_short();
-        step(0.5, "flipping edges");
-        remesher.flip_for_valence();
-        step(0.6, "smoothing");
-        remesher.smooth();
-        remesher.smooth();
+        split_long(mesh, step(0, 0.2));
+        mesh.drop_line_vertices();
+        collapse_short(mesh, step(0.2, 0.5));
+        flip_for_valence(mesh, step(0.5, 0.6));
+        smooth(mesh, step(0.6, 0.8));
+        smooth(mesh, step(0.8, 1));
     }
     constexpr int most_mends = 10;
-    constexpr double thin = 30 * std::numbers::pi / 180;
+    constexpr double thin = 30 * degrees;
     for (int mend = 0; mend < most_mends; ++mend) {
-        progress.checkpoint(0.9 + 0.1 * mend / most_mends, "mending thin triangles");
-        remesher.flip_for_angle();
-        remesher.smooth();
-        if (remesher.mend_thin(thin) == 0)
+        const Progress here = progress.part(0.8 + 0.2 * mend / most_mends, 0.8 + 0.2 * (mend + 1) / most_mends);
+        flip_for_angle(mesh, here.part(0, 0.2));
+        smooth(mesh, here.part(0.2, 0.6));
+        if (mend_thin(mesh, thin, here.part(0.6, 1)) == 0)
             break;
     }
-    remesher.drop_line_vertices();
-    return remesher.finished();
+    mesh.drop_line_vertices();
+    return mesh.finished();
 }
 
 } // namespace spia

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
+#include <numbers>
 #include <numeric>
 
 #include "engine/core/error.h"
@@ -31,6 +32,10 @@ void require_in_range(const TriMesh& part, const RemeshOptions& options, std::sp
         throw InputError(fmt::format(
             "the tolerance of remeshing is {} mm; give one above 0 and up to {:.3g} mm, a tenth of the part's diagonal",
             *options.tolerance, 0.1 * diagonal));
+    for (const auto& [angle, what] : {std::pair(options.sharp, "sharp edges"), {options.ridge, "ridges"}})
+        if (!(angle > 0 && angle <= std::numbers::pi))
+            throw InputError(fmt::format("the angle from which on {} are kept is {}; give one above 0 and up to pi",
+                                         what, angle));
     if (!label.empty() && int(label.size()) != part.triangles())
         throw InputError(fmt::format("there are {} labels for {} faces", label.size(), part.triangles()));
 }
@@ -187,21 +192,21 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     Fault fault;
     constexpr int most_attempts = 6;
     double most_triangles = std::max(1e6, 4.0 * part.triangles());
-    const auto refuse = [&] {
-        throw InputError(
-            fmt::format("{}; give a smaller size (now {:.4g} mm) or a larger tolerance, or take the part without "
-                        "remeshing",
-                        fault.text, result.size));
+    const auto refuse = [&](const char* what) {
+        throw InputError(fmt::format("{}; give {} (now {:.4g} mm) or a larger tolerance, or take the part without "
+                                     "remeshing",
+                                     fault.text, what, result.size));
     };
     for (int attempt = 0;; ++attempt) {
-        const Progress here = progress.part(double(attempt) / most_attempts, double(attempt + 1) / most_attempts);
+        constexpr double left = 0.2; // of the way after an attempt: mostly the first one is good
+        const Progress here = progress.part(1 - std::pow(left, attempt), 1 - std::pow(left, attempt + 1));
         const Eigen::VectorXd size = edge_sizes(part, lines, limits, fault.shorter);
         if (const double count = expected_triangles(part, size); count > most_triangles) {
-            if (fault.text.empty())
-                fault.text =
-                    fmt::format("a size of {:.4g} mm and a tolerance of {:.3g} mm would take {:.2g} million triangles",
-                                result.size, result.tolerance, count / 1e6);
-            refuse();
+            if (!fault.text.empty())
+                refuse("a smaller size");
+            fault.text = fmt::format("a size of {:.4g} mm and a tolerance of {:.3g} mm would take {:.2g} million triangles",
+                                     result.size, result.tolerance, count / 1e6);
+            refuse("a larger size");
         }
         constexpr double most_growth = 20; // then shorter edges do not help
         if (attempt == 0)
@@ -212,7 +217,7 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
         if (fault.text.empty())
             break;
         if (attempt + 1 == most_attempts)
-            refuse();
+            refuse("a smaller size");
         limits.least /= 2;
     }
     result.after = triangle_quality(result.mesh);
