@@ -83,7 +83,7 @@ double most_length(double height, double least)
 double least_length(const TriMesh& mesh)
 {
     const double faces = mesh.triangles();
-    constexpr double most_pieces = 8; // per face; halving makes up to twice as many as lengths alone
+    const double most_pieces = std::max(8 * faces, 100'000.0); // halving makes up to twice as many as lengths alone
     double area = 0;
     std::vector<std::pair<double, double>> extents;
     for (int f = 0; f < mesh.triangles(); ++f) {
@@ -99,7 +99,7 @@ double least_length(const TriMesh& mesh)
     double least = std::sqrt(area / faces) / 4;
     if (!(least > 0))
         return std::numeric_limits<double>::infinity();
-    while (pieces(least) > most_pieces * faces)
+    while (pieces(least) > most_pieces)
         least *= 2;
     return least;
 }

@@ -124,7 +124,7 @@ void smooth(EvolvingMesh& mesh, const Progress& progress)
         normal.normalize();
         Vector way = sum / weights - mesh.at(v);
         way -= normal.dot(way) * normal;
-        constexpr double arrived = 0.01; // of the size
+        constexpr double arrived = 0.003; // of the size
         if (way.norm() < arrived * mesh.size(v))
             return;
         constexpr double good_enough = 35 * degrees;

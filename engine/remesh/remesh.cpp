@@ -92,6 +92,12 @@ void lead_back(RemeshResult& result, const TriMesh& part, const ClosestPointSear
     sort_by_source(result, vertex, face);
 }
 
+/// Of as many equilateral triangles as the mesh has: the median edge of slivers says nothing.
+double equilateral_edge(const TriMesh& mesh)
+{
+    return std::sqrt(4 / std::sqrt(3.0) * area(mesh) / mesh.triangles());
+}
+
 /// What keeps a new mesh from being taken.
 struct Fault {
     std::string text;        ///< empty: nothing
@@ -180,7 +186,7 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     const double diagonal = bounding_diagonal(part);
     RemeshResult result;
     result.before = triangle_quality(part);
-    result.size = options.size.value_or(std::clamp(result.before.median_edge, diagonal / 250, diagonal / 40));
+    result.size = options.size.value_or(std::clamp(equilateral_edge(part), diagonal / 250, diagonal / 40));
     result.tolerance = options.tolerance.value_or(diagonal / 1000);
 
     const KeptLines lines = kept_lines(part, label, options.sharp, options.ridge, result.size);
