@@ -327,6 +327,7 @@ bool EvolvingMesh::move(Vertex v, const Vector& place_of_it, const Vector& norma
 
 TriMesh EvolvingMesh::finished()
 {
+    mesh_.delete_isolated_vertices(); // of thin faces
     mesh_.garbage_collection();
     TriMesh result;
     result.position.resize(3, Eigen::Index(mesh_.n_vertices()));

@@ -16,6 +16,7 @@
 #include "engine/remesh/incremental.h"
 #include "engine/remesh/kept_lines.h"
 #include "engine/remesh/mesh_distance.h"
+#include "engine/remesh/thin_faces.h"
 
 namespace spia {
 namespace {
@@ -98,6 +99,8 @@ double equilateral_edge(const TriMesh& mesh)
     return std::sqrt(4 / std::sqrt(3.0) * area(mesh) / mesh.triangles());
 }
 
+constexpr double no_height = 0.1; // of the tolerance: the normal of such a face is noise
+
 /// What keeps a new mesh from being taken.
 struct Fault {
     std::string text;        ///< empty: nothing
@@ -140,7 +143,7 @@ Fault fault_of(RemeshResult& result, const TriMesh& part, const ClosestPointSear
     int turned = -1;
     for (int f = 0; f < result.mesh.triangles(); ++f) {
         const int near = result.nearest_face[size_t(f)];
-        const bool over = new_normal.col(f).dot(normal.col(near)) < 0;
+        const bool over = !is_thin(part, near, no_height * result.tolerance) && new_normal.col(f).dot(normal.col(near)) < 0;
         if (over && turned < 0)
             turned = f;
         if (over || to_part.of_face[f] > result.tolerance)
@@ -189,10 +192,12 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     result.size = options.size.value_or(std::clamp(equilateral_edge(part), diagonal / 250, diagonal / 40));
     result.tolerance = options.tolerance.value_or(diagonal / 1000);
 
-    const KeptLines lines = kept_lines(part, label, options.sharp, options.ridge, result.size);
+    std::vector<int> labels(label.begin(), label.end());
+    const TriMesh even = without_thin_faces(part, no_height * result.tolerance, labels); // with the vertices of the part
+    const KeptLines lines = kept_lines(even, labels, options.sharp, options.ridge, result.size);
     result.lines = int(lines.line.size());
     result.corners = int(std::count(lines.corner.begin(), lines.corner.end(), 1));
-    const ClosestPointSearch search(part);
+    const ClosestPointSearch search(part), on_even(even);
     constexpr double planned = 0.6, allowed = 0.75; // of the tolerance, for chords
     SizeLimits limits{result.size, result.size / 10, planned * result.tolerance};
     Fault fault;
@@ -206,8 +211,8 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     for (int attempt = 0;; ++attempt) {
         constexpr double left = 0.2; // of the way after an attempt: mostly the first one is good
         const Progress here = progress.part(1 - std::pow(left, attempt), 1 - std::pow(left, attempt + 1));
-        const Eigen::VectorXd size = edge_sizes(part, lines, limits, fault.shorter);
-        if (const double count = expected_triangles(part, size); count > most_triangles) {
+        const Eigen::VectorXd size = edge_sizes(even, lines, limits, fault.shorter);
+        if (const double count = expected_triangles(even, size); count > most_triangles) {
             if (!fault.text.empty())
                 refuse("a smaller size");
             fault.text = fmt::format("a size of {:.4g} mm and a tolerance of {:.3g} mm would take {:.2g} million triangles",
@@ -216,8 +221,8 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
         }
         constexpr double most_growth = 20; // then shorter edges do not help
         if (attempt == 0)
-            most_triangles = std::min(most_triangles, most_growth * expected_triangles(part, size));
-        result.mesh = remesh_incrementally(part, lines, size, search, {allowed * result.tolerance}, here.part(0, 0.8));
+            most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));
+        result.mesh = remesh_incrementally(even, lines, size, on_even, {allowed * result.tolerance}, here.part(0, 0.8));
         lead_back(result, part, search);
         fault = fault_of(result, part, search, size, here.part(0.8, 1));
         if (fault.text.empty())
