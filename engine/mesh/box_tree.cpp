@@ -62,71 +62,74 @@ void build(BoxTree& tree, std::vector<Entry>& entry, int from, int to)
     build(tree, entry, half, to);
 }
 
-/// The longest edge and the height over it.
-std::pair<double, double> extents_of(const Eigen::Matrix3d& t)
+/// The longest edge (it ends in the next corner) and the height over it.
+struct Extents {
+    int longest = 0;
+    double length = 0, height = 0;
+};
+
+Extents extents_of(const Eigen::Matrix3d& t)
 {
-    double longest = 0;
+    Extents result;
     for (int k = 0; k < 3; ++k)
-        longest = std::max(longest, (t.col((k + 1) % 3) - t.col(k)).norm());
-    const double twice_area = (t.col(1) - t.col(0)).cross(t.col(2) - t.col(0)).norm();
-    return {longest, longest > 0 ? twice_area / longest : 0};
+        if (const double length = (t.col((k + 1) % 3) - t.col(k)).norm(); length > result.length) {
+            result.longest = k;
+            result.length = length;
+        }
+    if (result.length > 0)
+        result.height = (t.col(1) - t.col(0)).cross(t.col(2) - t.col(0)).norm() / result.length;
+    return result;
 }
 
-/// Pieces longer than that are halved.
-double most_length(double height, double least)
+/// Into how many pieces across its longest edge a triangle is cut, none of them shorter than that.
+double pieces_of(const Extents& extents, double least)
 {
     constexpr double askew_enough = 4; // of the height: then a box is mostly empty
-    return std::max(askew_enough * height, least);
+    const double longest = std::max(askew_enough * extents.height, least);
+    return longest > 0 ? std::max(1.0, std::ceil(extents.length / longest)) : 1;
 }
 
 /// The least length of pieces for which there are few enough of them.
 double least_length(const TriMesh& mesh)
 {
-    const double faces = mesh.triangles();
-    const double most_pieces = std::max(8 * faces, 100'000.0); // halving makes up to twice as many as lengths alone
+    const double faces = mesh.triangles(), most_pieces = std::max(8 * faces, 100'000.0);
     double area = 0;
-    std::vector<std::pair<double, double>> extents;
+    std::vector<Extents> extents;
     for (int f = 0; f < mesh.triangles(); ++f) {
         extents.push_back(extents_of(mesh.position(Eigen::all, mesh.triangle.col(f))));
-        area += extents.back().first * extents.back().second / 2;
+        area += extents.back().length * extents.back().height / 2;
     }
-    const auto pieces = [&](double least) {
+    double least = std::sqrt(area / faces) / 4;
+    if (!(least > 0) || !std::isfinite(least))
+        return std::numeric_limits<double>::infinity();
+    const auto pieces = [&] {
         double sum = 0;
-        for (const auto& [length, height] : extents)
-            sum += length > 0 ? std::max(1.0, length / most_length(height, least)) : 1;
+        for (const Extents& each : extents)
+            sum += pieces_of(each, least);
         return sum;
     };
-    double least = std::sqrt(area / faces) / 4;
-    if (!(least > 0))
-        return std::numeric_limits<double>::infinity();
-    while (pieces(least) > most_pieces)
+    while (pieces() > most_pieces)
         least *= 2;
     return least;
 }
 
-/// @param slack  what rounding can have moved the middles of edges by
-void add_pieces(const Eigen::Matrix3d& piece, double longest, double slack, int face, std::vector<Entry>& entry)
+/// The box of what lies between two shares of the longest edge.
+Eigen::AlignedBox3d slab(const Eigen::Matrix3d& t, int longest, double from, double to)
 {
-    for (int k = 0; k < 3; ++k) {
-        const int l = (k + 1) % 3;
-        const double length = (piece.col(l) - piece.col(k)).norm();
-        if (length <= longest || length < extents_of(piece).first)
-            continue;
-        for (const int replaced : {k, l}) {
-            Eigen::Matrix3d half = piece;
-            half.col(replaced) = (piece.col(k) + piece.col(l)) / 2;
-            constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-            add_pieces(half, longest, rounding * piece.cwiseAbs().maxCoeff(), face, entry);
-        }
-        return;
+    const Eigen::Vector3d a = t.col(longest), b = t.col((longest + 1) % 3), c = t.col((longest + 2) % 3);
+    const double top = std::clamp((c - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0); // share below c
+    Eigen::AlignedBox3d box;
+    for (const double s : {from, to}) {
+        box.extend(a + s * (b - a));
+        const double up = s <= top ? (top > 0 ? s / top : 1) : (1 - s) / (1 - top); // share of the height there
+        box.extend(s <= top ? Eigen::Vector3d(a + up * (c - a)) : Eigen::Vector3d(b + up * (c - b)));
     }
-    Entry& e = entry.emplace_back();
-    for (int k = 0; k < 3; ++k)
-        e.box.extend(piece.col(k));
-    e.box.min().array() -= slack;
-    e.box.max().array() += slack;
-    e.middle = e.box.center();
-    e.face = face;
+    if (from <= top && top <= to)
+        box.extend(c);
+    const double slack = 8 * std::numeric_limits<double>::epsilon() * t.cwiseAbs().maxCoeff(); // of rounding
+    box.min().array() -= slack;
+    box.max().array() += slack;
+    return box;
 }
 
 } // namespace
@@ -139,7 +142,18 @@ BoxTree::BoxTree(const TriMesh& mesh, Boxes boxes)
     entry.reserve(size_t(mesh.triangles()));
     for (int f = 0; f < mesh.triangles(); ++f) {
         const Eigen::Matrix3d corners = mesh.position(Eigen::all, mesh.triangle.col(f));
-        add_pieces(corners, most_length(extents_of(corners).second, least), 0, f, entry);
+        const Extents extents = extents_of(corners);
+        const int pieces = int(pieces_of(extents, least));
+        for (int piece = 0; piece < pieces; ++piece) {
+            Entry& e = entry.emplace_back();
+            if (pieces > 1)
+                e.box = slab(corners, extents.longest, double(piece) / pieces, double(piece + 1) / pieces);
+            else
+                for (int k = 0; k < 3; ++k)
+                    e.box.extend(corners.col(k));
+            e.middle = e.box.center();
+            e.face = f;
+        }
     }
     node.reserve(entry.size());
     build(*this, entry, 0, int(entry.size()));

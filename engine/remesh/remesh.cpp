@@ -93,10 +93,10 @@ void lead_back(RemeshResult& result, const TriMesh& part, const ClosestPointSear
     sort_by_source(result, vertex, face);
 }
 
-/// Of as many equilateral triangles as the mesh has: the median edge of slivers says nothing.
-double equilateral_edge(const TriMesh& mesh)
+/// The median edge, or if that is longer that of as many equilateral triangles: long slivers have short edges between them.
+double usual_edge(const TriMesh& mesh, double median)
 {
-    return std::sqrt(4 / std::sqrt(3.0) * area(mesh) / mesh.triangles());
+    return std::max(median, std::sqrt(4 / std::sqrt(3.0) * area(mesh) / mesh.triangles()));
 }
 
 constexpr double no_height = 0.1; // of the tolerance: the normal of such a face is noise
@@ -189,7 +189,7 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     const double diagonal = bounding_diagonal(part);
     RemeshResult result;
     result.before = triangle_quality(part);
-    result.size = options.size.value_or(std::clamp(equilateral_edge(part), diagonal / 250, diagonal / 40));
+    result.size = options.size.value_or(std::clamp(usual_edge(part, result.before.median_edge), diagonal / 250, diagonal / 40));
     result.tolerance = options.tolerance.value_or(diagonal / 1000);
 
     std::vector<int> labels(label.begin(), label.end());

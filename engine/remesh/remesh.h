@@ -10,8 +10,8 @@
 namespace spia {
 
 struct RemeshOptions {
-    /// mm, length of edges where neither curvature nor a short line asks for shorter ones; not given: the edge of as many
-    /// equilateral triangles as the part has, but from 1/250 to 1/40 of its diagonal
+    /// mm, length of edges where neither curvature nor a short line asks for shorter ones; not given: the median edge of the
+    /// part, or that of as many equilateral triangles if it is longer, but from 1/250 to 1/40 of the diagonal
     std::optional<double> size = {};
     /// mm, that no place of one mesh may be exceeded from the other one; not given: 1/1000 of the diagonal
     std::optional<double> tolerance = {};

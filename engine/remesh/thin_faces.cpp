@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/mesh/topology.h"
@@ -95,18 +96,47 @@ private:
     {
         const Halfedge o = mesh_.opposite_halfedge_handle(h);
         const Vertex a = from(h), b = to(h), c = top(h), d = top(o);
-        if (height(o) <= height_ || !mesh_.is_flip_ok(mesh_.edge_handle(h)) ||
-            different(mesh_.face_handle(h), mesh_.face_handle(o)))
+        const Eigen::Vector3d side = area(b, a, d);
+        if (height(o) <= height_ || agree(area(a, b, c), side))
             return false;
-        const Eigen::Vector3d side = area(b, a, d), thin = area(a, b, c);
-        constexpr double told_well = 0.9; // cosine
-        if (thin.dot(side) > told_well * thin.norm() * side.norm())
-            return false;
-        if (std::min(least_height(a, d, c), least_height(b, c, d)) <= height(h) || side.dot(area(a, d, c)) <= 0 ||
+        if (different(mesh_.face_handle(h), mesh_.face_handle(o)) || !mesh_.is_flip_ok(mesh_.edge_handle(h)) ||
+            std::min(least_height(a, d, c), least_height(b, c, d)) <= height(h) || side.dot(area(a, d, c)) <= 0 ||
             side.dot(area(b, c, d)) <= 0)
-            return false;
+            return join_shortest(mesh_.face_handle(h));
         mesh_.flip(mesh_.edge_handle(h));
         return true;
+    }
+
+    /// If it is no longer than the height: a needle.
+    bool join_shortest(Face face)
+    {
+        for (const Halfedge h : mesh_.fh_range(face))
+            if (length(h) <= height_)
+                for (const Halfedge way : {h, mesh_.opposite_halfedge_handle(h)})
+                    if (mesh_.is_collapse_ok(way) && !turns_over(way)) {
+                        mesh_.collapse(way);
+                        return true;
+                    }
+        return false;
+    }
+
+    /// Whether a face that is not thin would look to the other side.
+    bool turns_over(Halfedge h) const
+    {
+        for (const Face f : mesh_.vf_range(from(h))) {
+            std::array<Vertex, 3> v;
+            size_t k = 0;
+            for (const Vertex w : mesh_.fv_range(f))
+                v[k++] = w;
+            const Eigen::Vector3d before = area(v[0], v[1], v[2]);
+            if (least_height(v[0], v[1], v[2]) <= height_)
+                continue;
+            for (Vertex& w : v)
+                w = w == from(h) ? to(h) : w;
+            if (before.dot(area(v[0], v[1], v[2])) < 0)
+                return true;
+        }
+        return false;
     }
 
     bool different(Face f, Face g) const
@@ -114,10 +144,27 @@ private:
         return !label_.empty() && label_[size_t(f.idx())] != label_[size_t(g.idx())];
     }
 
-    /// Unless the boundary would touch itself at the vertex over its edge.
+    static bool agree(const Eigen::Vector3d& thin, const Eigen::Vector3d& side)
+    {
+        constexpr double enough = 0.9; // cosine
+        return thin.dot(side) > enough * thin.norm() * side.norm();
+    }
+
+    /// Unless it looks to where its neighbours look, or the boundary would touch itself at the vertex over its edge.
     bool cut_off(Face face, Halfedge h)
     {
         if (mesh_.is_boundary(top(h)))
+            return false;
+        const Eigen::Vector3d thin = area(from(h), to(h), top(h));
+        const bool well = [&] {
+            for (const Halfedge side : {mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)}) {
+                const Halfedge o = mesh_.opposite_halfedge_handle(side);
+                if (height(o) > height_ && !agree(thin, area(from(o), to(o), top(o))))
+                    return false;
+            }
+            return true;
+        }();
+        if (well)
             return false;
         mesh_.delete_face(face, false);
         return true;
