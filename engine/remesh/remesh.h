@@ -19,6 +19,8 @@ struct RemeshOptions {
     /// a line from which on their vertex is kept
     double sharp = 0.5236;
     double ridge = 0.1; ///< radians; edges of coarse bends are kept from there on if they do not fork (kept_lines())
+
+    bool operator==(const RemeshOptions&) const = default;
 };
 
 /// A mesh with well-shaped triangles in place of another one.

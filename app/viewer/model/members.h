@@ -68,6 +68,11 @@ inline constexpr auto members_of<SeamOptions> =
     std::tuple{member("mode", &SeamOptions::mode), member("path", &SeamOptions::path, is_path)};
 
 template <>
+inline constexpr auto members_of<RemeshOptions> =
+    std::tuple{member("size", &RemeshOptions::size, Between{1e-9, most_mm}),
+               member("tolerance", &RemeshOptions::tolerance, Between{1e-9, most_mm})};
+
+template <>
 inline constexpr auto members_of<TensileOptions> =
     std::tuple{member("kind", &TensileOptions::kind), member("in_percent", &TensileOptions::in_percent),
                member("young_MPa", &TensileOptions::young_MPa, Between{1e3, 1e6})};

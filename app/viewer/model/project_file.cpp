@@ -31,6 +31,7 @@ struct StoredPart {
     SeamOptions seam;
     std::vector<std::string> parts; ///< of a deck
     std::optional<Skin> skin;       ///< of a solid of sheet
+    std::optional<RemeshOptions> remesh;
 };
 
 struct StoredProject {
@@ -126,7 +127,7 @@ inline constexpr auto members_of<StoredPart> =
     std::tuple{required("path", &StoredPart::path), member("unit", &StoredPart::unit),
                member("weld", &StoredPart::weld),   member("keep_largest", &StoredPart::keep_largest),
                member("seam", &StoredPart::seam),   member("parts", &StoredPart::parts),
-               member("skin", &StoredPart::skin)};
+               member("skin", &StoredPart::skin),   member("remesh", &StoredPart::remesh)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -232,6 +233,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.read.seam = stored.part.seam;
     session.options.read.parts = stored.part.parts;
     session.options.read.skin = stored.part.skin;
+    session.options.read.remesh = stored.part.remesh;
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -272,7 +274,7 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.picks = store_picks(document);
     stored.part = {stored_path(session.file, folder),        session.options.read.unit, session.options.read.weld,
                    session.options.read.doctor.keep_largest, session.options.read.seam, session.options.read.parts,
-                   session.options.read.skin};
+                   session.options.read.skin,                session.options.read.remesh};
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

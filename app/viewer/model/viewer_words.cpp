@@ -12,6 +12,7 @@ std::string in_viewer_words(std::string text)
         {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
         {"--unit", "in the step Part"},
         {"--skin", "\"Skin\" in the step Part"},
+        {"--remesh", "\"Remesh\" in the step Part"},
         {"--part", "\"Parts\" in the step Part"},
         {"--young", "in the field above"},
         {"--data engineering or --data true", "above"},

@@ -180,6 +180,10 @@ TEST_F(OriginalResultsTest, AreTheSameOnOneThreadAndTwoAndRefusedWithoutADeck)
     EXPECT_EQ(one.face.direction_major, two.face.direction_major);
     EXPECT_THROW(on_original(one.part, one.blank, one.face), InputError); // as it was read
     EXPECT_THROW(on_original(part, one.blank, fields), InputError);       // the blank of other vertices
+    ReadOptions options;
+    options.remesh.emplace();
+    const PartFile other = read_part(fs::path(SPIA_SOURCE_DIR) / "assets/parts/dome.obj", options);
+    EXPECT_THROW(on_original(other, {other.mesh.position.topRows(2)}, fields_on(other.mesh, {1, 0, 0})), InputError);
 }
 
 const fs::path dome = fs::path(SPIA_SOURCE_DIR) / "assets/parts/dome.obj";
