@@ -128,16 +128,16 @@ SheetFields carry_fields(const TriMesh& original, const ClosestPointSearch& sear
 {
     const int count = original.triangles();
     SheetFields result;
-    for (Eigen::VectorXd* field : {&result.thickness, &result.thinning, &result.strain_major, &result.strain_minor,
-                                   &result.strain_equivalent, &result.stress_major, &result.stress_minor,
-                                   &result.stress_equivalent})
+    for (Eigen::VectorXd* field :
+         {&result.thickness, &result.thinning, &result.strain_major, &result.strain_minor, &result.strain_equivalent,
+          &result.stress_major, &result.stress_minor, &result.stress_equivalent})
         field->resize(count);
     result.direction_major.resize(3, count);
     result.necking.resize(count);
     parallel_for(count, [&](int f) {
         const Matrix3d t = corners_of(original, f);
-        const double longest = std::max(
-            {(t.col(1) - t.col(0)).norm(), (t.col(2) - t.col(1)).norm(), (t.col(0) - t.col(2)).norm()});
+        const double longest =
+            std::max({(t.col(1) - t.col(0)).norm(), (t.col(2) - t.col(1)).norm(), (t.col(0) - t.col(2)).norm()});
         constexpr double most = 64; // per side of a triangle: a plate of two of them has 8192 places
         carry_to_face(t, f, int(std::clamp(std::ceil(longest / (0.5 * edge)), 1.0, most)), search, face, result);
     });

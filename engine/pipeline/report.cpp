@@ -564,16 +564,11 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
     if (part.solid) {
         const SolidOrigin& solid = *part.solid;
         json["thickness_mm"] = solid.thickness;
-        json["solid"] = {{"skin", name(solid.skin)},
-                         {"thickness_least_mm", solid.least},
-                         {"thickness_most_mm", solid.most},
-                         {"outer_area_mm2", solid.outer_area},
-                         {"inner_area_mm2", solid.inner_area},
-                         {"rim_area_mm2", solid.rim_area},
-                         {"volume_mm3", solid.volume},
-                         {"faces", solid.faces},
-                         {"outer_faces", solid.outer_faces},
-                         {"inner_faces", solid.inner_faces}};
+        json["solid"] = {{"skin", name(solid.skin)},           {"thickness_least_mm", solid.least},
+                         {"thickness_most_mm", solid.most},    {"outer_area_mm2", solid.outer_area},
+                         {"inner_area_mm2", solid.inner_area}, {"rim_area_mm2", solid.rim_area},
+                         {"volume_mm3", solid.volume},         {"faces", solid.faces},
+                         {"outer_faces", solid.outer_faces},   {"inner_faces", solid.inner_faces}};
     }
     if (part.doctor.healthy()) {
         const Eigen::Vector3d low = part.mesh.position.rowwise().minCoeff(),

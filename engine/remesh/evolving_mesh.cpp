@@ -21,7 +21,7 @@ bool same_side(const Eigen::Vector3d& before, const Eigen::Vector3d& after)
 } // namespace
 
 EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
-         const ClosestPointSearch& search, double sagitta)
+                           const ClosestPointSearch& search, double sagitta)
     : original_(original), original_normal_(area_vectors(original)), original_size_(size), search_(search),
       sagitta_(sagitta), mesh_(halfedges(original)), on_line_(lines.on_line.begin(), lines.on_line.end()),
       drop_(size_t(original.vertices()), 0), size_(size.begin(), size.end())
@@ -89,8 +89,8 @@ std::optional<EvolvingMesh::Quad> EvolvingMesh::quad(Edge edge) const
         return std::nullopt;
     const Halfedge h = mesh_.halfedge_handle(edge, 0), o = mesh_.halfedge_handle(edge, 1);
     return Quad{mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h),
-                      mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
-                      mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o))};
+                mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
+                mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o))};
 }
 
 EvolvingMesh::Placed EvolvingMesh::place(const Vector& point) const
@@ -142,8 +142,7 @@ void EvolvingMesh::divide(const std::vector<int>& line)
         const Vector a = at(from), b = at(to);
         for (int k = 1; k < division.pieces[i]; ++k) {
             const double t = double(k) / division.pieces[i];
-            from = split(edge_between(from, to), a + t * (b - a), (1 - t) * size(Vertex(line[i])) + t * size(to),
-                         true);
+            from = split(edge_between(from, to), a + t * (b - a), (1 - t) * size(Vertex(line[i])) + t * size(to), true);
         }
     }
     for (size_t i = 0; i < line.size(); ++i)

@@ -19,7 +19,7 @@ public:
     using Edge = OpenMesh::EdgeHandle;
     using Halfedge = OpenMesh::HalfedgeHandle;
     using Face = OpenMesh::FaceHandle;
-    using Corners = Eigen::Matrix3d;      ///< one per column
+    using Corners = Eigen::Matrix3d;    ///< one per column
     using Quad = std::array<Vertex, 4>; ///< an edge from 0 to 1 between the triangles 0 1 2 and 1 0 3
 
     /// Divides the kept lines (divide_line()).
@@ -61,7 +61,8 @@ public:
 
     TriMesh finished();
 
-    static constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5; ///< of the size: where a split or collapse does not go farther from it
+    static constexpr double too_long = 4.0 / 3,
+                            too_short = 4.0 / 5; ///< of the size: where a split or collapse does not go farther from it
 
 private:
     struct Placed {

@@ -35,8 +35,8 @@ void require_in_range(const TriMesh& part, const RemeshOptions& options, std::sp
             *options.tolerance, 0.1 * diagonal));
     for (const auto& [angle, what] : {std::pair(options.sharp, "sharp edges"), {options.ridge, "ridges"}})
         if (!(angle > 0 && angle <= std::numbers::pi))
-            throw InputError(fmt::format("the angle from which on {} are kept is {}; give one above 0 and up to pi",
-                                         what, angle));
+            throw InputError(
+                fmt::format("the angle from which on {} are kept is {}; give one above 0 and up to pi", what, angle));
     if (!label.empty() && int(label.size()) != part.triangles())
         throw InputError(fmt::format("there are {} labels for {} faces", label.size(), part.triangles()));
 }
@@ -143,7 +143,8 @@ Fault fault_of(RemeshResult& result, const TriMesh& part, const ClosestPointSear
     int turned = -1;
     for (int f = 0; f < result.mesh.triangles(); ++f) {
         const int near = result.nearest_face[size_t(f)];
-        const bool over = !is_thin(part, near, no_height * result.tolerance) && new_normal.col(f).dot(normal.col(near)) < 0;
+        const bool over =
+            !is_thin(part, near, no_height * result.tolerance) && new_normal.col(f).dot(normal.col(near)) < 0;
         if (over && turned < 0)
             turned = f;
         if (over || to_part.of_face[f] > result.tolerance)
@@ -189,11 +190,13 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     const double diagonal = bounding_diagonal(part);
     RemeshResult result;
     result.before = triangle_quality(part);
-    result.size = options.size.value_or(std::clamp(usual_edge(part, result.before.median_edge), diagonal / 250, diagonal / 40));
+    result.size =
+        options.size.value_or(std::clamp(usual_edge(part, result.before.median_edge), diagonal / 250, diagonal / 40));
     result.tolerance = options.tolerance.value_or(diagonal / 1000);
 
     std::vector<int> labels(label.begin(), label.end());
-    const TriMesh even = without_thin_faces(part, no_height * result.tolerance, labels); // with the vertices of the part
+    const TriMesh even =
+        without_thin_faces(part, no_height * result.tolerance, labels); // with the vertices of the part
     const KeptLines lines = kept_lines(even, labels, options.sharp, options.ridge, result.size);
     result.lines = int(lines.line.size());
     result.corners = int(std::count(lines.corner.begin(), lines.corner.end(), 1));
@@ -215,8 +218,9 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
         if (const double count = expected_triangles(even, size); count > most_triangles) {
             if (!fault.text.empty())
                 refuse("a smaller size");
-            fault.text = fmt::format("a size of {:.4g} mm and a tolerance of {:.3g} mm would take {:.2g} million triangles",
-                                     result.size, result.tolerance, count / 1e6);
+            fault.text =
+                fmt::format("a size of {:.4g} mm and a tolerance of {:.3g} mm would take {:.2g} million triangles",
+                            result.size, result.tolerance, count / 1e6);
             refuse("a larger size");
         }
         constexpr double most_growth = 20; // then shorter edges do not help

@@ -26,8 +26,7 @@ struct RemeshOptions {
 /// A mesh with well-shaped triangles in place of another one.
 struct RemeshResult {
     TriMesh mesh;
-    std::vector<int>
-        nearest_face; ///< per new face: the given one nearest to its middle; never decreases
+    std::vector<int> nearest_face;   ///< per new face: the given one nearest to its middle; never decreases
     std::vector<int> nearest_vertex; ///< per new vertex: the given one nearest to it of that face; never decreases
     TriangleQuality before, after;
     double size = 0, tolerance = 0; ///< mm, as asked for or chosen

@@ -36,9 +36,9 @@ public:
             const Halfedge longest = longest_of(face);
             if (height(longest) > height_)
                 continue;
-            changed = (mesh_.is_boundary(mesh_.opposite_halfedge_handle(longest)) ? cut_off(face, longest)
-                                                                                  : flip(longest)) ||
-                      changed;
+            changed =
+                (mesh_.is_boundary(mesh_.opposite_halfedge_handle(longest)) ? cut_off(face, longest) : flip(longest)) ||
+                changed;
         }
         return changed;
     }

@@ -320,15 +320,15 @@ struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
 using Action =
-    std::variant<OpenPart, SetUnit, SetReading, SetSeam, SetRemeshing, RunTo, CancelJob, SetMaterial, FitMaterial, SetThickness,
-                 SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits, ProposeSteps, RunSteps,
-                 UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep,
-                 MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
-                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
-                 ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
-                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
-                 SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo, OpenProject,
-                 SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+    std::variant<OpenPart, SetUnit, SetReading, SetSeam, SetRemeshing, RunTo, CancelJob, SetMaterial, FitMaterial,
+                 SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds, SetLimits,
+                 ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane,
+                 SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices,
+                 PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
+                 MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine,
+                 PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
+                 SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo,
+                 OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -272,9 +272,10 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.schema = fmt::format("{}{}", schema_name, version);
     stored.program = program_name();
     stored.picks = store_picks(document);
-    stored.part = {stored_path(session.file, folder),        session.options.read.unit, session.options.read.weld,
-                   session.options.read.doctor.keep_largest, session.options.read.seam, session.options.read.parts,
-                   session.options.read.skin,                session.options.read.remesh};
+    stored.part = {stored_path(session.file, folder), session.options.read.unit,
+                   session.options.read.weld,         session.options.read.doctor.keep_largest,
+                   session.options.read.seam,         session.options.read.parts,
+                   session.options.read.skin,         session.options.read.remesh};
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

@@ -48,9 +48,9 @@ SheetFields fields_on(const TriMesh& mesh, const Vector3d& direction)
 {
     SheetFields fields;
     const int count = mesh.triangles();
-    for (Eigen::VectorXd* field : {&fields.thickness, &fields.thinning, &fields.strain_major, &fields.strain_minor,
-                                   &fields.strain_equivalent, &fields.stress_major, &fields.stress_minor,
-                                   &fields.stress_equivalent})
+    for (Eigen::VectorXd* field :
+         {&fields.thickness, &fields.thinning, &fields.strain_major, &fields.strain_minor, &fields.strain_equivalent,
+          &fields.stress_major, &fields.stress_minor, &fields.stress_equivalent})
         field->resize(count);
     for (int f = 0; f < count; ++f) {
         const Vector3d middle = mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
@@ -151,8 +151,7 @@ TEST_F(OriginalResultsTest, BothBanksOfASeamLieOnTheirOwnSide)
         }
         return flat;
     };
-    const OriginalResults found =
-        on_original(part, {unrolled(part.mesh)}, fields_on(part.mesh, Vector3d::UnitZ()));
+    const OriginalResults found = on_original(part, {unrolled(part.mesh)}, fields_on(part.mesh, Vector3d::UnitZ()));
     const Eigen::Matrix2Xd truth = unrolled(found.part.mesh);
     EXPECT_GT(truth.row(0).maxCoeff() - truth.row(0).minCoeff(), 2 * pi * radius - 1e-6);
     EXPECT_LT((found.blank.position - truth).cwiseAbs().maxCoeff(), 0.3); // chords of 5 mm; a wrong side is 188 mm off
@@ -208,10 +207,11 @@ TEST(RemeshedNumbers, FacesOfTheFileAreTheTrianglesOnThem)
             if (std::abs(x - middle) > edge) // both sides of the border are the file's triangles
                 EXPECT_EQ(bool(chosen[size_t(f)]), x < middle) << f;
         }
-        EXPECT_GT(each.dot(Eigen::Map<const Eigen::Array<char, Eigen::Dynamic, 1>>(chosen.data(), Eigen::Index(chosen.size()))
-                               .cast<double>()
-                               .matrix()),
-                  0.4 * area(part.mesh));
+        EXPECT_GT(
+            each.dot(Eigen::Map<const Eigen::Array<char, Eigen::Dynamic, 1>>(chosen.data(), Eigen::Index(chosen.size()))
+                         .cast<double>()
+                         .matrix()),
+            0.4 * area(part.mesh));
     }
 }
 

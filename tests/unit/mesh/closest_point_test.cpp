@@ -142,9 +142,8 @@ TEST(BoxTree, PiecesOfNeedlesSideBySideHaveBoxesOfTheirOwn)
     const auto boxes_at = [&](BoxTree::Boxes boxes, const Eigen::Vector3d& place) {
         const BoxTree tree(fan, boxes);
         EXPECT_LE(tree.face.size(), 100'000u);
-        return std::count_if(tree.node.begin(), tree.node.end(), [&](const BoxTree::Node& node) {
-            return node.count > 0 && node.box.contains(place);
-        });
+        return std::count_if(tree.node.begin(), tree.node.end(),
+                             [&](const BoxTree::Node& node) { return node.count > 0 && node.box.contains(place); });
     };
     const Eigen::Vector3d middle(35, 15, 0);
     EXPECT_GT(boxes_at(BoxTree::Boxes::whole, middle), 100);

@@ -19,7 +19,10 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 
-std::filesystem::path cad_file(const char* name) { return std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/data/cad" / name; }
+std::filesystem::path cad_file(const char* name)
+{
+    return std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/data/cad" / name;
+}
 
 Session solved(const std::filesystem::path& file, bool remeshed, Stage last = Stage::solve)
 {

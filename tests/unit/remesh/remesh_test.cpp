@@ -316,7 +316,7 @@ TEST(ThinFaces, ThatLookAsideVanishIntoTheirNeighbours)
     EXPECT_NEAR(area(even), 3200, 0.1);
     EXPECT_EQ(boundary_loops(even).size(), 1u);
     EXPECT_EQ(without_thin_faces(part, 1e-6, none).triangle, part.triangle); // none is that thin
-    std::vector<int> label(size_t(part.triangles())); // each of its own: no edge may be flipped
+    std::vector<int> label(size_t(part.triangles()));                        // each of its own: no edge may be flipped
     std::iota(label.begin(), label.end(), 0);
     const int faces = without_thin_faces(part, 5e-3, label).triangles();
     EXPECT_EQ(label.size(), size_t(faces));
