@@ -18,6 +18,12 @@ struct CadArguments {
 /// @throws InputError if some is given and the part is no CAD file
 CadOptions cad_options(const CadArguments& arguments, const std::filesystem::path& part);
 
+/// Of the part's triangles.
+struct RemeshArguments {
+    bool wanted = false;
+    std::optional<double> size, tolerance; ///< mm; not given: chosen from the part
+};
+
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, process;
     std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: outer
@@ -36,6 +42,7 @@ struct RunArguments {
     std::optional<double> marginal;                ///< percent
     double max_thinning = 25, max_thickening = 10; ///< percent
     std::string seam = "auto";                     ///< auto, none, or a file of paths
+    RemeshArguments remesh;
     bool strict = false, weld = false, keep_largest = false, skins = false;
     CadArguments cad;
 };
@@ -48,6 +55,7 @@ struct InfoArguments {
     std::filesystem::path part, json;
     std::string unit, seam = "auto", skin;
     std::vector<std::string> parts; ///< of a solver deck, ids or names
+    RemeshArguments remesh;
     bool weld = false, keep_largest = false;
     CadArguments cad;
 };
@@ -82,6 +90,7 @@ struct UnfoldArguments {
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
     std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
+    RemeshArguments remesh;
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, weld = false, keep_largest = false;
     CadArguments cad;
@@ -105,6 +114,9 @@ struct FitArguments {
 
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
+
+/// Not given unless it is wanted.
+std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments);
 
 /// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.
 /// @throws InputError unless it is above 0

@@ -64,6 +64,24 @@ void add_thickness(CLI::App* command, std::optional<double>& thickness, const ch
     command->add_option("--thickness", thickness, text)->type_name("MM");
 }
 
+void add_remesh(CLI::App* command, spia::cli::RemeshArguments& remesh)
+{
+    CLI::Option* wanted = command->add_flag(
+        "--remesh", remesh.wanted,
+        "replace the triangles by well-shaped ones that stay within a tolerance; deviations are those from the original");
+    command
+        ->add_option("--remesh-size", remesh.size,
+                     "length of their edges where nothing asks for shorter ones (default: the part's median edge, from "
+                     "1/250 to 1/40 of its diagonal)")
+        ->type_name("MM")
+        ->needs(wanted);
+    command
+        ->add_option("--remesh-tolerance", remesh.tolerance,
+                     "largest distance of both meshes anywhere (default: 1/1000 of the part's diagonal)")
+        ->type_name("MM")
+        ->needs(wanted);
+}
+
 enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
 
 int failed(ExitCode code, std::string_view what)
@@ -100,6 +118,7 @@ int main(int count, char** values)
     add_parts(run_command, run.parts);
     add_cad(run_command, run.cad);
     add_skin(run_command, run.skin);
+    add_remesh(run_command, run.remesh);
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
@@ -194,6 +213,7 @@ int main(int count, char** values)
     add_parts(info_command, info.parts);
     add_cad(info_command, info.cad);
     add_skin(info_command, info.skin);
+    add_remesh(info_command, info.remesh);
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
@@ -302,6 +322,7 @@ int main(int count, char** values)
     add_parts(unfold_command, unfolding.parts);
     add_cad(unfold_command, unfolding.cad);
     add_skin(unfold_command, unfolding.skin);
+    add_remesh(unfold_command, unfolding.remesh);
     unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
     unfold_command->add_flag("--weld", unfolding.weld, "join vertices at one place (always done for STL and glTF)");

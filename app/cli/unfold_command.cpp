@@ -59,6 +59,7 @@ PartFile part_of(const UnfoldArguments& arguments)
     if (!arguments.skin.empty())
         read.skin = skin_by_name(arguments.skin);
     read.seam = seam_options(arguments.seam);
+    read.remesh = remesh_options(arguments.remesh);
     JobDisplay display{"read"};
     return read_part(arguments.part, read, display.progress());
 }

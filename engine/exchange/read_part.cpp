@@ -211,6 +211,17 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     return part;
 }
 
+/// Healthy parts alone can be remeshed.
+PartFile remeshed_where_asked(const fs::path& path, const ReadOptions& options, const Progress& progress)
+{
+    if (!options.remesh)
+        return examine_file(path, options, progress);
+    PartFile part = examine_file(path, options, progress.part(0, 0.4));
+    if (part.doctor.healthy())
+        remesh_part(part, *options.remesh, progress.part(0.4, 1));
+    return part;
+}
+
 /// Does the work and puts the file's name before whatever is wrong with it.
 template <class Work> PartFile named(const fs::path& path, const Work& work)
 {
@@ -225,7 +236,7 @@ template <class Work> PartFile named(const fs::path& path, const Work& work)
 
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
-    return named(path, [&] { return examine_file(path, options, progress); });
+    return named(path, [&] { return remeshed_where_asked(path, options, progress); });
 }
 
 PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const Progress& progress)
@@ -239,7 +250,7 @@ PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
     return named(path, [&] {
-        PartFile part = examine_file(path, options, progress);
+        PartFile part = remeshed_where_asked(path, options, progress);
         try {
             require_healthy(part.doctor);
         } catch (const InputError& error) {

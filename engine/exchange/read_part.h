@@ -9,6 +9,7 @@
 #include "engine/exchange/cad_tree.h"
 #include "engine/exchange/deck.h"
 #include "engine/exchange/length_unit.h"
+#include "engine/exchange/remesh_part.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/skin.h"
@@ -28,6 +29,8 @@ struct ReadOptions {
     SeamOptions seam = {};         ///< where a part is cut open that is no sheet; vertices of the file
     std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
                                    ///< flat enough (has_both_skins()) are taken as hollow bodies, not as solids
+    std::optional<RemeshOptions> remesh =
+        {}; ///< not given: the triangles stay as they are; a part that is refused has none
 };
 
 /// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
@@ -86,6 +89,7 @@ struct PartFile {
     std::optional<DeckOrigin> deck = {};     ///< of solver decks
     std::optional<CadOrigin> cad = {};       ///< of CAD files
     std::optional<SolidOrigin> solid = {};   ///< of solids of sheet
+    std::optional<Remeshed> remeshed = {};   ///< if it was asked for: mesh, source_vertex and source_face are new
 };
 
 /// Reads an STL, OBJ, PLY, OFF, glTF or GLB file, the shells of a solver deck (read_deck()) or the faces of a STEP, IGES or

@@ -23,9 +23,13 @@ struct BoxTree {
     std::vector<int> face;                 ///< of the mesh, in the order of the leaves
     std::vector<Eigen::Matrix3d> triangle; ///< its vertices (columns), in the same order
 
+    /// Thin triangles that lie askew have large boxes, which are full of others. As pieces they have small ones, and several leaves.
+    enum class Boxes { whole, pieces };
+
+    /// @param boxes  pieces: a face may be in several leaves, always as a whole; there are at most 8 times as many as faces, or 100 000
     /// @throws InputError  if there is no face, a face names a vertex that does not exist or a coordinate of its
     ///                     vertices is not a number; names the first such face
-    explicit BoxTree(const TriMesh& mesh);
+    explicit BoxTree(const TriMesh& mesh, Boxes boxes = Boxes::whole);
 };
 
 } // namespace spia

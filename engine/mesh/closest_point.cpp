@@ -59,7 +59,10 @@ Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen
     return best;
 }
 
-ClosestPointSearch::ClosestPointSearch(const TriMesh& mesh) : tree_(std::make_unique<const BoxTree>(mesh)) {}
+ClosestPointSearch::ClosestPointSearch(const TriMesh& mesh)
+    : tree_(std::make_unique<const BoxTree>(mesh, BoxTree::Boxes::pieces))
+{
+}
 ClosestPointSearch::~ClosestPointSearch() = default;
 ClosestPointSearch::ClosestPointSearch(ClosestPointSearch&&) noexcept = default;
 ClosestPointSearch& ClosestPointSearch::operator=(ClosestPointSearch&&) noexcept = default;
@@ -83,6 +86,8 @@ ClosestPoint ClosestPointSearch::nearest(const Eigen::Vector3d& point, double wi
             const BoxTree::Node& node = tree_->node[size_t(here.node)];
             if (node.count > 0) {
                 for (int i = node.first; i < node.first + node.count; ++i) {
+                    if (tree_->face[size_t(i)] == found) // seen as another piece
+                        continue;
                     const Eigen::Matrix3d& triangle = tree_->triangle[size_t(i)];
                     const Eigen::Vector3d barycentric = closest_on_triangle(triangle, point);
                     const Eigen::Vector3d position = triangle * barycentric;

@@ -135,7 +135,7 @@ void note_slivers(const MendedSurface& s, double angle_deg, DoctorReport& report
                    fmt::format("{} an angle below {:.3g} degrees (first: face {}); the smallest is {:.3g} degrees",
                                counted(slivers.count, "triangle has", "triangles have"), angle_deg, slivers.first,
                                least * 180 / std::numbers::pi),
-                   "strains there mean little; a more even mesh is better");
+                   "strains there mean little; a more even mesh is better: mesh the part again (--remesh)");
 }
 
 } // namespace spia

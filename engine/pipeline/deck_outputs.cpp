@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "engine/exchange/original_results.h"
 #include "engine/exchange/part_shells.h"
 #include "engine/exchange/write_element_results.h"
 #include "engine/exchange/write_shell_mesh.h"
@@ -49,7 +50,7 @@ std::vector<std::string> deck_file_names(const std::string& format, const std::s
 void require_deck_ids(std::span<const std::string> formats, const PartFile& part)
 {
     if (std::any_of(formats.begin(), formats.end(), is_deck_format))
-        part_shells(part);
+        part_shells(part.deck ? as_read(part) : part);
 }
 
 std::vector<std::filesystem::path> write_deck_files(const std::filesystem::path& folder, const std::string& name,
@@ -59,6 +60,10 @@ std::vector<std::filesystem::path> write_deck_files(const std::filesystem::path&
     std::vector<std::filesystem::path> files;
     if (std::none_of(formats.begin(), formats.end(), is_deck_format))
         return files;
+    if (part.deck && part.remeshed) { // the elements of the deck, not ours, are what another program knows
+        const OriginalResults original = on_original(part, blank, face);
+        return write_deck_files(folder, name, formats, original.part, original.blank, original.face, unit);
+    }
     const PartShells shells = part_shells(part, unit);
     const ElementFields fields = element_fields(shells, part.mesh, face);
     const BlankShells flat = blank_shells(part, shells, blank, face);

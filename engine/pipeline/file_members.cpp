@@ -82,15 +82,16 @@ void choose_faces(const Json& json, const Place& place, const PartFile& part, st
 {
     if (!json.is_array())
         place.fail("must be a list of face numbers");
+    std::vector<int> wanted;
     for (size_t i = 0; i < json.size(); ++i) {
-        const double wanted = number(json[i], place.entry(i), 0, 2147483647);
-        const auto [from, to] =
-            std::equal_range(part.source_face.begin(), part.source_face.end(), int(wanted)); // never decreases
-        if (wanted != std::floor(wanted) || from == to)
-            place.entry(i).fail(fmt::format("is {}: the part has no such face", wanted));
-        for (auto f = from; f != to; ++f)
-            chosen[size_t(f - part.source_face.begin())] = 1;
+        const double face = number(json[i], place.entry(i), 0, 2147483647);
+        if (face != std::floor(face) || !has_face(part, int(face)))
+            place.entry(i).fail(fmt::format("is {}: the part has no such face", face));
+        wanted.push_back(int(face));
     }
+    const std::vector<char> called = faces_called(part, wanted);
+    for (size_t f = 0; f < called.size(); ++f)
+        chosen[f] = char(chosen[f] | called[f]);
 }
 
 void choose_box(const Json& json, const Place& place, const PartFile& part, std::vector<char>& chosen)

@@ -5,6 +5,7 @@
 #include <array>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "engine/coons/cell_quality.h"
 #include "engine/forming/material_text.h"
@@ -76,6 +77,32 @@ Json seam_json(const PartFile& part)
     return part.seam.empty() ? Json(nullptr) : Json{{"length_mm", part.seam_length}, {"paths", part.seam}};
 }
 
+Json quality_json(const TriangleQuality& quality)
+{
+    constexpr double degrees = 180 / std::numbers::pi;
+    return {{"triangles", quality.triangles},
+            {"smallest_angle_deg", quality.least_angle * degrees},
+            {"smallest_angle_of_99_percent_deg", quality.least_angle_of_99 * degrees},
+            {"edge_ratio", quality.edge_ratio},
+            {"median_edge_mm", quality.median_edge}};
+}
+
+/// null if the part has the triangles of its file.
+Json remeshed_json(const PartFile& part)
+{
+    if (!part.remeshed)
+        return nullptr;
+    const Remeshed& remeshed = *part.remeshed;
+    return {{"size_mm", remeshed.size},
+            {"tolerance_mm", remeshed.tolerance},
+            {"distance_mm", remeshed.distance},
+            {"lines", remeshed.lines},
+            {"corners", remeshed.corners},
+            {"seconds", remeshed.seconds},
+            {"before", quality_json(remeshed.before)},
+            {"after", quality_json(remeshed.after)}};
+}
+
 Json part_json(const PartFile& part)
 {
     Json json = {{"vertices", part.mesh.vertices()},
@@ -85,6 +112,7 @@ Json part_json(const PartFile& part)
                  {"format", part.format},
                  {"unit", name(part.unit)},
                  {"seam", seam_json(part)},
+                 {"remeshed", remeshed_json(part)},
                  {"findings", findings_json(part.doctor)}};
     return json;
 }
@@ -511,6 +539,7 @@ std::string doctor_json(const std::filesystem::path& file, const PartFile& part)
                  {"components", part.doctor.components},
                  {"healthy", part.doctor.healthy()},
                  {"seam", seam_json(part)},
+                 {"remeshed", remeshed_json(part)},
                  {"findings", findings_json(part.doctor)},
                  {"notes", part.notes}};
     const auto optional = [&](const char* key, const std::optional<int>& value) {

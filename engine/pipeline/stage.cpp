@@ -19,16 +19,16 @@ std::vector<std::array<int, 4>> corners_in_mesh(const PartFile& part, const std:
 {
     std::vector<std::array<int, 4>> choices{{}};
     for (size_t k = 0; k < 4; ++k) {
-        const auto [from, to] = std::equal_range(part.source_vertex.begin(), part.source_vertex.end(), in_file[k]);
-        if (from == to)
+        const std::vector<int> copies = vertices_called(part, in_file[k]);
+        if (copies.empty())
             throw InputError(
                 fmt::format("corner {} is not a vertex of the part (they count from 0 in the file's order); "
                             "choose four vertices of the outer boundary",
                             in_file[k]));
         std::vector<std::array<int, 4>> longer;
         for (std::array<int, 4> choice : choices)
-            for (auto copy = from; copy != to; ++copy) {
-                choice[k] = int(copy - part.source_vertex.begin());
+            for (const int copy : copies) {
+                choice[k] = copy;
                 if (std::find(choice.begin(), choice.begin() + long(k), choice[k]) == choice.begin() + long(k))
                     longer.push_back(choice);
             }
@@ -112,6 +112,18 @@ void lift_grid(Session& session, const Progress& progress)
     session.lifted = std::make_shared<LiftResult>(lift(session.grid->result));
 }
 
+/// The part as it was read, and the faces that fill holes of the remeshed one.
+TriMesh with_holes_filled(const TriMesh& original, const TriMesh& filled, int part_triangles)
+{
+    const Eigen::Index faces = filled.triangles() - part_triangles;
+    TriMesh result;
+    result.position.resize(3, original.vertices() + filled.vertices());
+    result.position << original.position, filled.position;
+    result.triangle.resize(3, original.triangles() + faces);
+    result.triangle << original.triangle, (filled.triangle.rightCols(faces).array() + original.vertices()).matrix();
+    return result;
+}
+
 void fit(Session& session, const Progress& progress)
 {
     InterpolateResult result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
@@ -119,7 +131,17 @@ void fit(Session& session, const Progress& progress)
     options.part_faces = session.grid->result.filled->part_triangles;
     options.data_u = result.u;
     options.data_v = result.v;
-    Deviation measured = deviation(result.surface, session.grid->result.filled->mesh, options, progress.part(0.3, 1));
+    const auto& remeshed = session.part->remeshed;
+    Deviation measured =
+        deviation(result.surface, session.grid->result.filled->mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
+    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is shown
+        const TriMesh whole =
+            with_holes_filled(*remeshed->original, session.grid->result.filled->mesh, options.part_faces);
+        options.part_faces = remeshed->original->triangles();
+        Eigen::VectorXd at_vertex = std::move(measured.at_vertex);
+        measured = deviation(result.surface, whole, options, progress.part(0.6, 1));
+        measured.at_vertex = std::move(at_vertex);
+    }
     session.surface = std::make_shared<SurfaceStage>(SurfaceStage{std::move(result), std::move(measured)});
 }
 

@@ -62,4 +62,8 @@ expect 2 "several parts\|separate pieces" "$spia" compare --part Lid,Base "$deck
 expect 0 "1.5 mm thick as in the deck" "$spia" compare --part Base "$deck" --methods lscm
 expect 0 "0.8 mm thick as in the deck" "$spia" unfold --part Lid "$deck" --auto
 expect 2 "from solver decks and CAD files only" "$spia" info --part 1 "$(dirname "$0")/../../assets/parts/dome.obj"
+expect 0 "remeshed from 18 to" "$spia" info --remesh --remesh-size 8 --part Lid "$deck"
+expect 2 "requires --remesh" "$spia" info --remesh-size 8 --part Lid "$deck"
+expect 2 "the size of remeshing is 0.001 mm" "$spia" run --remesh --remesh-size 0.001 --part Lid --out "$out/r" "$deck"
+expect 0 "remeshed from" "$spia" unfold --remesh --auto "$(dirname "$0")/../../assets/parts/lipped-channel.obj"
 echo "decks: all as expected"

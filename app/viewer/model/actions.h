@@ -57,6 +57,10 @@ struct SetReading {
 struct SetSeam {
     SeamOptions seam;
 };
+/// "set_remeshing": remesh {size, tolerance} in mm, each null: chosen from the part; null: the triangles of the file; reads the part again.
+struct SetRemeshing {
+    std::optional<RemeshOptions> remesh = {};
+};
 struct RunTo {
     Stage stage = Stage::fit;
 };                   ///< "run_to": what is missing up to this stage, in the background
@@ -333,9 +337,9 @@ struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
 using Action =
-    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, SetSeam, RunTo, CancelJob, SetMaterial,
-                 FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid, SetEnds,
-                 SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
+    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, SetSeam, SetRemeshing, RunTo, CancelJob,
+                 SetMaterial, FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
+                 SetEnds, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
                  SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
                  SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection,
                  ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine,

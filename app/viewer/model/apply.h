@@ -40,6 +40,7 @@ struct ViewerModel::Apply {
     void operator()(const SetUnit& action);
     void operator()(const SetReading& action);
     void operator()(const SetSeam& action);
+    void operator()(const SetRemeshing& action);
     void operator()(const RunTo& action);
     void operator()(const CancelJob&);
     void operator()(const SetMaterial& action);

@@ -122,6 +122,13 @@ void ViewerModel::Apply::operator()(const SetSeam& action)
     read_again("Change seam", [&](ReadOptions& read) { read.seam = action.seam; });
 }
 
+void ViewerModel::Apply::operator()(const SetRemeshing& action)
+{
+    if (session.options.read.remesh != action.remesh)
+        read_again(action.remesh ? "Remesh" : "Take the triangles of the file",
+                   [&](ReadOptions& read) { read.remesh = action.remesh; });
+}
+
 void ViewerModel::Apply::operator()(const RunTo& action)
 {
     if (state.refused && !session.part && !model.opening_)

@@ -10,7 +10,7 @@ namespace {
 bool same(const ReadOptions& a, const ReadOptions& b)
 {
     return a.unit == b.unit && a.weld == b.weld && a.doctor.keep_largest == b.doctor.keep_largest && a.seam == b.seam &&
-           a.parts == b.parts && a.skin == b.skin && a.cad == b.cad;
+           a.parts == b.parts && a.skin == b.skin && a.cad == b.cad && a.remesh == b.remesh;
 }
 
 bool same(const FlattenOptions& a, const FlattenOptions& b)

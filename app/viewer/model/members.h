@@ -77,6 +77,11 @@ inline constexpr auto members_of<Reading> = std::tuple{member("weld", &Reading::
                                                        member("deflection_mm", &Reading::deflection_mm, chord_height),
                                                        member("leave_out_bad_faces", &Reading::leave_out_bad_faces)};
 template <>
+inline constexpr auto members_of<RemeshOptions> =
+    std::tuple{member("size", &RemeshOptions::size, Between{1e-9, most_mm}),
+               member("tolerance", &RemeshOptions::tolerance, Between{1e-9, most_mm})};
+
+template <>
 inline constexpr auto members_of<TensileOptions> =
     std::tuple{member("kind", &TensileOptions::kind), member("in_percent", &TensileOptions::in_percent),
                member("young_MPa", &TensileOptions::young_MPa, Between{1e3, 1e6})};

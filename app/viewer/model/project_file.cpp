@@ -27,6 +27,7 @@ struct StoredPart : Reading {
     StoredPath path;
     std::optional<LengthUnit> unit;
     SeamOptions seam;
+    std::optional<RemeshOptions> remesh;
 };
 
 struct StoredProject {
@@ -128,7 +129,8 @@ inline constexpr auto members_of<StoredPart> =
                member("skin", &StoredPart::skin),
                member("sewing_mm", &StoredPart::sewing_mm, gap_width),
                member("deflection_mm", &StoredPart::deflection_mm, chord_height),
-               member("leave_out_bad_faces", &StoredPart::leave_out_bad_faces)};
+               member("leave_out_bad_faces", &StoredPart::leave_out_bad_faces),
+               member("remesh", &StoredPart::remesh)};
 template <>
 inline constexpr auto members_of<StoredProject> =
     std::tuple{required("schema", &StoredProject::schema),
@@ -231,6 +233,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.read.unit = stored.part.unit;
     session.options.read.seam = stored.part.seam;
     set_reading(session.options.read, stored.part);
+    session.options.read.remesh = stored.part.remesh;
     document.material = stored.material_file ? found_path(*stored.material_file, folder).string() : stored.material;
     try {
         session.options.flatten.material = find_material(document.material, materials);
@@ -273,6 +276,7 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.part.path = stored_path(session.file, folder);
     stored.part.unit = session.options.read.unit;
     stored.part.seam = session.options.read.seam;
+    stored.part.remesh = session.options.read.remesh;
     if (is_file(document.material))
         stored.material_file = stored_path(document.material, folder);
     else

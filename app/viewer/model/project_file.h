@@ -14,7 +14,7 @@
 /// |---|---|
 /// | `part.path` | `file`: relative to the project's folder; `was_at`: where it was when saved, tried second |
 /// | `part.unit`, `part.weld` | of the file; null: as its format has it |
-/// | `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`, `part.leave_out_bad_faces`, `part.seam` | as in the script actions set_reading and set_seam |
+/// | `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`, `part.leave_out_bad_faces`, `part.seam`, `part.remesh` | as in the script actions set_reading, set_seam and set_remeshing |
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
 /// | `ran` | the last stage that had been run, or null |

@@ -69,6 +69,7 @@ constexpr std::tuple forms{
     form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
     form_of_inner("set_reading", &SetReading::reading),
     form_of_inner("set_seam", &SetSeam::seam),
+    form<SetRemeshing>("set_remeshing", member("remesh", &SetRemeshing::remesh)),
     form<RunTo>("run_to", member("stage", &RunTo::stage)),
     form<CancelJob>("cancel_job"),
     form<SetMaterial>("set_material", required("material", &SetMaterial::material, not_empty)),

@@ -156,6 +156,31 @@ void solid_skin(Frame& frame, const PartFile& part)
     ImGui::EndDisabled();
 }
 
+/// Well-shaped triangles in the place of those of the file.
+void remeshing(Frame& frame, const PartFile& part)
+{
+    const std::optional<RemeshOptions>& now = frame.state.document.session.options.read.remesh;
+    ImGui::BeginDisabled(frame.model.busy());
+    bool wanted = now.has_value();
+    if (ImGui::Checkbox("Remesh", &wanted))
+        frame.actions.push(SetRemeshing{wanted ? std::optional(RemeshOptions{}) : std::nullopt});
+    tooltip("Puts even triangles in the place of slivers, coarse or over-fine ones. The surface stays within the "
+            "tolerance, and deviations are still those from the triangles of the file.");
+    if (now && part.remeshed) {
+        RemeshOptions edited = *now;
+        double size = part.remeshed->size, tolerance = part.remeshed->tolerance;
+        ImGui::SetNextItemWidth(100 * frame.ui.scale);
+        if (typed_number(frame, "Edges, mm", size, "%.4g"))
+            edited.size = size;
+        ImGui::SetNextItemWidth(100 * frame.ui.scale);
+        if (typed_number(frame, "Tolerance, mm", tolerance, "%.3g"))
+            edited.tolerance = tolerance;
+        if (edited != *now)
+            frame.actions.push(SetRemeshing{edited});
+    }
+    ImGui::EndDisabled();
+}
+
 /// The gauge that the file gives, if it is not the one that is used.
 void deck_gauge(Frame& frame, const PartFile& part)
 {
@@ -204,6 +229,8 @@ void doctor_panel(Frame& frame)
     choose_again(frame, *part);
     cad_faces(frame, *part);
     solid_skin(frame, *part);
+    if (!refused)
+        remeshing(frame, *part);
     deck_gauge(frame, *part);
     file_notes(frame, *part);
     if (part->doctor.findings.empty())

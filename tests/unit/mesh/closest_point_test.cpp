@@ -5,6 +5,7 @@
 #include <random>
 
 #include "engine/core/error.h"
+#include "engine/mesh/box_tree.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -98,6 +99,55 @@ TEST(ClosestPoint, SearchFindsWhatTryingAllFacesFinds)
             EXPECT_LT((t * found.barycentric - found.position).norm(), 1e-12);
         }
     }
+}
+
+/// Needles all through each other, some of them askew: their boxes are cut to pieces, the answers are those of whole faces.
+TEST(ClosestPoint, OfNeedlesItFindsTheSameBitsAsTryingAllOfThem)
+{
+    TriMesh mesh = soup(400, 60);
+    for (int f = 0; f < mesh.triangles(); f += 2) // half of them thin, some without area
+        mesh.position.col(3 * f + 2) = mesh.position.col(3 * f) + random_point(f % 8 == 0 ? 0 : 0.01);
+    const ClosestPointSearch search(mesh);
+    for (int i = 0; i < 3000; ++i) {
+        const Eigen::Vector3d on = mesh.position.col(i % mesh.vertices());
+        const Eigen::Vector3d point = i < mesh.vertices() ? on : random_point(100); // at corners, too
+        int truth = -1;
+        double least = std::numeric_limits<double>::infinity();
+        for (int f = 0; f < mesh.triangles(); ++f) {
+            const Eigen::Matrix3d t = mesh.position.middleCols<3>(3 * f);
+            const Eigen::Vector3d place = t * closest_on_triangle(t, point);
+            if (const double squared = (place - point).squaredNorm(); squared < least) {
+                least = squared;
+                truth = f;
+            }
+        }
+        const ClosestPoint found = search.nearest(point);
+        EXPECT_EQ(found.face, truth);
+        EXPECT_EQ(found.distance, std::sqrt(least));
+    }
+}
+
+/// What makes slivers cheap: how many boxes of leaves hold a place among needles that lie side by side and askew.
+TEST(BoxTree, PiecesOfNeedlesSideBySideHaveBoxesOfTheirOwn)
+{
+    const int needles = 400;
+    TriMesh fan{Eigen::Matrix3Xd(3, 2 * needles + 2), Eigen::Matrix3Xi(3, 2 * needles)};
+    for (int i = 0; i <= needles; ++i)
+        for (const int end : {0, 1}) // from lower left to upper right
+            fan.position.col(2 * i + end) = Eigen::Vector3d(0.05 * i + 50 * end, 50 * end - 0.05 * i, 0);
+    for (int i = 0; i < needles; ++i) {
+        fan.triangle.col(2 * i) << 2 * i, 2 * i + 1, 2 * i + 2;
+        fan.triangle.col(2 * i + 1) << 2 * i + 1, 2 * i + 3, 2 * i + 2;
+    }
+    const auto boxes_at = [&](BoxTree::Boxes boxes, const Eigen::Vector3d& place) {
+        const BoxTree tree(fan, boxes);
+        EXPECT_LE(tree.face.size(), 100'000u);
+        return std::count_if(tree.node.begin(), tree.node.end(),
+                             [&](const BoxTree::Node& node) { return node.count > 0 && node.box.contains(place); });
+    };
+    const Eigen::Vector3d middle(35, 15, 0);
+    EXPECT_GT(boxes_at(BoxTree::Boxes::whole, middle), 100);
+    EXPECT_LT(boxes_at(BoxTree::Boxes::pieces, middle), 10);
 }
 
 TEST(ClosestPoint, AboveAPlaneItIsTheFootAndBesideItTheEdge)

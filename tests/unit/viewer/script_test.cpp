@@ -45,6 +45,10 @@ std::vector<Action> every_action()
         set(SetUnit{"cm"});
         set(SetReading{{true, true, {"7"}, Skin::inner, 0., 1e-3}});
         set(SetSeam{{SeamOptions::Mode::given, {{3, 9, 4}, {1, 2}}}});
+        RemeshOptions remesh;
+        remesh.size = 2.5;
+        remesh.tolerance = 0.125;
+        set(SetRemeshing{remesh});
         set(FitMaterial{"bar.csv",
                         "mine.json",
                         {{TensileOptions::Kind::truly, true, 2e5}, "voce", "mine", 0.29, 7900, 1.1, 1.2, 1.3}});

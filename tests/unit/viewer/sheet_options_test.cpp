@@ -67,6 +67,35 @@ TEST_F(SheetOptions, ADrawnSeamCutsTheTubeThereAndUndoCutsItAsBefore)
     EXPECT_EQ(document.session.options.read.seam, SeamOptions{});
 }
 
+TEST_F(SheetOptions, RemeshingIsUndoneAndKeptInProjects)
+{
+    open_tube();
+    const int given = document.session.part->mesh.triangles();
+    RemeshOptions remesh;
+    remesh.size = height / 6;
+    model.apply(SetRemeshing{remesh});
+    wait();
+    ASSERT_EQ(last_error(), "");
+    ASSERT_TRUE(document.session.part->remeshed);
+    EXPECT_EQ(document.session.part->remeshed->size, height / 6);
+    EXPECT_EQ(document.session.part->remeshed->original->triangles(), given);
+    const int remeshed = document.session.part->mesh.triangles();
+    EXPECT_NE(remeshed, given);
+    EXPECT_EQ(saved_and_opened().document.session.options.read.remesh, remesh);
+    model.apply(SetRemeshing{RemeshOptions{.size = 1e-6 * height}});
+    wait();
+    EXPECT_THAT(last_error(), HasSubstr("the size of remeshing is"));
+    ASSERT_NE(document.session.part, nullptr);
+    EXPECT_EQ(document.session.part->mesh.triangles(), remeshed);
+    model.apply(SetRemeshing{});
+    wait();
+    EXPECT_FALSE(document.session.part->remeshed);
+    EXPECT_EQ(document.session.part->mesh.triangles(), given);
+    model.apply(Undo{});
+    wait();
+    EXPECT_EQ(document.session.part->mesh.triangles(), remeshed);
+}
+
 TEST_F(SheetOptions, ASeamThatIsNoneIsRefusedAndThePartStays)
 {
     open_tube();

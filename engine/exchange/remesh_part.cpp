@@ -1,0 +1,164 @@
+#include "engine/exchange/remesh_part.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "engine/exchange/read_part.h"
+#include "engine/mesh/closest_point.h"
+#include "engine/mesh/edge_graph.h"
+
+namespace spia {
+namespace {
+
+std::vector<int> named(const std::vector<int>& nearest, const std::vector<int>& name)
+{
+    std::vector<int> result;
+    for (const int i : nearest)
+        result.push_back(name[size_t(i)]);
+    return result;
+}
+
+/// The triangles become those that were made from the CAD faces.
+void number_anew(PartFile& part)
+{
+    part.cad->face = named(part.source_face, part.cad->face);
+    part.file_vertices = part.mesh.vertices();
+    part.file_faces = part.mesh.triangles();
+    for (std::vector<int>* numbers : {&part.source_vertex, &part.source_face, &part.same_as}) {
+        numbers->resize(numbers == &part.source_face ? size_t(part.file_faces) : size_t(part.file_vertices));
+        std::iota(numbers->begin(), numbers->end(), 0);
+    }
+}
+
+/// Numbers are those of faces and vertices that have been replaced.
+bool numbered_as_read(const PartFile& part) { return part.remeshed && !part.cad; }
+
+const std::vector<int>& faces_as_read(const PartFile& part)
+{
+    return numbered_as_read(part) ? part.remeshed->original_face : part.source_face;
+}
+
+} // namespace
+
+void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& progress)
+{
+    std::vector<int> sheet; // parts of a deck may differ in thickness and grade
+    if (part.deck)
+        for (const int face : part.source_face)
+            sheet.push_back(part.deck->part_of[size_t(face)]);
+    RemeshResult result = remesh(part.mesh, options, sheet, progress);
+    Remeshed& remeshed = part.remeshed.emplace();
+    remeshed.before = result.before;
+    remeshed.after = result.after;
+    remeshed.size = result.size;
+    remeshed.tolerance = result.tolerance;
+    remeshed.distance = result.distance;
+    remeshed.lines = result.lines;
+    remeshed.corners = result.corners;
+    remeshed.seconds = result.seconds;
+    remeshed.original_vertex = std::move(part.source_vertex);
+    remeshed.original_face = std::move(part.source_face);
+    part.source_vertex = named(result.nearest_vertex, remeshed.original_vertex);
+    part.source_face = named(result.nearest_face, remeshed.original_face);
+    remeshed.original = std::make_shared<TriMesh>(std::exchange(part.mesh, std::move(result.mesh)));
+    if (part.cad)
+        number_anew(part);
+    part.notes.push_back(in_words(remeshed));
+}
+
+PartFile as_read(const PartFile& part)
+{
+    PartFile result = part;
+    if (!part.remeshed)
+        return result;
+    result.mesh = *part.remeshed->original;
+    result.source_vertex = part.remeshed->original_vertex;
+    result.source_face = part.remeshed->original_face;
+    result.remeshed.reset();
+    return result;
+}
+
+std::vector<int> vertices_called(const PartFile& part, int number)
+{
+    const bool by_place = numbered_as_read(part);
+    const std::vector<int>& called = by_place ? part.remeshed->original_vertex : part.source_vertex;
+    const auto [from, to] = std::equal_range(called.begin(), called.end(), number);
+    std::vector<int> result;
+    if (!by_place) {
+        for (auto copy = from; copy != to; ++copy)
+            result.push_back(int(copy - called.begin()));
+        return result;
+    }
+    if (from == to)
+        return result;
+    const TriMesh& original = *part.remeshed->original;
+    const std::vector<char> on_rim = edge_graph(original).on_rim, on_new_rim = edge_graph(part.mesh).on_rim;
+    for (auto copy = from; copy != to; ++copy) {
+        const int vertex = int(copy - called.begin());
+        const Eigen::Vector3d place = original.position.col(vertex);
+        int nearest = -1;
+        double least = std::numeric_limits<double>::infinity();
+        for (int v = 0; v < part.mesh.vertices(); ++v) {
+            const double distance = (part.mesh.position.col(v) - place).squaredNorm();
+            if (distance < least && (on_new_rim[size_t(v)] || !on_rim[size_t(vertex)])) {
+                least = distance;
+                nearest = v;
+            }
+        }
+        result.push_back(nearest);
+    }
+    return result;
+}
+
+bool has_face(const PartFile& part, int number)
+{
+    const std::vector<int>& names = faces_as_read(part);
+    return std::binary_search(names.begin(), names.end(), number);
+}
+
+std::vector<char> faces_called(const PartFile& part, std::span<const int> numbers)
+{
+    const auto among = [](const std::vector<int>& names, int number) {
+        return std::equal_range(names.begin(), names.end(), number);
+    };
+    std::vector<char> chosen(size_t(part.mesh.triangles()), 0);
+    bool any = false;
+    for (const int number : numbers) {
+        const auto [from, to] = among(part.source_face, number);
+        std::fill(chosen.begin() + (from - part.source_face.begin()), chosen.begin() + (to - part.source_face.begin()),
+                  1);
+        any = any || from != to;
+    }
+    if (any || numbers.empty())
+        return chosen;
+    const std::vector<int>& names = faces_as_read(part);
+    const ClosestPointSearch search(part.mesh);
+    const TriMesh& original = *part.remeshed->original;
+    for (const int number : numbers) {
+        const auto [from, to] = among(names, number);
+        for (auto f = from; f != to; ++f) {
+            const auto corners = original.triangle.col(f - names.begin());
+            chosen[size_t(search.nearest(original.position(Eigen::all, corners).rowwise().mean()).face)] = 1;
+        }
+    }
+    return chosen;
+}
+
+std::string in_words(const Remeshed& remeshed)
+{
+    constexpr double degrees = 180 / std::numbers::pi;
+    return fmt::format(
+        "remeshed from {} to {} triangles with edges up to {:.3g} mm: smallest angle {:.3g} -> {:.3g} degrees (99 % "
+        "above {:.3g} -> {:.3g}), edge ratio {:.3g} -> {:.3g}; nowhere more than {:.3g} mm from the original "
+        "mesh (tolerance {:.3g} mm)",
+        remeshed.before.triangles, remeshed.after.triangles, remeshed.size, remeshed.before.least_angle * degrees,
+        remeshed.after.least_angle * degrees, remeshed.before.least_angle_of_99 * degrees,
+        remeshed.after.least_angle_of_99 * degrees, remeshed.before.edge_ratio, remeshed.after.edge_ratio,
+        remeshed.distance, remeshed.tolerance);
+}
+
+} // namespace spia

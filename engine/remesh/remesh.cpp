@@ -1,0 +1,243 @@
+#include "engine/remesh/remesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+#include <numbers>
+#include <numeric>
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/mesh/cut.h"
+#include "engine/mesh/topology.h"
+#include "engine/remesh/edge_sizes.h"
+#include "engine/remesh/incremental.h"
+#include "engine/remesh/kept_lines.h"
+#include "engine/remesh/mesh_distance.h"
+#include "engine/remesh/thin_faces.h"
+
+namespace spia {
+namespace {
+
+void require_in_range(const TriMesh& part, const RemeshOptions& options, std::span<const int> label)
+{
+    const double diagonal = bounding_diagonal(part);
+    if (options.size && !(*options.size >= 1e-4 * diagonal && *options.size <= diagonal))
+        throw InputError(
+            fmt::format("the size of remeshing is {} mm; give one from {:.3g} to {:.3g} mm, a ten-thousandth "
+                        "of the part's diagonal to all of it",
+                        *options.size, 1e-4 * diagonal, diagonal));
+    if (options.tolerance && !(*options.tolerance > 0 && *options.tolerance <= 0.1 * diagonal))
+        throw InputError(fmt::format(
+            "the tolerance of remeshing is {} mm; give one above 0 and up to {:.3g} mm, a tenth of the part's diagonal",
+            *options.tolerance, 0.1 * diagonal));
+    for (const auto& [angle, what] : {std::pair(options.sharp, "sharp edges"), {options.ridge, "ridges"}})
+        if (!(angle > 0 && angle <= std::numbers::pi))
+            throw InputError(
+                fmt::format("the angle from which on {} are kept is {}; give one above 0 and up to pi", what, angle));
+    if (!label.empty() && int(label.size()) != part.triangles())
+        throw InputError(fmt::format("there are {} labels for {} faces", label.size(), part.triangles()));
+}
+
+/// The corner of the nearest face that is nearest.
+int nearest_vertex(const TriMesh& part, const ClosestPointSearch& search, const Eigen::Vector3d& point)
+{
+    const ClosestPoint found = search.nearest(point);
+    Eigen::Index corner;
+    (part.position(Eigen::all, part.triangle.col(found.face)).colwise() - point)
+        .colwise()
+        .squaredNorm()
+        .minCoeff(&corner);
+    return part.triangle(corner, found.face);
+}
+
+/// Sorts vertices and faces by the given ones they are nearest to.
+void sort_by_source(RemeshResult& result, const std::vector<int>& vertex, const std::vector<int>& face)
+{
+    const auto order_of = [](const std::vector<int>& key) {
+        std::vector<int> order(key.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[size_t(a)] < key[size_t(b)]; });
+        return order;
+    };
+    const std::vector<int> vertices = order_of(vertex), faces = order_of(face);
+    std::vector<int> place(vertices.size());
+    TriMesh sorted{Eigen::Matrix3Xd(3, vertices.size()), Eigen::Matrix3Xi(3, faces.size())};
+    result.nearest_vertex.clear();
+    result.nearest_face.clear();
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        place[size_t(vertices[i])] = int(i);
+        sorted.position.col(Eigen::Index(i)) = result.mesh.position.col(vertices[i]);
+        result.nearest_vertex.push_back(vertex[size_t(vertices[i])]);
+    }
+    for (size_t i = 0; i < faces.size(); ++i) {
+        for (int k = 0; k < 3; ++k)
+            sorted.triangle(k, Eigen::Index(i)) = place[size_t(result.mesh.triangle(k, faces[i]))];
+        result.nearest_face.push_back(face[size_t(faces[i])]);
+    }
+    result.mesh = std::move(sorted);
+}
+
+/// Fills what leads from the new mesh to the given one.
+void lead_back(RemeshResult& result, const TriMesh& part, const ClosestPointSearch& search)
+{
+    std::vector<int> vertex(size_t(result.mesh.vertices())), face(size_t(result.mesh.triangles()));
+    parallel_for(result.mesh.vertices(),
+                 [&](int v) { vertex[size_t(v)] = nearest_vertex(part, search, result.mesh.position.col(v)); });
+    parallel_for(result.mesh.triangles(), [&](int f) {
+        const Eigen::Vector3d middle = result.mesh.position(Eigen::all, result.mesh.triangle.col(f)).rowwise().mean();
+        face[size_t(f)] = search.nearest(middle).face;
+    });
+    sort_by_source(result, vertex, face);
+}
+
+/// The median edge, or if that is longer that of as many equilateral triangles: long slivers have short edges between them.
+double usual_edge(const TriMesh& mesh, double median)
+{
+    return std::max(median, std::sqrt(4 / std::sqrt(3.0) * area(mesh) / mesh.triangles()));
+}
+
+constexpr double no_height = 0.1; // of the tolerance: the normal of such a face is noise
+
+/// What keeps a new mesh from being taken.
+struct Fault {
+    std::string text;        ///< empty: nothing
+    Eigen::VectorXd shorter; ///< #V of the part, mm: sizes that may help; empty: none would
+};
+
+std::string place_in_words(const Eigen::Vector3d& p)
+{
+    return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x(), p.y(), p.z());
+}
+
+/// Measures both ways; the sizes become shorter where a mesh is too far from the other one.
+Fault fault_of(RemeshResult& result, const TriMesh& part, const ClosestPointSearch& search, const Eigen::VectorXd& size,
+               const Progress& progress)
+{
+    Fault fault;
+    const SurfaceType before = surface_type(part), after = surface_type(result.mesh);
+    if (before.loops != after.loops || before.genus != after.genus) {
+        fault.text = fmt::format("the remeshed part has {} boundary loops and genus {} in place of {} and {}",
+                                 after.loops, after.genus, before.loops, before.genus);
+        fault.shorter = size / 2;
+        return fault;
+    }
+    const ClosestPointSearch back(result.mesh);
+    constexpr double precision = 0.1; // of the tolerance
+    const MeshDistance to_part =
+        farthest(result.mesh, part, search, precision * result.tolerance, progress.part(0, 0.5));
+    const MeshDistance from_part =
+        farthest(part, result.mesh, back, precision * result.tolerance, progress.part(0.5, 1));
+    result.distance = std::max(to_part.bound, from_part.bound);
+    result.seen = std::max(to_part.seen, from_part.seen);
+    const Eigen::Matrix3Xd normal = area_vectors(part), new_normal = area_vectors(result.mesh);
+    Eigen::VectorXd shorter = size;
+    const auto shorten_at = [&](int face,
+                                double distance) { // what cuts off a ridge does so in proportion to its length
+        const double share = std::clamp(0.6 * result.tolerance / distance, 0.3, 0.75);
+        for (const int v : part.triangle.col(face))
+            shorter[v] = std::min(shorter[v], share * size[v]);
+    };
+    int turned = -1;
+    for (int f = 0; f < result.mesh.triangles(); ++f) {
+        const int near = result.nearest_face[size_t(f)];
+        const bool over =
+            !is_thin(part, near, no_height * result.tolerance) && new_normal.col(f).dot(normal.col(near)) < 0;
+        if (over && turned < 0)
+            turned = f;
+        if (over || to_part.of_face[f] > result.tolerance)
+            shorten_at(near, to_part.of_face[f]);
+    }
+    for (int f = 0; f < part.triangles(); ++f)
+        if (from_part.of_face[f] > result.tolerance)
+            shorten_at(f, from_part.of_face[f]);
+    if (result.distance > result.tolerance)
+        fault.text = fmt::format(
+            "the remeshed part is {:.3g} mm from the given one at {}, beyond the tolerance of {:.3g} mm",
+            result.distance, place_in_words(to_part.seen > from_part.seen ? to_part.where : from_part.where),
+            result.tolerance);
+    else if (turned >= 0)
+        fault.text = fmt::format(
+            "a face of the remeshed part is turned over at {}",
+            place_in_words(result.mesh.position(Eigen::all, result.mesh.triangle.col(turned)).rowwise().mean()));
+    fault.shorter = std::move(shorter);
+    return fault;
+}
+
+/// Of the mesh that these sizes ask for.
+double expected_triangles(const TriMesh& part, const Eigen::VectorXd& size)
+{
+    const Eigen::VectorXd each = area_vectors(part).colwise().norm();
+    double count = 0;
+    for (int f = 0; f < part.triangles(); ++f) {
+        double mean = 0; // of 1 / size^2
+        for (const int v : part.triangle.col(f))
+            mean += 1 / (size[v] * size[v]) / 3;
+        count += each[f] * mean * 4 / std::sqrt(3.0);
+    }
+    return count;
+}
+
+} // namespace
+
+RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span<const int> label,
+                    const Progress& progress)
+{
+    const auto clock = std::chrono::steady_clock::now();
+    require_in_range(part, options, label);
+    const double diagonal = bounding_diagonal(part);
+    RemeshResult result;
+    result.before = triangle_quality(part);
+    result.size =
+        options.size.value_or(std::clamp(usual_edge(part, result.before.median_edge), diagonal / 250, diagonal / 40));
+    result.tolerance = options.tolerance.value_or(diagonal / 1000);
+
+    std::vector<int> labels(label.begin(), label.end());
+    const TriMesh even =
+        without_thin_faces(part, no_height * result.tolerance, labels); // with the vertices of the part
+    const KeptLines lines = kept_lines(even, labels, options.sharp, options.ridge, result.size);
+    result.lines = int(lines.line.size());
+    result.corners = int(std::count(lines.corner.begin(), lines.corner.end(), 1));
+    const ClosestPointSearch search(part), on_even(even);
+    constexpr double planned = 0.6, allowed = 0.75; // of the tolerance, for chords
+    SizeLimits limits{result.size, result.size / 10, planned * result.tolerance};
+    Fault fault;
+    constexpr int most_attempts = 6;
+    double most_triangles = std::max(1e6, 4.0 * part.triangles());
+    const auto refuse = [&](const char* what) {
+        throw InputError(fmt::format("{}; give {} (now {:.4g} mm) or a larger tolerance, or take the part without "
+                                     "remeshing",
+                                     fault.text, what, result.size));
+    };
+    for (int attempt = 0;; ++attempt) {
+        constexpr double left = 0.2; // of the way after an attempt: mostly the first one is good
+        const Progress here = progress.part(1 - std::pow(left, attempt), 1 - std::pow(left, attempt + 1));
+        const Eigen::VectorXd size = edge_sizes(even, lines, limits, fault.shorter);
+        if (const double count = expected_triangles(even, size); count > most_triangles) {
+            if (!fault.text.empty())
+                refuse("a smaller size");
+            fault.text =
+                fmt::format("a size of {:.4g} mm and a tolerance of {:.3g} mm would take {:.2g} million triangles",
+                            result.size, result.tolerance, count / 1e6);
+            refuse("a larger size");
+        }
+        constexpr double most_growth = 20; // then shorter edges do not help
+        if (attempt == 0)
+            most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));
+        result.mesh = remesh_incrementally(even, lines, size, on_even, {allowed * result.tolerance}, here.part(0, 0.8));
+        lead_back(result, part, search);
+        fault = fault_of(result, part, search, size, here.part(0.8, 1));
+        if (fault.text.empty())
+            break;
+        if (attempt + 1 == most_attempts)
+            refuse("a smaller size");
+        limits.least /= 2;
+    }
+    result.after = triangle_quality(result.mesh);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    return result;
+}
+
+} // namespace spia

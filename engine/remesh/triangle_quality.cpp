@@ -1,0 +1,59 @@
+#include "engine/remesh/triangle_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/mesh/edge_graph.h"
+
+namespace spia {
+
+double least_angle(const Eigen::Matrix3d& triangle)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d a = triangle.col((k + 1) % 3) - triangle.col(k),
+                              b = triangle.col((k + 2) % 3) - triangle.col(k);
+        least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+    return least;
+}
+
+TriangleQuality triangle_quality(const TriMesh& mesh)
+{
+    TriangleQuality result;
+    result.triangles = mesh.triangles();
+    if (mesh.triangles() == 0)
+        return result;
+    std::vector<double> angle;
+    result.least_angle = std::numeric_limits<double>::infinity();
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const Eigen::Matrix3d triangle = mesh.position(Eigen::all, mesh.triangle.col(f));
+        angle.push_back(least_angle(triangle));
+        if (angle.back() < result.least_angle) {
+            result.least_angle = angle.back();
+            result.face = f;
+        }
+        double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double length = (triangle.col((k + 1) % 3) - triangle.col(k)).norm();
+            shortest = std::min(shortest, length);
+            longest = std::max(longest, length);
+        }
+        result.edge_ratio = std::max(result.edge_ratio, longest / shortest);
+    }
+    const auto at_1_percent = angle.begin() + long(angle.size() / 100);
+    std::nth_element(angle.begin(), at_1_percent, angle.end());
+    result.least_angle_of_99 = *at_1_percent;
+    std::vector<double> length;
+    for (const EdgeGraph::Edge& edge : edge_graph(mesh).edge)
+        length.push_back(edge.length);
+    const auto middle = length.begin() + long(length.size() / 2);
+    std::nth_element(length.begin(), middle, length.end());
+    result.median_edge = *middle;
+    return result;
+}
+
+} // namespace spia
