@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <oneapi/tbb/global_control.h>
 
 #include "tests/fuzz/fuzz_target.h"
 
@@ -15,6 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
         }
         return std::ref(spia::fuzz::fuzz_target(name));
     }();
+    // Handing files of a few lines to a second thread costs more than reading them does.
+    static const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     target.read({reinterpret_cast<const char*>(data), size});
     return 0;
 }

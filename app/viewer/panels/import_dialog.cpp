@@ -26,6 +26,8 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
 {
     ImportChoices fresh;
     fresh.about = listed;
+    fresh.worker =
+        frame.ui.importing.worker ? frame.ui.importing.worker : std::make_shared<Worker>([] { glfwPostEmptyEvent(); });
     const Session& session = frame.state.document.session;
     if (session.file == frame.state.listing->file) {
         const ReadOptions& read = session.options.read;
@@ -167,6 +169,22 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
         choices.hovered = hovered;
 }
 
+/// Has the shape of what is chosen made: at once if that takes no time, else the one before stays until it is ready.
+void follow_choice(ImportChoices& choices)
+{
+    using Made = std::shared_ptr<const PreviewShape>;
+    const auto& making = choices.making.of({choices.about, choices.chosen}, [&] {
+        return choices.worker->later([listed = choices.about, chosen = choices.chosen]() -> Made {
+            return std::make_shared<PreviewShape>(preview_shape(*listed, chosen));
+        });
+    });
+    constexpr int quick = 100'000; // triangles
+    if (choices.about->mesh.triangles() <= quick)
+        making.wait();
+    if (making.ready())
+        choices.shape = making.get();
+}
+
 /// The preview: turned and zoomed like the views; a click chooses the item there.
 void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
 {
@@ -216,11 +234,14 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
         !listed.items.item[size_t(*choices.hovered)].choice.empty())
         choose(choices, *choices.hovered, io.KeyCtrl);
     const ImVec2 dots = io.DisplayFramebufferScale;
-    const Scene& scene = choices.scene.of({choices.about, choices.chosen, choices.hovered}, [&] {
-        const PreviewShape& shape =
-            choices.shape.of({choices.about, choices.chosen}, [&] { return preview_shape(listed, choices.chosen); });
-        return import_scene(listed, shape, choices.hovered);
-    });
+    follow_choice(choices);
+    if (!choices.shape) {
+        draw->AddText({at.x + 12, at.y + 12}, ImGui::GetColorU32(ImGuiCol_TextDisabled), "Preparing the preview");
+        draw->AddRect(at, to, ImGui::GetColorU32(ImGuiCol_Border));
+        return;
+    }
+    const Scene& scene = choices.scene.of({choices.shape, choices.hovered},
+                                          [&] { return import_scene(listed, *choices.shape, choices.hovered); });
     if (!frame.draw_small)
         return;
     if (const ImTextureID texture = frame.draw_small(scene, choices.camera, int(size.x * dots.x), int(size.y * dots.y)))

@@ -11,6 +11,7 @@
 #include "app/viewer/model/scene.h"
 #include "app/viewer/views/import_scene.h"
 #include "app/viewer/views/scene_cache.h"
+#include "engine/core/worker.h"
 #include "engine/mesh/skin.h"
 
 namespace spia::viewer {
@@ -28,8 +29,10 @@ struct ImportChoices {
     std::optional<int> hovered;     ///< an item
     Camera camera;
     bool turning = false, panning = false, moved = false; ///< by the mouse; since it was pressed
-    Memo<PreviewShape, std::shared_ptr<const ListedFile>, std::vector<char>> shape;
-    Memo<Scene, std::shared_ptr<const ListedFile>, std::vector<char>, std::optional<int>> scene;
+    std::shared_ptr<const PreviewShape> shape;            ///< the newest that is ready; null: none yet
+    Memo<Eventually<std::shared_ptr<const PreviewShape>>, std::shared_ptr<const ListedFile>, std::vector<char>> making;
+    Memo<Scene, std::shared_ptr<const PreviewShape>, std::optional<int>> scene;
+    std::shared_ptr<Worker> worker; ///< makes the shapes of large files
 };
 
 /// Shows a file that is looked into (ViewerState::listing), lets choose what of it is read and how, and opens it.
