@@ -27,6 +27,7 @@ struct DeckPart {
 struct DeckSet {
     std::string name;
     std::vector<int> elements; ///< indices, ascending
+    int broken = 0;            ///< shells that name a node that is not there; they are left out
 };
 
 /// Nodes and shell elements of a solver deck, in the order of its files.

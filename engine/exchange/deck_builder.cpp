@@ -35,13 +35,22 @@ void require_one_place(std::span<const std::int64_t> id, const Eigen::Vector3d* 
                                          place[i].y(), place[i].z()));
 }
 
+/// Ids beyond what any solver takes would leave no room for those of what is added to the deck.
+std::int64_t usable_id(std::int64_t id, const char* what)
+{
+    constexpr std::int64_t greatest = 1'000'000'000'000'000'000;
+    if (id > greatest || id < -greatest)
+        throw InputError(fmt::format("the {} id {} is greater than {}", what, id, greatest));
+    return id;
+}
+
 } // namespace
 
 void DeckBuilder::add_node(std::int64_t id, const Eigen::Vector3d& position)
 {
     if (deck_.node.size() >= size_t(most_elements))
         throw InputError(fmt::format("there are more than {} nodes", most_elements));
-    deck_.node.push_back(id);
+    deck_.node.push_back(usable_id(id, "node"));
     deck_.position.push_back(position);
 }
 
@@ -50,18 +59,25 @@ void DeckBuilder::add_shell(int part, std::int64_t id, std::span<const std::int6
     if (shell_.size() >= size_t(most_elements))
         throw InputError(fmt::format("there are more than {} shell elements", most_elements));
     const bool triangle = corners.size() < 4 || corners[3] == 0 || corners[3] == corners[2];
-    shell_.push_back({id, {corners[0], corners[1], corners[2], triangle ? 0 : corners[3]}, part, triangle});
-    if (thickness > 0 && thickness_.empty())
-        thickness_.resize(shell_.size() - 1, 0);
-    if (thickness > 0 || !thickness_.empty())
-        thickness_.push_back(thickness);
+    shell_.push_back(
+        {usable_id(id, "element"), {corners[0], corners[1], corners[2], triangle ? 0 : corners[3]}, part, triangle});
+    if (!thickness_.empty())
+        thickness_.push_back(0);
+    if (thickness > 0)
+        set_thickness(shell_.size() - 1, thickness);
+}
+
+void DeckBuilder::set_thickness(size_t shell, double thickness)
+{
+    thickness_.resize(shell_.size(), 0);
+    thickness_[shell] = thickness;
 }
 
 int DeckBuilder::part(std::int64_t id)
 {
     const auto [found, is_new] = part_of_id_.try_emplace(id, int(deck_.parts.size()));
     if (is_new)
-        deck_.parts.push_back({.id = id});
+        deck_.parts.push_back({.id = usable_id(id, "part")});
     return found->second;
 }
 
@@ -194,6 +210,8 @@ Deck DeckBuilder::finish(std::string format, const std::vector<std::string>& not
         for (const int e : set.elements)
             if (number[size_t(e)] >= 0)
                 kept.push_back(number[size_t(e)]);
+            else
+                ++set.broken;
         set.elements = std::move(kept);
     }
     write_notes();

@@ -32,6 +32,8 @@ public:
     size_t shells() const { return shell_.size(); }
     std::int64_t shell_id(size_t shell) const { return shell_[shell].id; }
     void move_shell(size_t shell, int part) { shell_[shell].part = part; }
+    int part_of_shell(size_t shell) const { return shell_[shell].part; }
+    void set_thickness(size_t shell, double thickness);      ///< of its own, as in add_shell()
     void add_set(std::string name, std::vector<int> shells); ///< by their numbers as they were added
 
     void note(std::string text) { deck_.notes.push_back(std::move(text)); }

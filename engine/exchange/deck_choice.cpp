@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <functional>
+#include <set>
 
 #include "engine/core/error.h"
 #include "engine/exchange/deck_number.h"
@@ -20,7 +21,8 @@ int named(std::string_view name, size_t count, const std::function<std::string_v
         for (size_t i = 0; i < count; ++i)
             if (any_case ? same_letters(name_of(i), name) : name_of(i) == name) {
                 if (found >= 0)
-                    throw InputError(fmt::format("several parts or sets of the deck are called {}; give an id", name));
+                    throw InputError(
+                        fmt::format("several parts or sets of the deck are called {}; choose by id", name));
                 found = int(i);
             }
         if (found >= 0)
@@ -71,7 +73,12 @@ std::vector<char> chosen_elements(const Deck& deck, std::span<const std::string>
         if (s < 0)
             throw InputError(fmt::format("there is no part '{}' in the deck; choose by id or name (--part):\n{}", each,
                                          part_list(deck.parts)));
-        for (const int e : deck.sets[size_t(s)].elements)
+        const DeckSet& set = deck.sets[size_t(s)];
+        if (set.broken > 0)
+            throw InputError(fmt::format("element set {}: {} shells name nodes that are not in the deck; add the file "
+                                         "that holds them, or choose other parts by id or name (--part):\n{}",
+                                         set.name, set.broken, part_list(deck.parts)));
+        for (const int e : set.elements)
             chosen[size_t(e)] = 1;
     }
     for (size_t e = 0; e < chosen.size(); ++e)
@@ -82,26 +89,22 @@ std::vector<char> chosen_elements(const Deck& deck, std::span<const std::string>
 /// What the chosen parts agree on.
 void take_over_properties(const Deck& deck, const std::vector<char>& part_used, DeckChoice& choice)
 {
-    std::vector<double> thicknesses;
-    std::vector<std::string> materials;
-    const auto add = [](auto& list, const auto& value) {
-        if (std::find(list.begin(), list.end(), value) == list.end())
-            list.push_back(value);
-    };
+    std::set<double> thicknesses;
+    std::set<std::string> materials;
     for (size_t p = 0; p < deck.parts.size(); ++p)
         if (part_used[p]) {
-            add(thicknesses, deck.parts[p].thickness.value_or(0));
-            add(materials, deck.parts[p].material);
+            thicknesses.insert(deck.parts[p].thickness.value_or(0));
+            materials.insert(deck.parts[p].material);
         }
-    if (thicknesses.size() == 1 && thicknesses[0] > 0)
-        choice.thickness = thicknesses[0];
+    if (thicknesses.size() == 1 && *thicknesses.begin() > 0)
+        choice.thickness = *thicknesses.begin();
     if (materials.size() == 1)
-        choice.material = materials[0];
+        choice.material = *materials.begin();
     if (thicknesses.size() > 1) {
-        const auto [low, high] = std::minmax_element(thicknesses.begin(), thicknesses.end());
+        const double low = *thicknesses.begin(), high = *thicknesses.rbegin();
         choice.notes.push_back(
-            *low > 0 ? fmt::format("the parts are {:.4g} to {:.4g} thick in the deck; none of it is taken", *low, *high)
-                     : std::string("only some of the parts have a thickness in the deck; none of it is taken"));
+            low > 0 ? fmt::format("the parts are {:.4g} to {:.4g} thick in the deck; none of it is taken", low, high)
+                    : std::string("only some of the parts have a thickness in the deck; none of it is taken"));
     }
 }
 
@@ -156,11 +159,9 @@ DeckChoice choose_parts(const Deck& deck, std::span<const std::string> wanted)
                 if (v >= 0)
                     node_used[size_t(v)] = 1;
         }
-    for (size_t p = 0; p < part_used.size(); ++p) {
-        part_used[p] |= wanted.empty() && deck.parts[p].broken > 0;
-        if (part_used[p])
+    for (size_t p = 0; p < part_used.size() && wanted.empty(); ++p)
+        if (deck.parts[p].broken > 0)
             require_whole(deck, deck.parts[p]);
-    }
     std::vector<int> number(node_used.size(), -1);
     for (int v = 0; v < deck.nodes(); ++v)
         if (node_used[size_t(v)]) {

@@ -160,9 +160,11 @@ double DeckLines::coordinate(std::string_view field) const
 
 void DeckLines::fail(std::string_view what) const
 {
-    const File& file = open_.back();
-    const std::string where = open_.size() > 1 ? fmt::format("in the included file {}, ", file.path.string()) : "";
-    throw InputError(fmt::format("{}line {}: {}", where, file.line, readable(what)));
+    const Place at = spoken_of_.value_or(place());
+    const std::string where = at.included ? fmt::format("in the included file {}, ", at.file.string()) : "";
+    throw InputError(fmt::format("{}line {}: {}", where, at.line, readable(what)));
 }
+
+DeckLines::Place DeckLines::place() const { return {open_.back().path, open_.back().line, open_.size() > 1}; }
 
 } // namespace spia

@@ -37,6 +37,16 @@ public:
     std::int64_t whole_or_zero(std::string_view field) const;
     [[noreturn]] void fail(std::string_view what) const; ///< @throws InputError "line 12: what"
 
+    /// A line in its file.
+    struct Place {
+        std::filesystem::path file;
+        long line = 0;
+        bool included = false;
+    };
+    Place place() const; ///< of the current line
+    /// What is wrong from here on is said of this line: a reader that has to look ahead knows where it is.
+    void speak_of(std::optional<Place> place) { spoken_of_ = std::move(place); }
+
     std::vector<std::string> notes; ///< what was wrong with included files; the first ones
 
 private:
@@ -54,6 +64,7 @@ private:
     std::set<std::filesystem::path> seen_;
     std::vector<std::filesystem::path> folders_;
     std::string_view line_;
+    std::optional<Place> spoken_of_; // none: the current line
     Progress progress_;
     long lines_ = 0;
 };

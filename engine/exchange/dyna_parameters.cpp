@@ -18,32 +18,34 @@ std::string small_letters(std::string_view text)
 } // namespace
 
 /// @param name  after its type: "R thood" or "Rthood"
-void DynaParameters::set(std::string_view name, std::string_view value)
+void DynaParameters::set(std::string_view name, std::string_view value, bool local)
 {
     if (name.size() > 1)
-        value_[small_letters(trimmed(name.substr(1)))] = std::string(trimmed(value));
+        (local ? values_.back() : values_.front())[small_letters(trimmed(name.substr(1)))] =
+            std::string(trimmed(value));
 }
 
-void DynaParameters::define(const DeckFields& card)
+void DynaParameters::define(const DeckFields& card, bool local)
 {
     for (size_t i = 0; i + 1 < card.count(); i += 2)
-        set(trimmed(card[i]), card[i + 1]);
+        set(trimmed(card[i]), card[i + 1], local);
 }
 
-void DynaParameters::define_expression(std::string_view line, int width)
+void DynaParameters::define_expression(std::string_view line, int width, bool local)
 {
     const size_t comma = line.find(',');
     const size_t cut = comma != line.npos ? comma : std::min(line.size(), size_t(width));
     const std::string_view value = trimmed(line.substr(std::min(line.size(), comma != line.npos ? cut + 1 : cut)));
     if (deck_number(value))
-        set(trimmed(line.substr(0, cut)), value);
+        set(trimmed(line.substr(0, cut)), value, local);
 }
 
 const std::string* DynaParameters::find(std::string_view field)
 {
-    const auto found = value_.find(small_letters(trimmed(field.substr(1))));
-    if (found != value_.end())
-        return &found->second;
+    const std::string name = small_letters(trimmed(field.substr(1)));
+    for (auto file = values_.rbegin(); file != values_.rend(); ++file)
+        if (const auto found = file->find(name); found != file->end())
+            return &found->second;
     undefined_.insert(std::string(field));
     return nullptr;
 }

@@ -3,16 +3,22 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/exchange/deck_fields.h"
 
 namespace spia {
 
-/// What *PARAMETER gives a name; cards refer to it by "&name".
+/// What *PARAMETER gives a name; cards refer to it by "&name". What is local holds in its file and in those that it
+/// includes, before what is global. [LS-DYNA Keyword User's Manual, volume I, *PARAMETER]
 class DynaParameters {
 public:
-    void define(const DeckFields& card);                      ///< "R name", value, up to four times
-    void define_expression(std::string_view line, int width); ///< "R name", expression: known only if it is a number
+    void define(const DeckFields& card, bool local); ///< "R name", value, up to four times
+    /// "R name", expression: known only if it is a number
+    void define_expression(std::string_view line, int width, bool local);
+
+    void enter_file() { values_.emplace_back(); } ///< one that is included
+    void leave_file() { values_.pop_back(); }
 
     static bool is_name(std::string_view field) { return field.starts_with('&'); }
     /// The text that "&name" stands for; a null pointer if it is not defined, and then it is remembered.
@@ -21,8 +27,9 @@ public:
     std::string undefined() const; ///< "&a, &b": all that were asked for in vain; empty if none
 
 private:
-    void set(std::string_view name, std::string_view value);
-    std::map<std::string, std::string> value_;
+    void set(std::string_view name, std::string_view value, bool local);
+    /// What is global, then what is local to each of the files that are open.
+    std::vector<std::map<std::string, std::string>> values_ = {{}, {}};
     std::set<std::string> undefined_;
 };
 

@@ -97,7 +97,9 @@ void DynaParts::section(std::string_view line)
         values_.cut(line, {10, 10, 10, 10, 10, 10, 10, 10});
         section_ = values_.whole(0);
         const bool angles_follow = values_.whole_or_zero(6) == 1;
-        layers_ = angles_follow ? values_.whole_or_zero(3) : 0;
+        constexpr std::int64_t usual_layers = 2; // where the card says none [LS-DYNA Keyword Manual, NIP]
+        const std::int64_t layers = angles_follow ? values_.whole_or_zero(3) : 0;
+        layers_ = angles_follow && layers == 0 ? usual_layers : layers;
         ++count_;
     } else {
         values_.cut(line, {10, 10, 10, 10});

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <fmt/core.h>
+#include <set>
 #include <utility>
 
 #include "engine/core/error.h"
@@ -98,7 +99,12 @@ FileItems items_of_deck(const std::filesystem::path& path, const Progress& progr
         items.face_of.push_back(e);
     }
     add_areas(items);
+    std::set<std::pair<std::string, int>> parts;
+    for (const FileItem& part : items.item)
+        parts.emplace(part.name, part.faces);
     for (const DeckSet& set : deck.sets) {
+        if (parts.contains({set.name, int(set.elements.size())}))
+            continue; // the part that it is
         FileItem item{set.name, set.name, "element set", -1, int(set.elements.size()), 0, {}, {}, false};
         for (const int e : set.elements)
             item.area += area_of(items.preview, e);

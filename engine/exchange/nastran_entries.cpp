@@ -89,6 +89,7 @@ bool NastranEntries::next()
 {
     name_.clear();
     field_.clear();
+    lines_.speak_of(std::nullopt);
     while (name_.empty()) {
         if (!next_line())
             return false;
@@ -104,6 +105,7 @@ bool NastranEntries::next()
             take(line_);
     }
     in_order_ = true;
+    const DeckLines::Place first = lines_.place();
     while (next_line()) {
         if (!continues()) {
             ahead_ = true;
@@ -111,6 +113,7 @@ bool NastranEntries::next()
         }
         take(line_);
     }
+    lines_.speak_of(first);
     return true;
 }
 
@@ -158,10 +161,9 @@ void NastranEntries::take(std::string_view line)
 void NastranEntries::require_whole() const
 {
     if (too_long_)
-        lines_.fail(fmt::format("the {} before this line has more than {} fields", name_, most_fields));
+        lines_.fail(fmt::format("this {} has more than {} fields", name_, most_fields));
     if (!in_order_)
-        lines_.fail(
-            fmt::format("the continuations of the {} before this line are not in their order; sort the deck", name_));
+        lines_.fail(fmt::format("the continuations of this {} are not in their order; sort the deck", name_));
 }
 
 /// INCLUDE 'file' over one or more lines.

@@ -54,6 +54,11 @@ public:
 
 private:
     using Card = void (AbaqusReader::*)();
+    struct Section {
+        std::string set, material;
+        double thickness;
+        bool layers, mirrored, varies; ///< of layers; of their mirror images too; from place to place
+    };
 
     /// A keyword line that ends with a comma goes on in the next one.
     std::string whole_keyword(std::string_view line)
@@ -140,6 +145,7 @@ private:
         const size_t corners = wanted_ == 3 || wanted_ == 6 ? 3 : 4;
         middle_nodes_ += wanted_ > 4;
         deck_.add_shell(part_, numbers_[0], std::span(numbers_).subspan(1, corners));
+        first_part_.push_back(part_);
         if (!element_set_.empty())
             sets_.add(element_set_, numbers_[0], numbers_[0], 1);
         numbers_.clear();
@@ -183,8 +189,9 @@ private:
 
     void begin_section(const AbaqusKeyword& keyword)
     {
-        sections_.push_back(
-            {std::string(keyword["ELSET"]), std::string(keyword["MATERIAL"]), 0, keyword.has("COMPOSITE")});
+        sections_.push_back({std::string(keyword["ELSET"]), std::string(keyword["MATERIAL"]), 0,
+                             keyword.has("COMPOSITE"), keyword.has("SYMMETRIC"),
+                             keyword.has("NODAL THICKNESS") || keyword.has("SHELL THICKNESS")});
         card_ = &AbaqusReader::section;
         if (keyword.name == "SHELL GENERAL SECTION" && !keyword.has("MATERIAL") && !keyword.has("COMPOSITE")) {
             card_ = nullptr; // what follows is its stiffness [Abaqus Keywords Reference, *SHELL GENERAL SECTION]
@@ -197,7 +204,8 @@ private:
         Section& section = sections_.back();
         if (fields_[0].empty() || (section.thickness > 0 && !section.layers))
             return;
-        section.thickness += lines_.number(fields_[0]);
+        const double layer = lines_.number(fields_[0]);
+        section.thickness += section.layers && section.mirrored ? 2 * layer : layer;
         if (section.layers && section.material.empty())
             section.material = fields_[2];
     }
@@ -208,7 +216,14 @@ private:
         for (size_t k = 0; k < fields_.count(); ++k)
             moved = moved || (!fields_[k].empty() && lines_.number(fields_[k]) != 0);
         moved_ += moved;
-        card_ = nullptr; // a second line would turn it as well
+        card_ = moved ? nullptr : &AbaqusReader::rotation;
+    }
+
+    /// The second line of a placement: an axis and an angle.
+    void rotation()
+    {
+        ++moved_;
+        card_ = nullptr;
     }
 
     /// A part of this scope; one of the same name elsewhere is another one.
@@ -229,22 +244,48 @@ private:
         for (size_t e = deck_.first_of_scope(); e < deck_.shells(); ++e)
             by_id.emplace_back(deck_.shell_id(e), int(e));
         std::sort(by_id.begin(), by_id.end());
-        for (const Section& section : sections_) {
-            if (section.set.empty())
-                continue;
-            const int part = part_of(section.set);
-            for (const int e : sets_.members(section.set, by_id, steps_))
-                deck_.move_shell(size_t(e), part);
-            if (section.thickness > 0)
-                deck_.at(part).thickness = section.thickness;
-            deck_.at(part).material = section.material;
-        }
+        for (const Section& section : sections_)
+            assign(section, by_id);
+        name_rests();
         keep_sets(by_id);
         deck_.close_scope();
         sets_.clear();
         sections_.clear();
         part_of_name_.clear();
         scope_.clear();
+    }
+
+    void assign(const Section& section, const std::vector<std::pair<std::int64_t, int>>& by_id)
+    {
+        if (section.set.empty())
+            return;
+        if (!sets_.has(section.set)) {
+            constexpr int most = 10;
+            if (lost_sections_++ < most)
+                deck_.note(fmt::format("there is a section for the element set {}, but no such set", section.set));
+            return;
+        }
+        const int part = part_of(section.set);
+        for (const int e : sets_.members(section.set, by_id, steps_))
+            deck_.move_shell(size_t(e), part);
+        if (section.varies)
+            deck_.note(fmt::format("the thickness of the section for {} is given by its nodes or a distribution, which "
+                                   "are not read: it has none",
+                                   section.set));
+        else if (section.thickness > 0)
+            deck_.at(part).thickness = section.thickness;
+        deck_.at(part).material = section.material;
+    }
+
+    /// A set of which sections took shells away is more than the part that is left of it.
+    void name_rests()
+    {
+        std::set<int> full, robbed;
+        for (size_t e = deck_.first_of_scope(); e < deck_.shells(); ++e)
+            (first_part_[e] == deck_.part_of_shell(e) ? full : robbed).insert(first_part_[e]);
+        for (const int part : robbed)
+            if (full.contains(part))
+                deck_.at(part).name += " (rest)";
     }
 
     /// For the user to choose from, as long as they take no more room than a deck of this size may.
@@ -256,16 +297,12 @@ private:
             room -= std::int64_t(members.size());
             if (room < 0)
                 return deck_.note(fmt::format("the element sets from {} on cannot be chosen; they are too many", name));
+            const bool taken = !taken_sets_.insert(upper_case(name)).second;
             if (!members.empty())
-                deck_.add_set(name, std::move(members));
+                deck_.add_set(taken ? fmt::format("{}.{}", scope_, name) : name, std::move(members));
         }
     }
 
-    struct Section {
-        std::string set, material;
-        double thickness;
-        bool layers;
-    };
     DeckLines& lines_;
     DeckBuilder deck_;
     DeckFields fields_;
@@ -273,11 +310,12 @@ private:
     std::string type_, element_set_, set_, scope_;
     size_t wanted_ = 0;
     std::vector<std::int64_t> numbers_; // of the element that is being read
-    int part_ = 0, moved_ = 0, middle_nodes_ = 0;
+    int part_ = 0, moved_ = 0, middle_nodes_ = 0, lost_sections_ = 0;
+    std::vector<int> first_part_; // per shell, before sections
     ElementSets sets_;
     std::vector<Section> sections_;
     std::map<std::string, int> part_of_name_;
-    std::set<std::string> taken_names_;
+    std::set<std::string> taken_names_, taken_sets_;
     std::int64_t steps_ = 300'000'000; // a few seconds
 };
 

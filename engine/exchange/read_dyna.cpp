@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/core.h>
+#include <set>
 #include <utility>
 
 #include "engine/exchange/deck_builder.h"
@@ -21,16 +22,20 @@ public:
     Deck read()
     {
         while (lines_.next()) {
-            while (int(file_.size()) > lines_.depth())
+            while (int(file_.size()) > lines_.depth()) {
                 file_.pop_back(); // back from an included file, in the block that it was included from
+                values_.parameters.leave_file();
+            }
             const std::string_view line = lines_.line();
             values_.format = top().format;
             if (line.starts_with('*'))
                 begin_block(line);
             else if (!line.starts_with('$') && top().card)
                 (this->*top().card)(line);
-            while (int(file_.size()) < lines_.depth())
+            while (int(file_.size()) < lines_.depth()) {
                 file_.push_back({.usual = child_format_, .format = child_format_});
+                values_.parameters.enter_file();
+            }
         }
         return finish();
     }
@@ -60,15 +65,31 @@ private:
             file.card = card_of(keyword);
     }
 
+    /// Shells with cards that are known; others (laminates, NURBS, sources of shells) have cards of their own.
+    static bool is_shell(const DynaKeyword& keyword)
+    {
+        if (!keyword.is("ELEMENT_SHELL"))
+            return false;
+        for (std::string_view rest = std::string_view(keyword.name).substr(13); !rest.empty();) {
+            const size_t end = std::min(rest.find('_', 1), rest.size());
+            static const std::set<std::string_view> known = {"_THICKNESS", "_BETA", "_MCID", "_OFFSET", "_DOF"};
+            if (!known.contains(rest.substr(0, end)))
+                return false;
+            rest.remove_prefix(end);
+        }
+        return true;
+    }
+
     /// What reads the cards of a block; null if it is not read.
     Card card_of(const DynaKeyword& keyword)
     {
         if (keyword.name == "NODE")
             return &DynaReader::node;
-        if (keyword.is("ELEMENT_SHELL") && !keyword.has("COMPOSITE") && !keyword.has("NURBS")) {
+        if (is_shell(keyword)) {
             with_thickness_ = keyword.has("THICKNESS") || keyword.has("BETA") || keyword.has("MCID");
             cards_behind_ = int(keyword.has("OFFSET")) + int(keyword.has("DOF"));
             passed_over_ = 0;
+            not_written_back_ = keyword.has("BETA") || keyword.has("MCID") || keyword.has("OFFSET");
             return &DynaReader::shell;
         }
         if (keyword.is("PART") && parts_.begin_part(keyword))
@@ -89,7 +110,7 @@ private:
             return &DynaReader::parameter;
         if (keyword.is("PARAMETER_EXPRESSION"))
             return &DynaReader::expression;
-        if (keyword.is("ELEMENT") && !keyword.is("ELEMENT_SHELL"))
+        if (keyword.is("ELEMENT"))
             return &DynaReader::other_element;
         if (keyword.name != "TITLE" && keyword.name != "COMMENT")
             deck_.count_skipped("*" + keyword.name);
@@ -120,6 +141,7 @@ private:
             shell_.corner[k] = values_.whole_or_zero(2 + k);
         const bool middle_nodes = values_.whole_or_zero(6) > 0;
         middle_nodes_ += middle_nodes;
+        directed_ += not_written_back_;
         passed_over_ = cards_behind_ + int(with_thickness_ && middle_nodes);
         thickness_next_ = with_thickness_;
         if (!with_thickness_)
@@ -174,11 +196,12 @@ private:
     void parameter(std::string_view line)
     {
         values_.cut(line, {10, 10, 10, 10, 10, 10, 10, 10});
-        values_.parameters.define(values_.fields());
+        values_.parameters.define(values_.fields(), top().keyword == "PARAMETER_LOCAL");
     }
     void expression(std::string_view line)
     {
-        values_.parameters.define_expression(line, values_.format == DynaFormat::wide ? 20 : 10);
+        values_.parameters.define_expression(line, values_.format == DynaFormat::wide ? 20 : 10,
+                                             top().keyword.ends_with("_LOCAL"));
     }
 
     void other_element(std::string_view) { deck_.count_other_elements("*" + top().keyword + " lines"); }
@@ -195,6 +218,11 @@ private:
                             some_corners_));
         if (middle_nodes_ > 0)
             deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
+        if (directed_ > 0)
+            deck_.note(
+                fmt::format("{} shells have a material direction or an offset; what is written for this deck does "
+                            "not repeat them",
+                            directed_));
         return deck_.finish("LS-DYNA keyword", lines_.notes);
     }
 
@@ -209,8 +237,8 @@ private:
     std::vector<File> file_ = {File()}; // those that are open
     DynaFormat child_format_ = DynaFormat::standard;
     Shell shell_ = {};
-    bool with_thickness_ = false, thickness_next_ = false;
-    int cards_behind_ = 0, passed_over_ = 0, middle_nodes_ = 0, some_corners_ = 0;
+    bool with_thickness_ = false, thickness_next_ = false, not_written_back_ = false;
+    int cards_behind_ = 0, passed_over_ = 0, middle_nodes_ = 0, some_corners_ = 0, directed_ = 0;
 };
 
 } // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/core.h>
 #include <map>
 
@@ -13,10 +14,10 @@ namespace {
 /// 3 or 4 for a triangle or a quadrangle of any order, whose corners come first; 0 for other elements.
 size_t corners_of(std::int64_t type)
 {
-    for (const int triangle : {2, 9, 20, 21, 22, 23, 24, 25})
+    for (const int triangle : {2, 9, 20, 21, 22, 23, 24, 25, 42, 43, 44, 45, 46, 52, 53, 54, 55, 56})
         if (type == triangle)
             return 3;
-    for (const int quadrangle : {3, 10, 16, 36, 37, 38, 39, 40, 41})
+    for (const int quadrangle : {3, 10, 16, 36, 37, 38, 39, 40, 41, 47, 48, 49, 50, 51, 57, 58, 59, 60, 61})
         if (type == quadrangle)
             return 4;
     return 0;
@@ -45,14 +46,21 @@ public:
                 nodes();
             else if (head == "$Elements")
                 elements();
-            else if (head.starts_with('$') && !head.starts_with("$End"))
+            else if (head.starts_with('$') && !head.starts_with("$End")) {
+                if (head == "$PartitionedEntities")
+                    deck_.note("the mesh is partitioned, and the groups of its surfaces are not read");
                 pass_over(head);
+            }
         }
         if (version_ == 0)
             lines_.fail("this is no mesh of Gmsh: there is no $MeshFormat");
         for (const auto& [tag, part] : part_of_group_)
             if (const auto name = name_.find(tag); name != name_.end())
                 deck_.at(part).name = name->second;
+        for (auto& [tag, shells] : further_) {
+            const auto name = name_.find(tag);
+            deck_.add_set(name != name_.end() ? name->second : fmt::format("{}", tag), std::move(shells));
+        }
         return deck_.finish(fmt::format("Gmsh {:.1f}", version_), lines_.notes);
     }
 
@@ -109,7 +117,7 @@ private:
         }
     }
 
-    /// The physical group of each surface: the first, if it is in several.
+    /// The physical groups of each surface: the first one is its part, the others are sets.
     void entities()
     {
         next();
@@ -120,8 +128,10 @@ private:
                 next();
         for (std::int64_t n = 0; n < surfaces; ++n) {
             next();
-            if (whole(7) > 0) // behind the tag and the box
-                group_of_surface_[whole(0)] = whole(8);
+            constexpr std::int64_t most = 30; // of one line
+            const std::int64_t groups = std::clamp<std::int64_t>(whole(7), 0, most);
+            for (std::int64_t k = 0; k < groups; ++k) // behind the tag and the box
+                groups_of_surface_[whole(0)].push_back(group_of(whole(size_t(8 + k))));
         }
     }
 
@@ -181,10 +191,14 @@ private:
             next();
             const bool old = version_ == 4;
             const std::int64_t surface = whole(old ? 0 : 1), type = whole(2);
-            const auto group = group_of_surface_.find(surface);
+            const auto groups = groups_of_surface_.find(surface);
+            const bool grouped = groups != groups_of_surface_.end();
             for (std::int64_t n = whole(3); n > 0; --n) {
                 next();
-                element(whole(0), type, group == group_of_surface_.end() ? 0 : group_of(group->second), surface, 1);
+                const size_t before = deck_.shells();
+                element(whole(0), type, grouped ? groups->second[0] : 0, surface, 1);
+                for (size_t k = 1; grouped && k < groups->second.size() && deck_.shells() > before; ++k)
+                    further_[groups->second[k]].push_back(int(before));
             }
         }
     }
@@ -218,8 +232,9 @@ private:
     DeckBuilder deck_;
     DeckFields fields_;
     double version_ = 0;
-    std::map<std::int64_t, std::string> name_;              // of physical groups of surfaces
-    std::map<std::int64_t, std::int64_t> group_of_surface_; // format 4
+    std::map<std::int64_t, std::string> name_;                            // of physical groups of surfaces
+    std::map<std::int64_t, std::vector<std::int64_t>> groups_of_surface_; // format 4
+    std::map<std::int64_t, std::vector<int>> further_;                    // shells of groups that are nobody's first
     std::map<std::int64_t, int> part_of_group_;
 };
 

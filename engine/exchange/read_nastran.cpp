@@ -31,6 +31,7 @@ public:
             take();
         place_nodes();
         name_parts();
+        thicken_shells();
         return deck_.finish("Nastran bulk data", lines_.notes);
     }
 
@@ -80,23 +81,50 @@ private:
         if (entry_.name() == "CQUAD8" || entry_.name() == "CTRIA6" || entry_.name() == "CQUAD")
             ++middle_nodes_;
         const std::int64_t property = entry_[1].empty() ? id : lines_.whole(entry_[1]);
-        deck_.add_shell(deck_.part(property), id, corner, own_thickness(corners));
+        deck_.add_shell(deck_.part(property), id, corner);
+        if (entry_.name().back() == '4' || entry_.name().back() == '3')
+            fields_behind_corners(corners);
     }
 
-    /// The mean of those at the corners of a CQUAD4 or CTRIA3; 0 if they are not given or relative.
-    double own_thickness(size_t corners)
+    /// Of a CQUAD4 or CTRIA3: direction and offset, then the thickness at each corner.
+    void fields_behind_corners(size_t corners)
     {
-        if (entry_.name().back() != '4' && entry_.name().back() != '3')
-            return 0;
-        std::array<double, 4> thick = {};
-        for (size_t k = 0; k < corners; ++k) {
-            const std::string_view t = entry_[10 + k];
-            if (t.empty())
-                return 0;
-            thick[k] = lines_.number(t);
+        not_written_back_ += !entry_[2 + corners].empty() || !entry_[3 + corners].empty();
+        CornerThickness own{deck_.shells() - 1, corners, lines_.whole_or_zero(entry_[9]) != 0, {}};
+        bool given = false;
+        for (size_t k = 0; k < corners; ++k)
+            if (const std::string_view t = entry_[10 + k]; !t.empty()) {
+                own.corner[k] = lines_.number(t);
+                given = true;
+            }
+        if (given)
+            own_thickness_.push_back(own);
+    }
+
+    /// Relative ones are shares of the property's, corners without one have that of the property. [Quick Reference Guide,
+    /// CQUAD4: TFLAG, Ti]
+    void thicken_shells()
+    {
+        for (const CornerThickness& own : own_thickness_) {
+            const double usual = deck_.at(deck_.part_of_shell(own.shell)).thickness.value_or(0);
+            std::array<double, 4> thick = {};
+            for (size_t k = 0; k < own.corners; ++k)
+                thick[k] = !own.corner[k] ? usual : own.relative ? *own.corner[k] * usual : *own.corner[k];
+            const auto corners = std::span(thick).first(own.corners);
+            if (std::all_of(corners.begin(), corners.end(), [](double t) { return t > 0; }))
+                deck_.set_thickness(own.shell, mean(corners));
+            else
+                ++unknown_thickness_;
         }
-        const bool relative = lines_.whole_or_zero(entry_[9]) != 0;
-        return relative ? 0 : mean(std::span(thick).first(corners));
+        if (unknown_thickness_ > 0)
+            deck_.note(
+                fmt::format("{} shells have a thickness at some corners only or as a share, and their property has none",
+                            unknown_thickness_));
+        if (not_written_back_ > 0)
+            deck_.note(
+                fmt::format("{} shells have a material direction or an offset; what is written for this deck does "
+                            "not repeat them",
+                            not_written_back_));
     }
 
     void property()
@@ -123,7 +151,7 @@ private:
         if (!entry_[8].empty())
             part.material_id = lines_.whole(entry_[8]);
         if (sum > 0)
-            part.thickness = entry_[7] == "SYM" ? 2 * sum : sum;
+            part.thickness = same_letters(entry_[7], "SYM") ? 2 * sum : sum;
     }
 
     void system(char kind)
@@ -172,6 +200,11 @@ private:
         }
     }
 
+    struct CornerThickness {
+        size_t shell, corners;
+        bool relative;
+        std::array<std::optional<double>, 4> corner;
+    };
     struct Node {
         std::int64_t id, system; ///< system -1: as GRDSET says
         Eigen::Vector3d coordinates;
@@ -182,7 +215,8 @@ private:
     NastranSystems systems_;
     std::vector<Node> nodes_; // coordinate systems may come behind them
     std::int64_t usual_system_ = 0;
-    int middle_nodes_ = 0;
+    std::vector<CornerThickness> own_thickness_; // their properties may come behind them
+    int middle_nodes_ = 0, unknown_thickness_ = 0, not_written_back_ = 0;
     std::map<std::int64_t, std::string> material_;
 };
 

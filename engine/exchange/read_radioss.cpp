@@ -55,7 +55,7 @@ private:
             word[words] = trimmed(rest.substr(0, slash));
             rest.remove_prefix(slash == rest.npos ? rest.size() : slash + 1);
         }
-        const std::string name = upper_case(word[0]);
+        const std::string name = upper_case(!word[0].empty() ? word[0] : "/" + std::string(word[1])); // "//SUBMODEL"
         if (name == "BEGIN")
             card_ = &RadiossReader::begin;
         else if (name == "NODE") {
@@ -71,6 +71,11 @@ private:
         } else if (name == "PROP" && is_shell_property(upper_case(word[1]))) {
             id_ = lines_.whole(word[2]);
             card_ = &RadiossReader::property;
+            if (!word[3].empty() && lines_.whole(word[3]) != 0) {
+                deck_.note(fmt::format(
+                    "the thickness of property {} is not taken, for it is in a unit system of its own", id_));
+                card_ = nullptr;
+            }
         } else if (name == "MAT" && words > 2) {
             id_ = lines_.whole(word[2]);
             material_[id_] = upper_case(word[1]);

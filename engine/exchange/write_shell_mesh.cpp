@@ -27,10 +27,14 @@ constexpr std::int64_t most_in_8 = 99'999'999; // of eight columns
 std::string one_line(std::string_view text, size_t most)
 {
     std::string line = readable(text);
-    while (line.size() > most || (!line.empty() && line.back() == ' '))
+    if (line.size() > most) {
+        const auto in_letter = [&](size_t i) { return (static_cast<unsigned char>(line[i]) & 0xc0) == 0x80; };
+        while (most > 0 && in_letter(most))
+            --most;
+        line.resize(most);
+    }
+    while (!line.empty() && line.back() == ' ')
         line.pop_back();
-    while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xc0) == 0x80 && line.size() == most)
-        line.pop_back(); // the middle of a letter
     return line;
 }
 
@@ -100,13 +104,16 @@ std::string abaqus(const ShellMesh& mesh, std::string_view title)
                        fixed_number(x[2], 20));
     }
     std::set<std::string> taken;
+    std::vector<std::vector<int>> elements(mesh.parts.size());
+    for (int e = 0; e < mesh.elements(); ++e)
+        elements[size_t(mesh.part_of[size_t(e)])].push_back(e);
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
         const ShellPart& part = mesh.parts[p];
         const std::string set = set_name(part.name, taken, part.id);
         for (const size_t corners : {size_t(3), size_t(4)}) {
             bool first = true;
-            for (int e = 0; e < mesh.elements(); ++e) {
-                if (mesh.part_of[size_t(e)] != int(p) || mesh.corners(e) != corners)
+            for (const int e : elements[p]) {
+                if (mesh.corners(e) != corners)
                     continue;
                 if (std::exchange(first, false))
                     fmt::format_to(end, "*ELEMENT, TYPE={}, ELSET={}\n", corners == 3 ? "S3" : "S4R", set);

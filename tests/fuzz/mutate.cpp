@@ -19,11 +19,19 @@ std::string damaged(std::string content, const std::vector<std::string>& spice, 
         case 1: content[at] = char(random()); break;
         case 2: content[at] = char(content[at] ^ (1 << random() % 8)); break;
         case 3: content.erase(at, random() % 40); break;
-        case 4: content.insert(random() % 2 ? at : begin, spice[random() % spice.size()]); break;
+        case 4: {
+            const size_t where = random() % 2 ? at : begin; // first: the same files on every compiler
+            content.insert(where, spice[random() % spice.size()]);
+            break;
+        }
         case 5: content.insert(begin, content.substr(begin, length)); break;
         case 6: content.insert(line_at(random() % content.size()).first, content.substr(begin, length)); break;
         case 7: content.erase(begin, length); break;
-        case 8: content.insert(at, content.substr(random() % content.size(), random() % 60)); break;
+        case 8: {
+            const size_t from = random() % content.size();
+            content.insert(at, content.substr(from, random() % 60));
+            break;
+        }
         }
     }
     return content;

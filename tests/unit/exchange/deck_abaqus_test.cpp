@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include "engine/exchange/deck_choice.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -82,6 +83,51 @@ TEST(AbaqusDeck, ASectionByItsStiffnessHasNoThickness)
     EXPECT_EQ(part(read(skin + ", MATERIAL=DC04\n.8\n"), 0).thickness, 0.8);
 }
 
+TEST(AbaqusDeck, LayersMayBeMirrored)
+{
+    const std::string skin = nodes + "*ELEMENT, ELSET=SKIN, TYPE=S3\n1,1,2,3\n*SHELL SECTION, ELSET=SKIN, COMPOSITE";
+    EXPECT_EQ(part(read(skin + "\n.25,3,A\n.5,3,B\n"), 0).thickness, 0.75);
+    EXPECT_EQ(part(read(skin + ", Symmetric\n.25,3,A\n.5,3,B\n"), 0).thickness, 1.5);
+}
+
+TEST(AbaqusDeck, AThicknessThatVariesIsToldAndNotThatOfTheSection)
+{
+    for (const char* by : {", NODAL THICKNESS", ", Shell Thickness=field"}) {
+        const Deck deck = read(nodes + "*ELEMENT, ELSET=SKIN, TYPE=S3\n1,1,2,3\n*SHELL SECTION, ELSET=SKIN" + by +
+                               "\n.25\n*NODAL THICKNESS\n1,1.5\n");
+        EXPECT_FALSE(part(deck, 0).thickness) << by;
+        EXPECT_TRUE(has_note(deck, "the thickness of the section for SKIN is given by its nodes")) << by;
+    }
+}
+
+TEST(AbaqusDeck, ASectionForNoSetIsTold)
+{
+    const Deck deck = read(nodes + "*ELEMENT, ELSET=SKIN, TYPE=S3\n1,1,2,3\n*SHELL SECTION, ELSET=Skn\n.25\n");
+    EXPECT_TRUE(has_note(deck, "a section for the element set Skn, but no such set"));
+    EXPECT_EQ(part(deck, 0).name, "SKIN");
+}
+
+TEST(AbaqusDeck, ASetOfWhichASectionTookAPartIsStillWhole)
+{
+    const Deck deck = read(five + "*ELSET, ELSET=Two\n2,3\n*SHELL SECTION, ELSET=Two\n.5\n");
+    EXPECT_EQ(part(deck, 0).name, "All (rest)");
+    EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"All"}).element.size(), 5u);
+    EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"All (rest)"}).element.size(), 3u);
+    EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"Two"}).element, (std::vector<int>{1, 2}));
+}
+
+TEST(AbaqusDeck, AnInstanceThatIsOnlyTurnedIsTold)
+{
+    const auto placed = [](const std::string& lines) {
+        return read("*Assembly, name=A\n*Instance, name=I, part=P\n" + lines + nodes +
+                    "*ELEMENT, TYPE=S3, ELSET=Skin\n1,1,2,3\n*End Instance\n*End Assembly\n");
+    };
+    EXPECT_FALSE(has_note(placed(""), "moved or turned"));
+    EXPECT_FALSE(has_note(placed("0.,0.,0.\n"), "moved or turned"));
+    EXPECT_TRUE(has_note(placed("0.,0.,0.\n0.,0.,0.,0.,0.,1.,90.\n"), "1 instances are moved or turned"));
+    EXPECT_TRUE(has_note(placed("0.,0.,1.\n0.,0.,0.,0.,0.,1.,90.\n"), "1 instances are moved or turned"));
+}
+
 TEST(AbaqusDeck, SetsOfAnInstanceAreTold)
 {
     EXPECT_TRUE(has_note(read(five + "*ELSET, ELSET=Roof, INSTANCE=Body-1\n1, 2\n"), "*ELSET of an instance"));
@@ -117,7 +163,8 @@ TEST(AbaqusDeck, PartsHaveNumbersAndSetsOfTheirOwn)
     const auto sets_called = [&](const std::string& name) {
         return std::count_if(deck.sets.begin(), deck.sets.end(), [&](const DeckSet& set) { return set.name == name; });
     };
-    EXPECT_EQ(sets_called("Skin"), 2);
+    EXPECT_EQ(sets_called("Skin"), 1);
+    EXPECT_EQ(sets_called("Right.Skin"), 1) << "one name, one choice";
     EXPECT_EQ(sets_called("Extra"), 1);
     // Meshed in the assembly: nodes and elements lie in the instance.
     EXPECT_EQ(read("*Assembly, name=A\n*Instance, name=I, part=P\n 1.,0.,0.\n" + one + "*End Instance\n*End Assembly\n")

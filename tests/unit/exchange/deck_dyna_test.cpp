@@ -119,6 +119,8 @@ TEST(DynaDeck, SectionsAndMaterialsWithTheirOptions)
     // Angles of eight layers follow on a card, then the next section.
     EXPECT_EQ(thickness("*SECTION_SHELL\n4,2,0,8,0,0,1\n.7\n0,0,0,0,0,0,0,0\n5,2\n.9\n"), 0.9);
     EXPECT_EQ(thickness("*SECTION_SHELL\n4,2,0,9,0,0,1\n.7\n0,0,0,0,0,0,0,0\n5\n5,2\n.9\n"), 0.9);
+    // Two layers if it says none.
+    EXPECT_EQ(thickness("*SECTION_SHELL\n4,2,0,,0,0,1\n.7\n0,90\n5,2\n.9\n"), 0.9);
     EXPECT_EQ(thickness("*SECTION_SHELL_MISC\n5,2\n.9\n5,5\n7,7\n"), 0.9);
     EXPECT_FALSE(thickness("*SECTION_SHELL\n5,2\n0,0,0,0\n"));
     EXPECT_FALSE(thickness("*SECTION_SOLID\n5,2\n.9\n"));
@@ -178,6 +180,37 @@ TEST_F(DynaIncludes, FilesBesideTheDeckAndBelowItInTheirOwnFormats)
     EXPECT_EQ(deck.corner[0], (std::array<int, 4>{0, 2, 1, 3}));
     EXPECT_EQ(deck.parts[0].name, "lid");
     EXPECT_EQ(deck.notes, std::vector<std::string>());
+}
+
+TEST_F(DynaIncludes, LocalParametersHoldInTheirFileAndThoseItIncludes)
+{
+    const std::string part = "*SECTION_SHELL\n5,2\n&t\n";
+    put("local.k", "*PARAMETER_LOCAL\nR t, 9.9\n*INCLUDE\ninner.k\n*NODE\n5,&t,0,0\n");
+    put("inner.k", "*NODE\n6,&t,0,0\n");
+    put("main.k", "*PARAMETER\nR t, 0.8\n" + four_nodes + "*INCLUDE\nlocal.k\n*PART\nlid\n7,5,6\n" + part +
+                      "*ELEMENT_SHELL\n1,7,1,2,3,4\n*NODE\n7,&t,0,0\n");
+    const Deck deck = read("main.k");
+    EXPECT_EQ(deck.parts.at(0).thickness, 0.8);
+    EXPECT_EQ(deck.position.at(4).x(), 9.9) << "included by the file that has it";
+    EXPECT_EQ(deck.position.at(5).x(), 9.9) << "its own";
+    EXPECT_EQ(deck.position.at(6).x(), 0.8);
+    put("own.k", "*PARAMETER_LOCAL\nR t, 1.5\n*PARAMETER\nR t, 0.8\n" + four_nodes + "*PART\nlid\n7,5,6\n" + part +
+                     "*ELEMENT_SHELL\n1,7,1,2,3,4\n");
+    EXPECT_EQ(read("own.k").parts.at(0).thickness, 1.5) << "what is local comes first";
+}
+
+TEST(DynaDeck, FieldsThatAreNotWrittenBackAreTold)
+{
+    const std::string shell = four_nodes + "*ELEMENT_SHELL";
+    EXPECT_TRUE(has_note(spia::read(shell + "_OFFSET\n1,7,1,2,3,4\n.5\n"), "1 shells have a material direction"));
+    EXPECT_FALSE(has_note(spia::read(shell + "\n1,7,1,2,3,4\n"), "material direction"));
+}
+
+TEST(DynaDeck, CardsOfOtherKindsOfShellsAreNotShells)
+{
+    const Deck deck = spia::read(four_nodes + "*ELEMENT_SHELL\n1,7,1,2,3,4\n*ELEMENT_SHELL_SOURCE_SINK\n12,1,2\n");
+    EXPECT_EQ(deck.elements(), 1);
+    EXPECT_TRUE(has_note(deck, "*ELEMENT_SHELL_SOURCE_SINK lines"));
 }
 
 TEST_F(DynaIncludes, FoldersAreAddedAndBackslashesAreSlashes)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "engine/exchange/deck_choice.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -27,6 +28,17 @@ TEST(GmshDeck, ElementsOfHigherOrderGiveTheirCornersAndSolidsAreTold)
     EXPECT_EQ(deck.parts[1].name, "surface 6"); // behind the tags of two partitions
     EXPECT_TRUE(has_note(deck, "type 4"));
     EXPECT_FALSE(has_note(deck, "type 1"));
+}
+
+TEST(GmshDeck, ASurfaceOfSeveralGroupsCanBeChosenByEach)
+{
+    const Deck deck = read("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 5 \"Skin\"\n2 6 \"Hood\"\n"
+                           "$EndPhysicalNames\n$Entities\n0 0 2 0\n1 0 0 0 1 1 0 2 5 6 0\n2 0 0 0 1 1 0 2 5 -8 0\n"
+                           "$EndEntities\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+                           "$Elements\n2 2 1 2\n2 1 2 1\n1 1 2 3\n2 2 2 1\n2 1 3 4\n$EndElements\n");
+    EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"Skin"}).element, (std::vector<int>{0, 1}));
+    EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"Hood"}).element, (std::vector<int>{0}));
+    EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"8"}).element, (std::vector<int>{1})) << "turned over in it";
 }
 
 TEST(GmshDeck, IsRefusedWithItsLineWhereItIsWrong)
@@ -75,6 +87,22 @@ TEST(RadiossDeck, ElementsHaveTheirOwnThicknessAndUnits)
     EXPECT_EQ(deck.unit, LengthUnit::m);
     EXPECT_TRUE(has_note(deck, "/BRICK lines (2)"));
     EXPECT_TRUE(has_note(deck, "/GRBRIC"));
+}
+
+TEST(RadiossDeck, AThicknessInUnitsOfItsOwnIsToldAndNotTaken)
+{
+    const auto with = [](const std::string& unit) {
+        return sample::read("a.rad", "/BEGIN\nrun\n      2022         0\n" + cards +
+                                         "/SH3N/4\n         1         1         2         3\n/PART/4\nlid\n         1\n"
+                                         "/PROP/TYPE1/1" +
+                                         unit + "\np\n0\n0\n" + fmt::format("{:>10}{:>10}{:>20}\n", 5, 0, 0.7) +
+                                         "//SUBMODEL/3\nx\n");
+    };
+    EXPECT_EQ(with("").parts[0].thickness, 0.7);
+    EXPECT_EQ(with("/0").parts[0].thickness, 0.7);
+    EXPECT_FALSE(with("/2").parts[0].thickness);
+    EXPECT_TRUE(has_note(with("/2"), "the thickness of property 1 is not taken"));
+    EXPECT_TRUE(has_note(with(""), "//SUBMODEL"));
 }
 
 TEST(RadiossDeck, ALengthUnitThatIsNotKnownIsTold)

@@ -71,6 +71,7 @@ TEST(NastranDeck, PropertiesGiveThicknessMaterialAndName)
     EXPECT_EQ(part("PSHELL,7,3,.9\n").material, "");
     EXPECT_EQ(part("PSHELL  7       3       9.-1\n").thickness, 0.9);
     EXPECT_EQ(part("PCOMP,7,,,,,,,SYM,+\n+,3,.25,0.,,3,.125\n").thickness, 0.75);
+    EXPECT_EQ(part("pcomp,7,,,,,,,sym,+\n+,3,.25,0.,,3,.125\n").thickness, 0.75);
     EXPECT_EQ(part("PCOMP,7,,,,,,,,+\n+,3,.25,0.,,3,,45.\n").thickness, 0.5); // the same again
     EXPECT_EQ(part("$ Femap with NX Nastran Property 7 : WING SKIN\n").name, "WING SKIN");
     EXPECT_EQ(part("$HMNAME PROP            7\"Hood\" 4\n").name, "Hood");
@@ -82,6 +83,26 @@ TEST(NastranDeck, PropertiesGiveThicknessMaterialAndName)
     const Deck own = read(square.substr(0, square.find("CQUAD4")) +
                           "CQUAD4,1,7,1,2,3,4,,,+\n+,,,.8,.8,.8,.8\nCTRIA3,2,7,1,2,3,,,,+\n+,,,.8,.8,.8\n");
     EXPECT_EQ(own.parts.at(0).thickness, 0.8); // of the elements, and exactly the same in both
+}
+
+TEST(NastranDeck, ThicknessesAtCornersMayBeSharesOrMissing)
+{
+    const std::string nodes = square.substr(0, square.find("CQUAD4"));
+    const auto thickness = [&](const std::string& fields, const std::string& rest) {
+        return read(nodes + "CQUAD4,1,7,1,2,3,4,,,+\n+," + fields + "\n" + rest).parts.at(0).thickness;
+    };
+    EXPECT_EQ(thickness(",1,.5,.5,.5,.5", "PSHELL,7,3,2.\n"), 1.0) << "a share of the property's, which comes later";
+    EXPECT_EQ(thickness(",,1.,,1.,", "PSHELL,7,3,2.\n"), 1.5) << "corners without one have the property's";
+    EXPECT_EQ(thickness(",0,1.,1.,1.,1.", "PSHELL,7,3,2.\n"), 1.0);
+    EXPECT_TRUE(has_note(read(nodes + "CQUAD4,1,7,1,2,3,4,,,+\n+,,1,.5,.5,.5,.5\n"), "their property has none"));
+}
+
+TEST(NastranDeck, FieldsThatAreNotWrittenBackAreTold)
+{
+    const std::string nodes = square.substr(0, square.find("CQUAD4"));
+    EXPECT_TRUE(has_note(read(nodes + "CQUAD4,1,7,1,2,3,4,45.\nCTRIA3,2,7,1,2,3,,.5\nCQUAD4,3,7,1,2,3,4\n"),
+                         "2 shells have a material direction or an offset"));
+    EXPECT_FALSE(has_note(read(square), "a material direction"));
 }
 
 TEST(NastranDeck, ShellsOfHigherOrderGiveTheirCornersAndOthersAreTold)
@@ -141,7 +162,7 @@ TEST(NastranDeck, FilesAreIncludedWithAndWithoutQuotesOverLines)
         "CEND\nBEGIN BULK\nINCLUDE 'a folder/\n         nodes.bdf'\ninclude shell.bdf\nPSHELL,7,1,2.\nENDDATA\n");
     const Deck deck = read_deck(scratch / "main.bdf", content_of(scratch / "main.bdf"));
     EXPECT_EQ(deck.elements(), 1);
-    EXPECT_EQ(deck.parts[0].thickness, 2);
+    EXPECT_EQ(deck.parts[0].thickness, 0.875); // 2 from the property at the first corner, .5 at the others
     EXPECT_TRUE(has_note(read("INCLUDE \"none.bdf\"\n" + square), "none.bdf is not there"));
     EXPECT_NE(refusal("a.bdf", "INCLUDE 'none\n").find("does not end"), std::string::npos);
 }
@@ -153,8 +174,15 @@ TEST(NastranDeck, IsRefusedWithItsLineWhereItIsWrong)
     };
     expect("GRID,1,,0.,x,0.\n", "line 1: 'x' is not a number");
     expect("GRID,1\nGRID,a\n", "line 2: 'a' is not a whole number");
+    expect("GRID,1,,0.,x,0.\n$ a comment\nGRID,2\n", "line 1: 'x' is not a number"); // though line 3 is known by then
+    expect("GRID,1\nGRID,2,,,,,,,+\n+,y\nCQUAD4,1,7,1,,3,4\nGRID,3\n", "line 4: a number is missing");
+    const ScratchFolder scratch;
+    put(scratch / "inc.bdf", "GRID,1,,x\n");
+    EXPECT_NE(refusal("a.bdf", "INCLUDE '" + (scratch / "inc.bdf").string() + "'\n" + square)
+                  .find("inc.bdf, line 1: 'x' is not a number"),
+              std::string::npos);
     expect("GRID*                  1               0             1.0             2.0+A\n*B                   3.0\n",
-           "not in their order");
+           "line 1: the continuations of this GRID are not in their order");
     expect(square + "GRID,2,,5.\n", "node 2 is given twice");
     expect("CQUAD4,1,7,1,2,3\n", "line 1: a number is missing");
     expect("=,*(1),,*(10.)\n", "is no entry of Nastran bulk data");
