@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/closest_point.h"
-#include "engine/mesh/edge_graph.h"
 
 namespace spia {
 namespace {
@@ -79,38 +77,6 @@ PartFile as_read(const PartFile& part)
     result.source_vertex = part.remeshed->original_vertex;
     result.source_face = part.remeshed->original_face;
     result.remeshed.reset();
-    return result;
-}
-
-std::vector<int> vertices_called(const PartFile& part, int number)
-{
-    const bool by_place = numbered_as_read(part);
-    const std::vector<int>& called = by_place ? part.remeshed->original_vertex : part.source_vertex;
-    const auto [from, to] = std::equal_range(called.begin(), called.end(), number);
-    std::vector<int> result;
-    if (!by_place) {
-        for (auto copy = from; copy != to; ++copy)
-            result.push_back(int(copy - called.begin()));
-        return result;
-    }
-    if (from == to)
-        return result;
-    const TriMesh& original = *part.remeshed->original;
-    const std::vector<char> on_rim = edge_graph(original).on_rim, on_new_rim = edge_graph(part.mesh).on_rim;
-    for (auto copy = from; copy != to; ++copy) {
-        const int vertex = int(copy - called.begin());
-        const Eigen::Vector3d place = original.position.col(vertex);
-        int nearest = -1;
-        double least = std::numeric_limits<double>::infinity();
-        for (int v = 0; v < part.mesh.vertices(); ++v) {
-            const double distance = (part.mesh.position.col(v) - place).squaredNorm();
-            if (distance < least && (on_new_rim[size_t(v)] || !on_rim[size_t(vertex)])) {
-                least = distance;
-                nearest = v;
-            }
-        }
-        result.push_back(nearest);
-    }
     return result;
 }
 

@@ -33,10 +33,6 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
 /// The part of a deck as it was before it was remeshed.
 PartFile as_read(const PartFile& part);
 
-/// The vertices of the mesh that are called by a number of the file; of a remeshed part those nearest to where it was,
-/// of a vertex on the boundary one on the boundary. Empty if there is no such number.
-std::vector<int> vertices_called(const PartFile& part, int number);
-
 /// Whether the part had a face with this number of the file when it was read.
 bool has_face(const PartFile& part, int number);
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/coons/cell_quality.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/forming/material_text.h"
 #include "engine/forming/membrane_law.h"
 #include "engine/mesh/distortion.h"
@@ -332,7 +333,7 @@ Json grid_json(const Session& session)
     const GridResult& grid = session.grid->result;
     Json corners = Json::array();
     for (int v : session.grid->boundary.corner)
-        corners.push_back(session.part->source_vertex[size_t(v)]);
+        corners.push_back(number_of(*session.part, v));
     return {{"columns", grid.planar.columns},
             {"rows", grid.planar.rows},
             {"folded_cells", grid.quality.folded_cells},

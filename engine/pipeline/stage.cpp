@@ -4,6 +4,7 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/session.h"

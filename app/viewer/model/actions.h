@@ -38,8 +38,10 @@ Reading reading_of(const ReadOptions& options);
 void set_reading(ReadOptions& options, const Reading& reading);
 
 /// "list_file": what can be chosen of a file before it is read, in the background; the window shows it.
+/// again: the file of the part, to be read otherwise with all that was done on it.
 struct ListFile {
     std::filesystem::path file;
+    bool again = false;
 };
 struct CloseList {}; ///< "close_list"
 struct OpenPart {
@@ -53,6 +55,11 @@ struct SetUnit {
 struct SetReading {
     Reading reading;
 }; ///< "set_reading": reads the part again otherwise; parts are as they are if not given
+/// "read_again": as open_part reads the file, but of the part that is there, with what was done on it; unit empty: as it is.
+struct ReadAgain {
+    std::string unit;
+    Reading reading;
+};
 /// "set_seam": mode ("automatic", "none", "given"), path [[vertex of the file, ...], ...]; reads the part again.
 struct SetSeam {
     SeamOptions seam;
@@ -337,7 +344,7 @@ struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
 using Action =
-    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, SetSeam, SetRemeshing, RunTo, CancelJob,
+    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
                  SetMaterial, FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
                  SetEnds, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
                  SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,

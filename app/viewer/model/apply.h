@@ -39,6 +39,7 @@ struct ViewerModel::Apply {
     template <class Edit> void read_again(std::string name, const Edit& edit);
     void operator()(const SetUnit& action);
     void operator()(const SetReading& action);
+    void operator()(const ReadAgain& action);
     void operator()(const SetSeam& action);
     void operator()(const SetRemeshing& action);
     void operator()(const RunTo& action);

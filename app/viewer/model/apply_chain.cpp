@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/chain.h"
+#include "engine/exchange/vertex_numbers.h"
 
 namespace spia::viewer {
 
@@ -47,8 +48,10 @@ void ViewerModel::Apply::require_no_export() const
 
 void ViewerModel::Apply::operator()(const ListFile& action)
 {
+    if (action.again && action.file != session.file)
+        throw InputError("Only the file of the part can be read again.");
     (*this)(CloseList{});
-    state.listing = FileListing{action.file};
+    state.listing = FileListing{action.file, action.again};
     model.list_job_ = std::make_unique<Job<ListedFile>>(
         [file = action.file](const Progress& progress) { return look_into(file, progress); }, model.wake_);
 }
@@ -80,6 +83,7 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.session.file = action.file;
     if (!std::filesystem::exists(action.file))
         throw InputError(fmt::format("There is no file {}.", action.file.string()));
+    (*this)(CloseList{});
     state.project.clear();
     state.unsaved = false;
     begin_with(std::move(fresh));
@@ -111,6 +115,19 @@ void ViewerModel::Apply::operator()(const SetReading& action)
 {
     if (reading_of(session.options.read) != action.reading)
         read_again("Read the part otherwise", [&](ReadOptions& read) { set_reading(read, action.reading); });
+}
+
+void ViewerModel::Apply::operator()(const ReadAgain& action)
+{
+    ReadOptions wanted = session.options.read;
+    if (!action.unit.empty())
+        wanted.unit = length_unit(action.unit);
+    set_reading(wanted, action.reading);
+    const bool same =
+        reading_of(wanted) == reading_of(session.options.read) && wanted.unit == session.options.read.unit;
+    if (!same)
+        read_again("Read the part otherwise", [&](ReadOptions& read) { read = wanted; });
+    (*this)(CloseList{});
 }
 
 void ViewerModel::Apply::operator()(const SetSeam& action)
@@ -183,6 +200,8 @@ void ViewerModel::Apply::operator()(const CancelJob&)
         model.chain_job_->cancel();
     if (model.export_job_)
         model.export_job_->cancel();
+    if (model.list_job_)
+        (*this)(CloseList{});
 }
 
 void ViewerModel::Apply::operator()(const SetSkins& action)
@@ -207,7 +226,7 @@ std::array<int, 4> ViewerModel::Apply::corners_now() const
         throw InputError("Make the grid first; then its corners can be moved.");
     std::array<int, 4> corners{};
     for (size_t k = 0; k < 4; ++k)
-        corners[k] = part().source_vertex[size_t(session.grid->boundary.corner[k])];
+        corners[k] = number_of(part(), session.grid->boundary.corner[k]);
     return corners;
 }
 
@@ -225,7 +244,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
         throw InputError(fmt::format("Vertex {} is not on the outer outline of the blank, where corners have to be.",
                                      part().source_vertex[size_t(action.vertex)]));
     std::array<int, 4> corners = corners_now();
-    const int in_file = part().source_vertex[size_t(action.vertex)];
+    const int in_file = number_of(part(), action.vertex);
     for (int k = 0; k < 4; ++k)
         if (k != action.corner &&
             corners[size_t(k)] == in_file) { // two corners at one place: the mouse is on its way past the other one

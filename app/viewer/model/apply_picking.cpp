@@ -1,4 +1,5 @@
 #include "app/viewer/model/apply.h"
+#include "engine/exchange/vertex_numbers.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -117,7 +118,7 @@ void ViewerModel::Apply::operator()(const UseVerticesAsCorners&)
     }
     change("Use vertices as corners");
     for (int& corner : corners)
-        corner = file.source_vertex[size_t(corner)];
+        corner = number_of(file, corner);
     session.options.corners = corners;
     if (session.blank)
         model.run_to(Stage::fit, "Making the grid");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "engine/exchange/deck_number.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
 
@@ -44,6 +45,8 @@ ListedFile look_into(const std::filesystem::path& file, const Progress& progress
     ListedFile listed;
     listed.items = list_items(file, progress.part(0, 0.8));
     progress.checkpoint(0.8, "preparing the preview");
+    for (const FileItem& item : listed.items.item) // holders come first
+        listed.depth.push_back(item.parent < 0 ? 0 : listed.depth[size_t(item.parent)] + 1);
     triangulate(listed.items.preview, listed);
     if (listed.mesh.triangles() > 0)
         listed.picker.emplace(listed.mesh);
@@ -56,14 +59,6 @@ bool has_choices(const std::filesystem::path& file)
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return is_cad(ending) || is_deck(ending);
-}
-
-bool lies_in(const FileItems& items, int item, int holder)
-{
-    for (; item >= 0; item = items.item[size_t(item)].parent)
-        if (item == holder)
-            return true;
-    return false;
 }
 
 int proposed_item(const FileItems& items)
@@ -86,26 +81,45 @@ int proposed_item(const FileItems& items)
     return choosable > 1 ? best : -1;
 }
 
+std::vector<char> with_what_they_hold(const FileItems& items, std::vector<char> chosen)
+{
+    for (size_t i = 0; i < items.item.size(); ++i) // holders come first
+        if (const int holder = items.item[i].parent; holder >= 0 && chosen[size_t(holder)])
+            chosen[i] = 1;
+    return chosen;
+}
+
 std::vector<std::string> choices_of(const FileItems& items, const std::vector<char>& chosen)
 {
     std::vector<std::string> choices;
-    for (int i = 0; i < int(items.item.size()); ++i) {
-        const FileItem& item = items.item[size_t(i)];
-        bool held = false;
-        for (int holder = item.parent; holder >= 0; holder = items.item[size_t(holder)].parent)
-            held = held || chosen[size_t(holder)];
-        if (chosen[size_t(i)] && !held && !item.choice.empty())
+    const std::vector<char> held = with_what_they_hold(items, chosen);
+    for (size_t i = 0; i < items.item.size(); ++i) {
+        const FileItem& item = items.item[i];
+        if (chosen[i] && !(item.parent >= 0 && held[size_t(item.parent)]) && !item.choice.empty())
             choices.push_back(item.choice);
     }
     return choices;
 }
 
-std::vector<char> items_of(const FileItems& items, const std::vector<std::string>& choices)
+ChosenItems items_of(const FileItems& items, const std::vector<std::string>& choices)
 {
-    std::vector<char> chosen(items.item.size(), 0);
-    for (size_t i = 0; i < items.item.size(); ++i)
-        chosen[i] = !items.item[i].choice.empty() &&
-                    std::find(choices.begin(), choices.end(), items.item[i].choice) != choices.end();
+    ChosenItems chosen{std::vector<char>(items.item.size(), 0), {}};
+    const auto take = [&](const auto& named) { // if there is one
+        const auto found = std::find_if(items.item.begin(), items.item.end(), named);
+        if (found == items.item.end())
+            return false;
+        chosen.item[size_t(found - items.item.begin())] = 1;
+        return true;
+    };
+    for (const std::string& choice : choices) {
+        const auto chosen_by = [&](const FileItem& item) { return !item.choice.empty() && item.choice == choice; };
+        const auto called = [&](const FileItem& item) { return !item.choice.empty() && item.name == choice; };
+        const auto called_like = [&](const FileItem& item) {
+            return !item.choice.empty() && same_letters(item.name, choice);
+        };
+        if (!take(chosen_by) && !take(called) && !take(called_like))
+            chosen.others.push_back(choice);
+    }
     return chosen;
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -94,7 +95,6 @@ std::string grid_advice(const Session& session)
     const std::string all = "Drag the corners to the sharp turns of the blank, or " + other_way + ".";
     if (!session.part || !session.blank)
         return all;
-    const std::vector<int>& in_file = session.part->source_vertex;
     std::array<int, 4> proposed, corners;
     try {
         proposed = corners = propose_corners(session.blank->blank, session.part->mesh);
@@ -103,17 +103,17 @@ std::string grid_advice(const Session& session)
     }
     if (session.options.corners)
         for (size_t k = 0; k < 4; ++k) {
-            const auto found = std::find(in_file.begin(), in_file.end(), (*session.options.corners)[k]);
-            if (found == in_file.end())
+            const std::vector<int> found = vertices_called(*session.part, (*session.options.corners)[k]);
+            if (found.empty())
                 return "Press \"Propose corners\": those chosen are of another part.";
-            corners[k] = int(found - in_file.begin());
+            corners[k] = found[0];
         }
     const auto widest = widest_corner(session, corners);
     constexpr double straight_deg = 150; // no turn to the eye
     if (!widest || widest->angle_deg < straight_deg)
         return all;
-    const std::string number =
-        in_file.empty() ? fmt::format("{}", widest->vertex) : fmt::format("{}", in_file[size_t(widest->vertex)]);
+    const std::vector<int>& in_file = session.part->source_vertex;
+    const int number = in_file.empty() ? widest->vertex : in_file[size_t(widest->vertex)];
     const std::string why =
         fmt::format("Corner {} (vertex {}) lies where the outline {} ({:.0f} degrees): ", widest->number, number,
                     widest->angle_deg > 200 ? "turns inwards" : "runs straight on", widest->angle_deg);

@@ -6,6 +6,7 @@
 #include "app/viewer/model/changed_part.h"
 #include "app/viewer/model/file_numbers.h"
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {
@@ -192,9 +193,7 @@ public:
     {
         std::array<int, 4> result;
         for (size_t k = 0; k < 4; ++k) {
-            const bool known =
-                std::binary_search(part_.source_vertex.begin(), part_.source_vertex.end(), stored[k].vertex);
-            if (same_ && known) {
+            if (same_ && !vertices_called(part_, stored[k].vertex).empty()) {
                 result[k] = stored[k].vertex;
                 continue;
             }
@@ -206,7 +205,7 @@ public:
                                 k + 1, near(stored[k].at)));
                 return {};
             }
-            result[k] = part_.source_vertex[size_t(vertex)];
+            result[k] = number_of(part_, vertex);
         }
         if (std::set(result.begin(), result.end()).size() < 4) {
             missing.push_back("two corners of the grid have become one on the changed part; all four are chosen "

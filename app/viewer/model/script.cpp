@@ -62,12 +62,13 @@ constexpr Between share{0, 1}, pixels{0, 16384};
 
 // Every action, in the order of the variant.
 constexpr std::tuple forms{
-    form<ListFile>("list_file", required("file", &ListFile::file, not_empty)),
+    form<ListFile>("list_file", required("file", &ListFile::file, not_empty), member("again", &ListFile::again)),
     form<CloseList>("close_list"),
     form<OpenPart>("open_part", required("file", &OpenPart::file, not_empty), member("unit", &OpenPart::unit),
                    member("reading", &OpenPart::reading)),
     form<SetUnit>("set_unit", required("unit", &SetUnit::unit)),
     form_of_inner("set_reading", &SetReading::reading),
+    form<ReadAgain>("read_again", member("unit", &ReadAgain::unit), member("reading", &ReadAgain::reading)),
     form_of_inner("set_seam", &SetSeam::seam),
     form<SetRemeshing>("set_remeshing", member("remesh", &SetRemeshing::remesh)),
     form<RunTo>("run_to", member("stage", &RunTo::stage)),

@@ -9,6 +9,7 @@
 #include "app/viewer/model/file_numbers.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -162,11 +163,11 @@ StoredPicks store_picks(const Document& document)
         auto& corners = picks.corners.emplace();
         for (size_t k = 0; k < 4; ++k) {
             const int number = (*document.session.options.corners)[k];
-            const auto found = std::lower_bound(part.source_vertex.begin(), part.source_vertex.end(), number);
-            if (found == part.source_vertex.end() || *found != number)
+            const std::vector<int> found = vertices_called(part, number);
+            if (found.empty())
                 throw InputError(fmt::format("corner {} is vertex {}, which the part does not have; choose it again",
                                              k + 1, number));
-            corners[k] = {number, part.mesh.position.col(found - part.source_vertex.begin())};
+            corners[k] = {number, part.mesh.position.col(found[0])};
         }
     }
     return picks;

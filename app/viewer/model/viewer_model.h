@@ -49,6 +49,7 @@ public:
     const std::optional<Probe>& under_mouse() const { return under_mouse_; }
     Pickers& pickers() { return pickers_; }
     /// Whether a job is running; closing the window then cancels it.
+    bool exporting() const { return bool(export_job_); }
     bool busy() const { return chain_job_ || export_job_ || steps_job_ || list_job_; }
     /// How many times a part or project was begun to be opened: an action for that either counts here or leaves all as it was.
     int openings() const { return openings_; }

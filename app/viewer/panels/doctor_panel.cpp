@@ -131,7 +131,7 @@ void choose_again(Frame& frame, const PartFile& part)
     }
     ImGui::BeginDisabled(frame.model.busy());
     if (small_button(frame, "Choose in the file..."))
-        frame.actions.push(ListFile{session.file});
+        frame.actions.push(ListFile{session.file, true});
     note_place(frame, "choose in the file");
     ImGui::EndDisabled();
     tooltip("Shows what the file holds, and reads it again otherwise");
@@ -157,7 +157,7 @@ void solid_skin(Frame& frame, const PartFile& part)
 }
 
 /// Well-shaped triangles in the place of those of the file.
-void remeshing(Frame& frame, const PartFile& part)
+void remeshing(Frame& frame, const PartFile* part)
 {
     const std::optional<RemeshOptions>& now = frame.state.document.session.options.read.remesh;
     ImGui::BeginDisabled(frame.model.busy());
@@ -166,9 +166,11 @@ void remeshing(Frame& frame, const PartFile& part)
         frame.actions.push(SetRemeshing{wanted ? std::optional(RemeshOptions{}) : std::nullopt});
     tooltip("Puts even triangles in the place of slivers, coarse or over-fine ones. The surface stays within the "
             "tolerance, and deviations are still those from the triangles of the file.");
-    if (now && part.remeshed) {
+    if (now) { // also where it was refused: other sizes may do
         RemeshOptions edited = *now;
-        double size = part.remeshed->size, tolerance = part.remeshed->tolerance;
+        const bool done = part && part->remeshed;
+        double size = done ? part->remeshed->size : now->size.value_or(0),
+               tolerance = done ? part->remeshed->tolerance : now->tolerance.value_or(0);
         ImGui::SetNextItemWidth(100 * frame.ui.scale);
         if (typed_number(frame, "Edges, mm", size, "%.4g"))
             edited.size = size;
@@ -224,13 +226,16 @@ void doctor_panel(Frame& frame)
     const ViewerState& state = frame.state;
     const bool refused = state.refused != nullptr;
     const PartFile* part = examined(state);
-    if (!part)
+    if (!part) {
+        if (!state.document.session.file.empty() && state.document.session.options.read.remesh)
+            remeshing(frame, nullptr);
         return;
+    }
     choose_again(frame, *part);
     cad_faces(frame, *part);
     solid_skin(frame, *part);
     if (!refused)
-        remeshing(frame, *part);
+        remeshing(frame, part);
     deck_gauge(frame, *part);
     file_notes(frame, *part);
     if (part->doctor.findings.empty())

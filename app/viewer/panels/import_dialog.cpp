@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
+#include <utility>
 
+#include "app/viewer/model/members.h"
 #include "app/viewer/model/picking.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
@@ -29,9 +31,12 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
     fresh.worker =
         frame.ui.importing.worker ? frame.ui.importing.worker : std::make_shared<Worker>([] { glfwPostEmptyEvent(); });
     const Session& session = frame.state.document.session;
-    if (session.file == frame.state.listing->file) {
+    if (frame.state.listing->again) {
         const ReadOptions& read = session.options.read;
-        fresh.chosen = items_of(listed->items, read.parts);
+        ChosenItems items = items_of(listed->items, read.parts);
+        fresh.chosen = std::move(items.item);
+        fresh.others = std::move(items.others);
+        fresh.weld = read.weld;
         fresh.unit = read.unit ? std::string(name(*read.unit)) : "";
         fresh.skin = read.skin;
         fresh.keep_largest = read.doctor.keep_largest;
@@ -47,8 +52,8 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
     frame.ui.importing = std::move(fresh);
 }
 
-/// A length that was typed: nothing if the field is empty; false if it is none.
-bool read_length(const std::string& text, bool may_be_zero, std::optional<double>& mm)
+/// A length that was typed: nothing if the field is empty; false if it is none of those that projects keep.
+bool read_length(const std::string& text, const Between& range, std::optional<double>& mm)
 {
     mm.reset();
     const size_t from = text.find_first_not_of(' ');
@@ -57,8 +62,7 @@ bool read_length(const std::string& text, bool may_be_zero, std::optional<double
     double value = 0;
     const char *begin = text.data() + from, *end = text.data() + text.find_last_not_of(' ') + 1;
     const auto [after, fault] = std::from_chars(begin, end, value);
-    constexpr double most = 1000;
-    if (fault != std::errc() || after != end || !(value >= 0 && value <= most) || (value == 0 && !may_be_zero))
+    if (fault != std::errc() || after != end || !(value >= range.least && value <= range.greatest))
         return false;
     mm = value;
     return true;
@@ -114,9 +118,25 @@ void choose(ImportChoices& choices, int item, bool add)
 {
     const bool was = choices.chosen[size_t(item)] != 0;
     const auto count = std::count(choices.chosen.begin(), choices.chosen.end(), char(1));
-    if (!add)
+    if (!add) {
         std::fill(choices.chosen.begin(), choices.chosen.end(), char(0));
+        choices.others.clear();
+    }
     choices.chosen[size_t(item)] = add ? !was : !was || count > 1;
+}
+
+/// What was chosen and is no item; a click leaves it out.
+void other_choices(ImportChoices& choices)
+{
+    for (size_t i = 0; i < choices.others.size(); ++i) {
+        ImGui::PushID(int(i));
+        const bool leave_out = ImGui::Selectable(("Faces " + choices.others[i]).c_str(), true);
+        ImGui::PopID();
+        if (leave_out) {
+            choices.others.erase(choices.others.begin() + long(i));
+            break;
+        }
+    }
 }
 
 /// The items as a list, those that hold others before these and farther to the left.
@@ -128,42 +148,46 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
     const float s = frame.ui.scale;
     std::optional<int> hovered;
     ImGui::BeginChild("items", size, true);
-    const bool everything = std::none_of(choices.chosen.begin(), choices.chosen.end(), [](char c) { return c != 0; });
-    if (ImGui::Selectable("The whole file", everything))
+    const bool everything = choices.others.empty() &&
+                            std::none_of(choices.chosen.begin(), choices.chosen.end(), [](char c) { return c != 0; });
+    if (ImGui::Selectable("The whole file", everything)) {
         std::fill(choices.chosen.begin(), choices.chosen.end(), char(0));
-    note_place(frame, "import whole");
-    ImGui::Dummy({0, 2 * s});
-    for (int i = 0; i < int(items.item.size()); ++i) {
-        const FileItem& item = items.item[size_t(i)];
-        int depth = 0;
-        for (int holder = item.parent; holder >= 0; holder = items.item[size_t(holder)].parent)
-            ++depth;
-        ImGui::PushID(i);
-        const float indent = 14 * s * float(std::min(depth, 8));
-        if (indent > 0)
-            ImGui::Indent(indent);
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float line = ImGui::GetTextLineHeight(), room = ImGui::GetContentRegionAvail().x;
-        ImGui::BeginDisabled(item.choice.empty() || item.faces == 0);
-        if (ImGui::Selectable("##item", choices.chosen[size_t(i)] != 0, 0, {0, 2 * line}))
-            choose(choices, i, ImGui::GetIO().KeyCtrl);
-        ImGui::EndDisabled();
-        note_place(frame, fmt::format("import item {}", i));
-        if (ImGui::IsItemHovered()) {
-            hovered = i;
-            tooltip(item_words(items, item) + "\n" + item_figures(items, item) +
-                    (item.choice.empty() ? "" : "\nClick for this one, Ctrl and click for more"));
-        }
-        ImDrawList* draw = ImGui::GetWindowDrawList();
-        draw->PushClipRect(at, {at.x + room, at.y + 2 * line}, true);
-        draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), item_words(items, item).c_str());
-        draw->AddText(frame.ui.fonts.small, frame.ui.fonts.small->FontSize, {at.x, at.y + line}, ink(p.muted),
-                      item_figures(items, item).c_str());
-        draw->PopClipRect();
-        if (indent > 0)
-            ImGui::Unindent(indent);
-        ImGui::PopID();
+        choices.others.clear();
     }
+    note_place(frame, "import whole");
+    other_choices(choices);
+    ImGui::Dummy({0, 2 * s});
+    ImGuiListClipper rows; // a car has ten thousand parts
+    rows.Begin(int(items.item.size()), 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y);
+    while (rows.Step())
+        for (int i = rows.DisplayStart; i < rows.DisplayEnd; ++i) {
+            const FileItem& item = items.item[size_t(i)];
+            ImGui::PushID(i);
+            const float indent = 14 * s * float(std::min(listed.depth[size_t(i)], 8));
+            if (indent > 0)
+                ImGui::Indent(indent);
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            const float line = ImGui::GetTextLineHeight(), room = ImGui::GetContentRegionAvail().x;
+            ImGui::BeginDisabled(item.choice.empty() || item.faces == 0);
+            if (ImGui::Selectable("##item", choices.chosen[size_t(i)] != 0, 0, {0, 2 * line}))
+                choose(choices, i, ImGui::GetIO().KeyCtrl);
+            ImGui::EndDisabled();
+            note_place(frame, fmt::format("import item {}", i));
+            if (ImGui::IsItemHovered()) {
+                hovered = i;
+                tooltip(item_words(items, item) + "\n" + item_figures(items, item) +
+                        (item.choice.empty() ? "" : "\nClick for this one, Ctrl and click for more"));
+            }
+            ImDrawList* draw = ImGui::GetWindowDrawList();
+            draw->PushClipRect(at, {at.x + room, at.y + 2 * line}, true);
+            draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), item_words(items, item).c_str());
+            draw->AddText(frame.ui.fonts.small, frame.ui.fonts.small->FontSize, {at.x, at.y + line}, ink(p.muted),
+                          item_figures(items, item).c_str());
+            draw->PopClipRect();
+            if (indent > 0)
+                ImGui::Unindent(indent);
+            ImGui::PopID();
+        }
     ImGui::EndChild();
     if (hovered || ImGui::IsItemHovered())
         choices.hovered = hovered;
@@ -254,8 +278,11 @@ void unit_choice(Frame& frame, const FileItems& items)
     ImportChoices& choices = frame.ui.importing;
     const bool stated = !items.unit.empty() && is_cad_file(items);
     ImGui::BeginDisabled(stated);
-    const std::string shown = !choices.unit.empty() ? choices.unit : items.unit.empty() ? "mm" : unit_words(items.unit);
+    const std::string own = items.unit.empty() ? "mm" : unit_words(items.unit);
+    const std::string shown = !choices.unit.empty() ? choices.unit : own;
     if (ImGui::BeginCombo("Unit", shown.c_str())) {
+        if (!items.unit.empty() && ImGui::Selectable((own + " (of the file)").c_str(), choices.unit.empty()))
+            choices.unit.clear();
         for (const char* unit : {"mm", "cm", "m", "inch"})
             if (ImGui::Selectable(unit, shown == unit))
                 choices.unit = unit;
@@ -269,13 +296,17 @@ void unit_choice(Frame& frame, const FileItems& items)
 
 void skin_choice(ImportChoices& choices)
 {
-    if (ImGui::BeginCombo("Skin", choices.skin ? name(*choices.skin) : "outer")) {
+    if (ImGui::BeginCombo("Skin", choices.skin ? name(*choices.skin) : "automatic")) {
+        if (ImGui::Selectable("automatic", !choices.skin))
+            choices.skin.reset();
         for (const Skin skin : {Skin::outer, Skin::inner, Skin::middle})
-            if (ImGui::Selectable(name(skin), skin == choices.skin.value_or(Skin::outer)))
+            if (ImGui::Selectable(name(skin), skin == choices.skin))
                 choices.skin = skin;
         ImGui::EndCombo();
     } else
-        tooltip("Of a solid: the side of the sheet that is read, or the surface in the middle between both");
+        tooltip(
+            "Of a solid: the side of the sheet that is read, or the surface in the middle between both. Automatic: the "
+            "outer side of what is a solid of sheet");
 }
 
 void length_field(const Frame& frame, const char* label, std::string& text, bool sound, const char* help)
@@ -294,8 +325,10 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
     ImportChoices& choices = frame.ui.importing;
     Reading reading;
     reading.parts = choices_of(items, choices.chosen);
-    const bool sewing = read_length(choices.sewing, true, reading.sewing_mm),
-               deflection = read_length(choices.deflection, false, reading.deflection_mm);
+    reading.parts.insert(reading.parts.end(), choices.others.begin(), choices.others.end());
+    reading.weld = choices.weld;
+    const bool sewing = read_length(choices.sewing, gap_width, reading.sewing_mm),
+               deflection = read_length(choices.deflection, chord_height, reading.deflection_mm);
     const float s = frame.ui.scale, width = 118 * s;
     if (ImGui::BeginTable("options", 2, ImGuiTableFlags_SizingStretchSame)) {
         ImGui::TableNextColumn();
@@ -368,9 +401,18 @@ void import_dialog(Frame& frame)
 {
     constexpr const char* title = "Open a part";
     const auto& listing = frame.state.listing;
-    if (!listing || frame.ui.held)
+    if (frame.ui.held)
         return;
     ImportChoices& choices = frame.ui.importing;
+    if (!listing) {
+        if (choices.about) // nothing of the file stays in memory
+            std::exchange(choices, {}).worker.swap(choices.worker);
+        if (ImGui::IsPopupOpen(title) && begin_dialog(frame, title, false, 860)) { // closed by an action
+            ImGui::CloseCurrentPopup();
+            end_dialog();
+        }
+        return;
+    }
     if (!begin_dialog(frame, title, !ImGui::IsPopupOpen(title), 860))
         return;
     ImGui::PushFont(frame.ui.fonts.bold);
@@ -392,12 +434,16 @@ void import_dialog(Frame& frame)
         progress_or_failure(frame, *listing);
     ImGui::Separator();
     const bool typing = ImGui::GetIO().WantTextInput;
-    const Answer answer = answer_buttons(frame, "Open", reading.has_value(), palette_of(frame.state.view.dark).accent);
+    // While a job runs a part cannot be read again, and none is opened during an export.
+    const bool possible = reading && !(listing->again && frame.model.busy()) && !frame.model.exporting();
+    const Answer answer = answer_buttons(frame, listing->again ? "Read again" : "Open", possible,
+                                         palette_of(frame.state.view.dark).accent);
     note_place(frame, "import open");
-    if (reading && (answer == Answer::yes || (enter_pressed(frame) && !typing))) {
-        frame.actions.push(OpenPart{listing->file, choices.unit, *reading});
-        frame.actions.push(CloseList{});
-        ImGui::CloseCurrentPopup();
+    if (possible && (answer == Answer::yes || (enter_pressed(frame) && !typing))) { // closes it unless it is refused
+        if (listing->again)
+            frame.actions.push(ReadAgain{choices.unit, *reading});
+        else
+            frame.actions.push(OpenPart{listing->file, choices.unit, *reading});
     } else if (answer == Answer::cancel || (pressed(frame, GLFW_KEY_ESCAPE) && !typing)) {
         frame.actions.push(CloseList{});
         ImGui::CloseCurrentPopup();

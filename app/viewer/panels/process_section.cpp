@@ -4,6 +4,7 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {
@@ -153,7 +154,7 @@ void end_line(Frame& frame)
     for (const Eigen::Vector3d& place : drawn) {
         Eigen::Index nearest = 0;
         (part.mesh.position.colwise() - place).colwise().squaredNorm().minCoeff(&nearest);
-        const int vertex = part.source_vertex[size_t(nearest)];
+        const int vertex = number_as_read(part, int(nearest)); // the part is cut before it is remeshed
         if (seam.path[0].empty() || seam.path[0].back() != vertex)
             seam.path[0].push_back(vertex);
     }

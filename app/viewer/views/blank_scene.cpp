@@ -8,6 +8,7 @@
 #include "app/viewer/views/views.h"
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {
@@ -40,17 +41,18 @@ const FlatShape& flat_shape(const ViewerState& state, const SceneCache::LiveBlan
 std::optional<std::array<int, 4>> corners(const ViewerState& state, SceneCache& cache)
 {
     const Session& session = state.document.session;
-    if (session.options.corners) {
-        std::array<int, 4> result;
-        const std::vector<int>& in_file = session.part->source_vertex; // never decreases
-        for (size_t k = 0; k < 4; ++k) {
-            const auto found = std::lower_bound(in_file.begin(), in_file.end(), (*session.options.corners)[k]);
-            if (found == in_file.end() || *found != (*session.options.corners)[k])
-                return std::nullopt; // of another file; making the grid says so
-            result[k] = int(found - in_file.begin());
-        }
-        return result;
-    }
+    if (session.options.corners)
+        return cache.chosen_corners.of(
+            {session.part, *session.options.corners}, [&]() -> std::optional<std::array<int, 4>> {
+                std::array<int, 4> result;
+                for (size_t k = 0; k < 4; ++k) {
+                    const auto found = vertices_called(*session.part, (*session.options.corners)[k]);
+                    if (found.empty())
+                        return std::nullopt; // of another file; making the grid says so
+                    result[k] = found[0];
+                }
+                return result;
+            });
     if (session.grid)
         return session.grid->boundary.corner;
     if (state.view.tool != Tool::corners)

@@ -8,16 +8,6 @@
 namespace spia::viewer {
 namespace {
 
-/// Per item, whether it or what holds it is chosen.
-std::vector<char> with_what_they_hold(const FileItems& items, const std::vector<char>& chosen)
-{
-    std::vector<char> all = chosen;
-    for (size_t i = 0; i < items.item.size(); ++i) // holders come first
-        if (const int holder = items.item[i].parent; holder >= 0 && all[size_t(holder)])
-            all[i] = 1;
-    return all;
-}
-
 PreviewPiece piece_of(const ListedFile& listed, std::vector<int> triangle)
 {
     PreviewPiece piece;
@@ -48,10 +38,14 @@ SceneLayer layer_of(const ListedFile& listed, const PreviewPiece& piece, const C
     layer.colour = layer.back = colour;
     if (!hovered)
         return layer;
+    std::vector<char> lit(listed.items.item.size(), 0);
+    lit[size_t(*hovered)] = 1;
+    lit = with_what_they_hold(listed.items, std::move(lit));
     auto marks = std::make_shared<FaceMarks>();
+    marks->mark.reserve(piece.triangle.size());
     for (const int t : piece.triangle) {
         const int item = listed.items.item_of[size_t(listed.polygon[size_t(t)])];
-        marks->mark.push_back(item >= 0 && lies_in(listed.items, item, *hovered) ? FaceMarks::hovered : 0);
+        marks->mark.push_back(item >= 0 && lit[size_t(item)] ? FaceMarks::hovered : 0);
     }
     layer.marks = std::move(marks);
     return layer;

@@ -153,6 +153,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_elsewhere;
     Memo<std::vector<std::vector<ClosestPoint>>, Part, std::vector<ProcessLine>> line_places;
     Vertices vertices_on_part, vertices_on_blank;
+    Memo<std::optional<std::array<int, 4>>, Part, std::array<int, 4>> chosen_corners;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;

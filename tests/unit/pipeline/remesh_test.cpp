@@ -7,12 +7,14 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"
+#include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
 namespace {
@@ -163,7 +165,53 @@ TEST(RemeshedPart, NumbersAreThoseOfTheFile)
         ASSERT_EQ(vertices.size(), 1U) << number;
         EXPECT_LT((part.mesh.position.col(vertices[0]) - given.mesh.position.col(number)).norm(), 9);
     }
-    EXPECT_TRUE(vertices_called(part, given.file_vertices).empty());
+    EXPECT_TRUE(vertices_called(part, -1).empty());
+    for (int v = 0; v < part.mesh.vertices(); v += 17)
+        EXPECT_EQ(vertices_called(part, number_of(part, v)), std::vector<int>{v});
+    EXPECT_TRUE(vertices_called(part, given.file_vertices + part.mesh.vertices()).empty());
+    EXPECT_EQ(number_of(given, 7), 7);
+}
+
+/// A tube that is cut open has both banks of the cut for corners, as it has without remeshing.
+TEST(RemeshedPart, ANumberOnASeamIsAVertexOnEachBank)
+{
+    const ScratchFolder scratch;
+    const auto file = scratch / "tube.obj";
+    constexpr int around = 32, along = 10;
+    std::ofstream text(file);
+    for (int j = 0; j <= along; ++j)
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2 * std::numbers::pi * i / around;
+            text << "v " << 30 * std::cos(angle) << ' ' << 30 * std::sin(angle) << ' ' << 8 * j << '\n';
+        }
+    for (int j = 0; j < along; ++j)
+        for (int i = 0; i < around; ++i)
+            text << "f " << j * around + i + 1 << ' ' << j * around + (i + 1) % around + 1 << ' '
+                 << (j + 1) * around + (i + 1) % around + 1 << ' ' << (j + 1) * around + i + 1 << '\n';
+    text.close();
+    for (const double size : {2.5, 5., 11.}) {
+        Session session;
+        session.file = file;
+        session.options.read.seam.mode = SeamOptions::Mode::given;
+        session.options.read.seam.path = {{0, around * along}};
+        session.options.read.remesh.emplace().size = size;
+        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+        session.options.corners = {0, 0, around * along, around * along};
+        session = run_stage(Stage::read, session);
+        const PartFile& part = *session.part;
+        EXPECT_EQ(boundary_loops(part.mesh).size(), 1U);
+        for (const int number : {0, 5 * around, around * along}) {
+            const std::vector<int> banks = vertices_called(part, number);
+            ASSERT_EQ(banks.size(), 2U) << number << " at size " << size;
+            const Eigen::Vector3d between = part.mesh.position.col(banks[1]) - part.mesh.position.col(banks[0]);
+            EXPECT_LT(between.norm(), 12) << "both lie at the place of the vertex";
+        }
+        for (const Stage stage : {Stage::solve, Stage::grid})
+            session = run_stage(stage, session);
+        const std::array<int, 4> corner = session.grid->boundary.corner;
+        for (size_t k = 0; k < 4; ++k)
+            EXPECT_NEAR(part.mesh.position(2, corner[k]), k < 2 ? 0 : 80, 1e-9) << k;
+    }
 }
 
 } // namespace

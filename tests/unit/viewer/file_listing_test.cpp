@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <tuple>
 
 #include "app/viewer/model/project_file.h"
 #include "app/viewer/model/script.h"
@@ -50,9 +51,8 @@ TEST_F(LookedInto, APartIsChosenOfADeckAndRead)
     Reading reading;
     reading.parts = choices_of(file.items, {0, 1});
     EXPECT_THAT(reading.parts, ElementsAre("9"));
-    EXPECT_EQ(items_of(file.items, reading.parts), (std::vector<char>{0, 1}));
+    EXPECT_THAT(items_of(file.items, reading.parts).item, ElementsAre(0, 1));
     model.apply(OpenPart{deck, "cm", reading});
-    model.apply(CloseList{});
     wait();
     ASSERT_NE(document.session.part, nullptr);
     EXPECT_EQ(document.session.part->mesh.triangles(), 4);
@@ -75,6 +75,67 @@ TEST_F(LookedInto, WhatCannotBeReadIsSaidAndAnotherFileTakesItsPlace)
     model.apply(CloseList{}); // while it is being read
     wait();
     EXPECT_FALSE(state.listing);
+}
+
+TEST_F(LookedInto, TheFileOfThePartIsReadAgainWithoutLosingWhatWasDone)
+{
+    Reading reading;
+    reading.parts = {"7"};
+    model.apply(OpenPart{deck, "", reading});
+    wait();
+    model.apply(SelectFaces{{0, 1}});
+    model.apply(MakeRegion{"flat"});
+    ASSERT_EQ(document.regions.size(), 1u);
+    model.apply(ListFile{scratch / "other.k", true});
+    EXPECT_FALSE(state.listing) << "it is not that of the part";
+    model.apply(ListFile{deck, true});
+    wait();
+    ASSERT_TRUE(state.listing && state.listing->again);
+    reading.parts = {"7", "9"};
+    model.apply(ReadAgain{"", reading});
+    wait();
+    EXPECT_FALSE(state.listing) << "it is closed when it is read";
+    ASSERT_NE(document.session.part, nullptr);
+    EXPECT_EQ(document.session.part->mesh.triangles(), 12);
+    ASSERT_EQ(document.regions.size(), 1u) << "regions are found again";
+    EXPECT_EQ(document.regions[0].name, "flat");
+    model.apply(Undo{});
+    wait();
+    EXPECT_THAT(document.session.options.read.parts, ElementsAre("7"));
+    const auto part = document.session.part;
+    model.apply(ListFile{deck, true});
+    wait();
+    reading.parts = {"7"};
+    model.apply(ReadAgain{"", reading});
+    wait();
+    EXPECT_EQ(document.session.part, part) << "nothing else was chosen";
+    EXPECT_FALSE(state.listing);
+    model.apply(ReadAgain{"inch", reading});
+    wait();
+    EXPECT_EQ(document.session.part->unit, LengthUnit::inch);
+    EXPECT_EQ(document.regions.size(), 1u);
+}
+
+/// Looking into a large file is given up for another one.
+TEST_F(LookedInto, AFileThatTakesLongIsLeftForAnother)
+{
+    put(
+        scratch / "long.k", "*KEYWORD\n*NODE\n" + [] {
+            std::string nodes;
+            for (int i = 1; i < 400'000; ++i)
+                nodes += std::to_string(i) + ",0,0,0\n";
+            return nodes;
+        }());
+    model.apply(ListFile{scratch / "long.k"});
+    EXPECT_EQ(state.listing->listed, nullptr);
+    model.apply(ListFile{deck}); // at once
+    wait();
+    ASSERT_TRUE(state.listing && state.listing->listed);
+    EXPECT_EQ(state.listing->file, deck);
+    EXPECT_EQ(state.listing->listed->items.item.size(), 2u);
+    model.apply(ListFile{scratch / "long.k"});
+    model.apply(CancelJob{});
+    EXPECT_FALSE(state.listing) << "looking is work that can be cancelled";
 }
 
 TEST_F(LookedInto, ThePreviewTellsWhatIsChosen)
@@ -113,11 +174,24 @@ TEST(FileItems, WhatLiesInAChosenItemIsNotNamedTwice)
         items.item[i].area = i == 0 ? 99 : double(i);
     }
     EXPECT_THAT(choices_of(items, {1, 1, 0, 1}), ElementsAre("assembly:0", "body:2"));
-    EXPECT_TRUE(lies_in(items, 2, 0));
-    EXPECT_FALSE(lies_in(items, 3, 0));
+    EXPECT_THAT(with_what_they_hold(items, {1, 0, 0, 0}), ElementsAre(1, 1, 1, 0));
     EXPECT_EQ(proposed_item(items), 3) << "the largest that holds no others";
     items.item.resize(1);
     EXPECT_EQ(proposed_item(items), -1) << "there is no choice";
+}
+
+TEST(FileItems, AreFoundByTheirNamesToo)
+{
+    FileItems items;
+    items.item.resize(4);
+    const std::pair<const char*, const char*> called[] = {{"7", "Hood"}, {"9", "hood"}, {"12", "Rail"}, {"", "Rest"}};
+    for (size_t i = 0; i < 4; ++i)
+        std::tie(items.item[i].choice, items.item[i].name) = called[i];
+    const auto chosen = [&](const std::vector<std::string>& choices) { return items_of(items, choices); };
+    EXPECT_THAT(chosen({"9", "RAIL"}).item, ElementsAre(0, 1, 1, 0));
+    EXPECT_THAT(chosen({"hood"}).item, ElementsAre(0, 1, 0, 0)) << "as it is written, before any case";
+    EXPECT_THAT(chosen({"3", "Rail", "10-19", "Rest"}).others, ElementsAre("3", "10-19", "Rest"))
+        << "faces, and what cannot be chosen";
 }
 
 TEST(FileItems, TrianglesWithoutPlaceAreLeftOutOfThePreview)
