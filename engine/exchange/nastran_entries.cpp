@@ -58,7 +58,10 @@ std::string_view without_sign(std::string_view mark)
 
 } // namespace
 
-NastranEntries::NastranEntries(DeckLines& lines) : lines_(lines), in_bulk_(!has_control_sections(lines.text())) {}
+NastranEntries::NastranEntries(DeckLines& lines)
+    : lines_(lines), end_missing_(has_control_sections(lines.text())), in_bulk_(!end_missing_)
+{
+}
 
 /// Goes to a line that is neither empty nor a comment.
 bool NastranEntries::next_line()
@@ -99,9 +102,10 @@ bool NastranEntries::next()
         }
         if (starts_with_word(line_, "INCLUDE"))
             include(trimmed(line_).substr(7));
-        else if (starts_with_word(line_, "ENDDATA"))
+        else if (starts_with_word(line_, "ENDDATA")) {
+            end_missing_ = end_missing_ && lines_.depth() > 1;
             lines_.leave_file();
-        else if (!begins_bulk(line_))
+        } else if (!begins_bulk(line_))
             take(line_);
     }
     in_order_ = true;

@@ -27,6 +27,8 @@ public:
     /// Names that comments give to properties (HyperMesh, Femap).
     const std::map<std::int64_t, std::string>& property_names() const { return property_name_; }
 
+    bool end_missing() const { return end_missing_; } ///< it says where it begins and not where it ends
+
 private:
     bool next_line();
     bool continues() const;
@@ -40,6 +42,7 @@ private:
     std::string name_, mark_;          // mark: at the end of the last line
     std::vector<std::string_view> field_;
     DeckFields cut_;
+    bool end_missing_; // of a deck that says where it begins
     bool in_bulk_, ahead_ = false, in_order_ = true, too_long_ = false;
     std::map<std::int64_t, std::string> property_name_;
 };

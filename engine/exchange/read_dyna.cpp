@@ -57,11 +57,13 @@ private:
         const DynaKeyword keyword(line, top().usual);
         File& file = top();
         file = {.usual = file.usual, .format = keyword.format, .keyword = keyword.name};
-        if (keyword.name == "KEYWORD")
+        if (keyword.name == "KEYWORD") {
             file.usual = dyna_format(keyword.options, file.usual);
-        else if (keyword.name == "END")
+            end_missing_ = end_missing_ || lines_.depth() == 1;
+        } else if (keyword.name == "END") {
+            end_missing_ = end_missing_ && lines_.depth() > 1;
             lines_.leave_file();
-        else
+        } else
             file.card = card_of(keyword);
     }
 
@@ -212,6 +214,8 @@ private:
         parts_.finish();
         if (const std::string names = values_.parameters.undefined(); !names.empty())
             deck_.note("thicknesses are missing because parameters are not defined: " + names);
+        if (end_missing_)
+            deck_.note("the deck does not end with *END: if it was cut off, shells are missing");
         if (some_corners_ > 0)
             deck_.note(
                 fmt::format("{} shells have a thickness at some of their corners only: that of their section is taken",
@@ -238,6 +242,7 @@ private:
     DynaFormat child_format_ = DynaFormat::standard;
     Shell shell_ = {};
     bool with_thickness_ = false, thickness_next_ = false, not_written_back_ = false;
+    bool end_missing_ = false; // of a deck that says where it begins
     int cards_behind_ = 0, passed_over_ = 0, middle_nodes_ = 0, some_corners_ = 0, directed_ = 0;
 };
 

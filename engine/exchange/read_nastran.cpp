@@ -116,10 +116,12 @@ private:
             else
                 ++unknown_thickness_;
         }
+        if (entry_.end_missing())
+            deck_.note("the deck does not end with ENDDATA: if it was cut off, shells are missing");
         if (unknown_thickness_ > 0)
-            deck_.note(
-                fmt::format("{} shells have a thickness at some corners only or as a share, and their property has none",
-                            unknown_thickness_));
+            deck_.note(fmt::format(
+                "{} shells have a thickness at some corners only or as a share, and their property has none",
+                unknown_thickness_));
         if (not_written_back_ > 0)
             deck_.note(
                 fmt::format("{} shells have a material direction or an offset; what is written for this deck does "

@@ -52,6 +52,9 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
     part.unit = options.unit.value_or(deck.unit.value_or(LengthUnit::mm));
     part.notes = deck.notes;
     part.notes.insert(part.notes.end(), choice.notes.begin(), choice.notes.end());
+    if (deck.unit && *deck.unit != part.unit)
+        part.notes.push_back(fmt::format("the deck says that its lengths are in {}; they are taken as {}, as was asked",
+                                         name(*deck.unit), name(part.unit)));
     part.deck = origin_of(deck, choice);
     for (Eigen::Vector3d& p : choice.soup.position)
         p *= millimetres(part.unit);

@@ -157,8 +157,14 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
     note_place(frame, "import whole");
     other_choices(choices);
     ImGui::Dummy({0, 2 * s});
+    const float row = 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    if (std::exchange(choices.fresh, false)) // what is proposed is in sight
+        if (const auto first = std::find(choices.chosen.begin(), choices.chosen.end(), char(1));
+            first != choices.chosen.end())
+            ImGui::SetScrollY(
+                std::max(0.f, ImGui::GetCursorPosY() + row * float(first - choices.chosen.begin()) - size.y / 2));
     ImGuiListClipper rows; // a car has ten thousand parts
-    rows.Begin(int(items.item.size()), 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y);
+    rows.Begin(int(items.item.size()), row);
     while (rows.Step())
         for (int i = rows.DisplayStart; i < rows.DisplayEnd; ++i) {
             const FileItem& item = items.item[size_t(i)];

@@ -22,6 +22,7 @@ struct Frame;
 struct ImportChoices {
     std::shared_ptr<const ListedFile> about; ///< with it the choices begin anew
     std::vector<char> chosen;                ///< per item
+    bool fresh = true;                       ///< the list has not been shown yet
     std::vector<std::string> others;         ///< chosen as well, faces by their numbers
     std::optional<bool> weld;                ///< as the part was read
     std::string unit;                        ///< empty: as the file says, else mm

@@ -167,7 +167,7 @@ TEST_F(DynaIncludes, FilesBesideTheDeckAndBelowItInTheirOwnFormats)
     std::filesystem::create_directories(scratch / "sub folder");
     put("main.k",
         "*KEYWORD\n*INCLUDE\n$ a comment\nsub folder/nodes.k\nsub folder/\xc3\xa4 very long +\nname.k\n*INCLUDE %\ni10.k\n*PART\nlid\n"
-        "         7         5         6\n");
+        "         7         5         6\n*END\n");
     put("sub folder/nodes.k",
         "*KEYWORD LONG=Y\n*NODE\n                   1                 0.0                 0.0                 0.0\n*INCLUDE -\nmore.k\n"
         "*NODE\n                   2                 1.0                 0.0                 0.0\n");
@@ -251,6 +251,14 @@ TEST_F(DynaIncludes, WhatIsMissingIsTold)
     put("broken.k", "*NODE\n5,1,x,0\n");
     put("main.k", four_nodes + "*INCLUDE\nbroken.k\n");
     EXPECT_NE(refusal("main.k").find("broken.k, line 2: 'x' is not a number"), std::string::npos) << refusal("main.k");
+}
+
+TEST(DynaDeck, AnEndThatIsMissingIsTold)
+{
+    const std::string deck = four_nodes + "*ELEMENT_SHELL\n1,7,1,2,3,4\n";
+    EXPECT_TRUE(has_note(read("*KEYWORD\n" + deck), "does not end with *END"));
+    EXPECT_FALSE(has_note(read("*KEYWORD\n" + deck + "*end\n"), "does not end with *END"));
+    EXPECT_FALSE(has_note(read(deck), "does not end with *END")) << "a file to be included";
 }
 
 TEST(DynaDeck, WhatIsNotReadIsTold)

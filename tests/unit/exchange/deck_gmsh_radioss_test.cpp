@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "engine/exchange/deck_choice.h"
+#include "engine/exchange/read_part.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -87,6 +89,22 @@ TEST(RadiossDeck, ElementsHaveTheirOwnThicknessAndUnits)
     EXPECT_EQ(deck.unit, LengthUnit::m);
     EXPECT_TRUE(has_note(deck, "/BRICK lines (2)"));
     EXPECT_TRUE(has_note(deck, "/GRBRIC"));
+}
+
+TEST(RadiossDeck, AUnitThatIsGivenAgainstThatOfTheDeckIsTold)
+{
+    const ScratchFolder scratch;
+    put(scratch / "a.rad", "/BEGIN\nrun\n      2022         0\n" + fmt::format("{:>20}{:>20}{:>20}\n", "Mg", "m", "s") +
+                               cards + "/SH3N/4\n         1         1         2         3\n");
+    const auto told = [&](std::optional<LengthUnit> unit) {
+        const PartFile part = read_part(scratch / "a.rad", {.unit = unit});
+        return std::any_of(part.notes.begin(), part.notes.end(), [](const std::string& note) {
+            return note == "the deck says that its lengths are in m; they are taken as mm, as was asked";
+        });
+    };
+    EXPECT_FALSE(told({}));
+    EXPECT_FALSE(told(LengthUnit::m));
+    EXPECT_TRUE(told(LengthUnit::mm));
 }
 
 TEST(RadiossDeck, AThicknessInUnitsOfItsOwnIsToldAndNotTaken)

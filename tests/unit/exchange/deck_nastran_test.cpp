@@ -63,6 +63,13 @@ TEST(NastranDeck, ControlSectionsAndTheEndMayBeThereOrNot)
         << refusal("a.dat", "this is\nno deck\n");
 }
 
+TEST(NastranDeck, AnEndThatIsMissingIsTold)
+{
+    EXPECT_TRUE(has_note(read("CEND\nBEGIN BULK\n" + square), "does not end with ENDDATA"));
+    EXPECT_FALSE(has_note(read("CEND\nBEGIN BULK\n" + square + "ENDDATA\n"), "does not end with ENDDATA"));
+    EXPECT_FALSE(has_note(read(square), "does not end with ENDDATA"));
+}
+
 TEST(NastranDeck, PropertiesGiveThicknessMaterialAndName)
 {
     const auto part = [](const std::string& text) { return read(square + text).parts.at(0); };

@@ -12,6 +12,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/part_shells.h"
+#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "tests/unit/exchange/scratch_folder.h"
