@@ -65,6 +65,7 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
     remeshed.original = std::make_shared<TriMesh>(std::exchange(part.mesh, std::move(result.mesh)));
     if (part.cad)
         number_anew(part);
+    std::erase_if(part.doctor.findings, [](const Finding& finding) { return finding.fault == Fault::sliver; }); // gone
     part.notes.push_back(in_words(remeshed));
 }
 

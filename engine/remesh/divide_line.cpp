@@ -17,7 +17,8 @@ double distance_to_chord(const Eigen::Vector3d& a, const Eigen::Vector3d& b, con
 
 } // namespace
 
-LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, const Eigen::VectorXd& size, double sagitta)
+LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, const Eigen::VectorXd& size,
+                         const Eigen::VectorXd& sagitta, const Progress& progress)
 {
     constexpr double longest_chord = 1.4; // of the size asked for
     const size_t n = line.size();
@@ -30,7 +31,8 @@ LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, cons
     cost[0] = 0;
     const bool closed = line.front() == line.back();
     constexpr size_t most_left_out = 256; // at a time: what was finer by more stays somewhat finer
-    for (size_t j = 1; j < n; ++j)
+    for (size_t j = 1; j < n; ++j) {
+        progress.checkpoint(double(j) / double(n), "dividing the kept lines");
         for (size_t i = j; i-- > (j > most_left_out ? j - most_left_out : 0);) {
             const double length = std::max(along[j] - along[i], 1e-6);
             if (j > i + 1) {
@@ -38,7 +40,7 @@ LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, cons
                     break;
                 bool near = true;
                 for (size_t k = i + 1; k < j && near; ++k)
-                    near = distance_to_chord(at(i), at(j), at(k)) <= sagitta;
+                    near = distance_to_chord(at(i), at(j), at(k)) <= sagitta[line[k]];
                 if (!near)
                     continue;
             }
@@ -48,6 +50,7 @@ LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, cons
                 before[j] = i;
             }
         }
+    }
     LineDivision result{std::vector<char>(n, 0), std::vector<int>(n - 1, 1)};
     result.keep[n - 1] = 1;
     for (size_t j = n - 1; j > 0; j = before[j]) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -12,9 +13,10 @@ struct LineDivision {
 };
 
 /// Divides a line so that each piece is about as long as the sizes at its ends ask, least squares of the logarithm of the ratio over the
-/// whole line. A vertex is left out only if the line stays within `sagitta` of it; all other points lie on the line.
-/// @param size  #V, mm
+/// whole line. A vertex is left out only if the line stays within the sagitta allowed there; all other points lie on the line.
+/// @param size     #V, mm
+/// @param sagitta  #V, mm
 LineDivision divide_line(const TriMesh& mesh, const std::vector<int>& line, const Eigen::VectorXd& size,
-                         double sagitta);
+                         const Eigen::VectorXd& sagitta, const Progress& progress = {});
 
 } // namespace spia

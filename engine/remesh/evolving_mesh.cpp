@@ -21,7 +21,8 @@ bool same_side(const Eigen::Vector3d& before, const Eigen::Vector3d& after)
 } // namespace
 
 EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
-                           const ClosestPointSearch& search, double sagitta)
+                           const ClosestPointSearch& search, double sagitta, const Eigen::VectorXd& gap,
+                           const Progress& progress)
     : original_(original), original_normal_(area_vectors(original)), original_size_(size), search_(search),
       sagitta_(sagitta), mesh_(halfedges(original)), on_line_(lines.on_line.begin(), lines.on_line.end()),
       drop_(size_t(original.vertices()), 0), size_(size.begin(), size.end())
@@ -34,8 +35,9 @@ EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, cons
     for (const std::vector<int>& line : lines.line)
         for (size_t i = 0; i + 1 < line.size(); ++i)
             line_edge_[size_t(edge_between(Vertex(line[i]), Vertex(line[i + 1])).idx())] = 1;
+    const Eigen::VectorXd along_border = (gap / 3).cwiseMin(sagitta);
     for (const std::vector<int>& line : lines.line)
-        divide(line);
+        divide(line, along_border, progress);
     for (const std::vector<int>& line : lines.line)
         if (line.front() != line.back())
             forget_crumb(line);
@@ -133,9 +135,9 @@ void EvolvingMesh::split(Edge edge)
 }
 
 /// Puts all new vertices on the line; those that are not kept go in drop_line_vertices().
-void EvolvingMesh::divide(const std::vector<int>& line)
+void EvolvingMesh::divide(const std::vector<int>& line, const Eigen::VectorXd& sagitta, const Progress& progress)
 {
-    const LineDivision division = divide_line(original_, line, original_size_, sagitta_);
+    const LineDivision division = divide_line(original_, line, original_size_, sagitta, progress);
     for (size_t i = 0; i + 1 < line.size(); ++i) {
         Vertex from(line[i]);
         const Vertex to(line[i + 1]);

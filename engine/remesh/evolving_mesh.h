@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/remesh/kept_lines.h"
@@ -25,8 +26,10 @@ public:
     /// Divides the kept lines (divide_line()).
     /// @param size     of edges at each vertex, mm
     /// @param sagitta  mm, that the middle of a new edge may be off the given mesh
+    /// @param gap      border_clearance(): chords along the boundary take a third of it at most, so that banks do not cross
     EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
-                 const ClosestPointSearch& search, double sagitta);
+                 const ClosestPointSearch& search, double sagitta, const Eigen::VectorXd& gap,
+                 const Progress& progress);
 
     /// @name What it is. Numbers of what has been deleted stay until the end.
     ///@{
@@ -75,7 +78,7 @@ private:
     bool near(const Vector& a, const Vector& b) const;
     Edge edge_between(Vertex a, Vertex b) const { return mesh_.edge_handle(mesh_.find_halfedge(a, b)); }
     Vertex split(Edge edge, const Vector& position, double asked, bool line);
-    void divide(const std::vector<int>& line);
+    void divide(const std::vector<int>& line, const Eigen::VectorXd& sagitta, const Progress& progress);
     void forget_crumb(const std::vector<int>& line);
     void drop(Vertex v);
     bool may_collapse(Halfedge h, bool inner);

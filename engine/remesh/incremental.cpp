@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/remesh/border_clearance.h"
 #include "engine/remesh/evolving_mesh.h"
 #include "engine/remesh/triangle_quality.h"
 
@@ -23,7 +24,7 @@ constexpr double degrees = std::numbers::pi / 180;
 /// Calls each(i) for 0 <= i < count; large meshes take seconds.
 template <class Each> void for_all(int count, const Progress& progress, const char* what, const Each& each)
 {
-    constexpr int at_a_time = 16384;
+    constexpr int at_a_time = 256; // mending takes milliseconds each
     for (int i = 0; i < count; ++i) {
         if (i % at_a_time == 0)
             progress.checkpoint(double(i) / count, what);
@@ -217,8 +218,11 @@ TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const 
                              const Progress& progress)
 {
     progress.checkpoint(0, "dividing the kept lines");
-    EvolvingMesh mesh(part, lines, size, search, options.sagitta);
-    flip_for_angle(mesh, progress.part(0, 0.02)); // thin triangles hinder collapses
+    const Eigen::VectorXd gap = border_clearance(part, 1.5 * options.sagitta, progress.part(0, 0));
+    EvolvingMesh mesh(part, lines, size, search, options.sagitta, gap, progress.part(0, 0));
+    flip_for_angle(mesh, progress.part(0, 0.01)); // thin triangles hinder collapses
+    mesh.drop_line_vertices();                    // strips: what will go is not split along their length before
+    collapse_short(mesh, progress.part(0.01, 0.02));
     for (int round = 0; round < options.rounds; ++round) {
         const auto step = [&](double from, double to) {
             return progress.part(0.02 + 0.78 * (round + from) / options.rounds,

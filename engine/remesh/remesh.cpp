@@ -29,10 +29,11 @@ void require_in_range(const TriMesh& part, const RemeshOptions& options, std::sp
             fmt::format("the size of remeshing is {} mm; give one from {:.3g} to {:.3g} mm, a ten-thousandth "
                         "of the part's diagonal to all of it",
                         *options.size, 1e-4 * diagonal, diagonal));
-    if (options.tolerance && !(*options.tolerance > 0 && *options.tolerance <= 0.1 * diagonal))
-        throw InputError(fmt::format(
-            "the tolerance of remeshing is {} mm; give one above 0 and up to {:.3g} mm, a tenth of the part's diagonal",
-            *options.tolerance, 0.1 * diagonal));
+    if (options.tolerance && !(*options.tolerance >= 1e-7 * diagonal && *options.tolerance <= 0.1 * diagonal))
+        throw InputError(
+            fmt::format("the tolerance of remeshing is {} mm; give one from {:.3g} to {:.3g} mm, a ten-millionth "
+                        "to a tenth of the part's diagonal",
+                        *options.tolerance, 1e-7 * diagonal, 0.1 * diagonal));
     for (const auto& [angle, what] : {std::pair(options.sharp, "sharp edges"), {options.ridge, "ridges"}})
         if (!(angle > 0 && angle <= std::numbers::pi))
             throw InputError(

@@ -146,6 +146,22 @@ TEST(RemeshedPart, IsJudgedAgainstTheTrianglesThatWereGiven)
     EXPECT_EQ(session.surface->deviation.at_vertex.size(), session.grid->result.filled->mesh.vertices());
 }
 
+TEST(RemeshedPart, SliversThatAreGoneAreNotSpokenOf)
+{
+    const ScratchFolder scratch;
+    put(scratch / "a.obj", "v 0 0 0\nv 50 0 0\nv 100 0 0\nv 100 60 0\nv 0 60 0\nv 50 0.1 0\n"
+                           "f 1 2 6\nf 2 3 6\nf 3 4 6\nf 4 5 6\nf 5 1 6\n");
+    const auto slivers = [&](const ReadOptions& options) {
+        const PartFile part = read_part(scratch / "a.obj", options);
+        return std::count_if(part.doctor.findings.begin(), part.doctor.findings.end(),
+                             [](const Finding& finding) { return finding.fault == Fault::sliver; });
+    };
+    ReadOptions remeshed;
+    remeshed.remesh.emplace();
+    EXPECT_EQ(slivers({}), 1);
+    EXPECT_EQ(slivers(remeshed), 0);
+}
+
 TEST(RemeshedPart, NumbersAreThoseOfTheFile)
 {
     const auto file = std::filesystem::path(SPIA_SOURCE_DIR) / "assets/parts/dome.obj";

@@ -16,6 +16,7 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/edge_graph.h"
 #include "engine/mesh/topology.h"
+#include "engine/remesh/border_clearance.h"
 #include "engine/remesh/mesh_distance.h"
 #include "engine/remesh/thin_faces.h"
 #include "tests/support/developable.h"
@@ -347,6 +348,131 @@ TEST(Remesh, OneThreadOrTwoGiveTheSameBits)
     EXPECT_EQ(one.mesh.triangle, two.mesh.triangle);
     EXPECT_EQ(one.nearest_face, two.nearest_face);
     EXPECT_EQ(one.distance, two.distance);
+}
+
+/// A half ring in the plane with a slit along its middle, `width` wide, each of whose banks has its own vertices.
+TriMesh slit_ring(double width, int around)
+{
+    constexpr int across = 20, middle = across / 2;
+    std::map<std::array<int, 3>, int> number;
+    std::vector<Eigen::Vector3d> place;
+    const auto vertex = [&](int i, int j, int bank) {
+        const bool cut = j == middle && i > around / 10 && i < around - around / 10;
+        const auto [found, is_new] = number.try_emplace({i, j, cut ? bank : 0}, int(place.size()));
+        if (is_new) {
+            const double radius = 50 + 100.0 * j / across + (cut ? bank * width / 2 : 0), angle = pi * i / around;
+            place.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+        }
+        return found->second;
+    };
+    TriMesh mesh{{}, Eigen::Matrix3Xi(3, 2 * around * across)};
+    for (int i = 0, f = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j, f += 2) {
+            const int inner = j == middle ? 1 : 0, outer = j + 1 == middle ? -1 : 0;
+            const int a = vertex(i, j, inner), b = vertex(i, j + 1, outer), c = vertex(i + 1, j + 1, outer),
+                      d = vertex(i + 1, j, inner);
+            mesh.triangle.col(f) << a, b, c;
+            mesh.triangle.col(f + 1) << a, c, d;
+        }
+    mesh.position.resize(3, Eigen::Index(place.size()));
+    for (size_t v = 0; v < place.size(); ++v)
+        mesh.position.col(Eigen::Index(v)) = place[v];
+    return mesh;
+}
+
+/// How many of some places in the plane near the circle of radius 100 lie in several triangles.
+int covered_twice(const TriMesh& mesh)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> share(0, 1);
+    int twice = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const double radius = 99 + 2 * share(random), angle = pi * (0.15 + 0.7 * share(random));
+        const Eigen::Vector2d p(radius * std::cos(angle), radius * std::sin(angle));
+        int layers = 0;
+        for (int f = 0; f < mesh.triangles(); ++f) {
+            int left = 0;
+            for (int e = 0; e < 3; ++e) {
+                const Eigen::Vector2d a = mesh.position.col(mesh.triangle(e, f)).head<2>(),
+                                      b = mesh.position.col(mesh.triangle((e + 1) % 3, f)).head<2>();
+                left += (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x() > 0 ? 1 : -1;
+            }
+            layers += std::abs(left) == 3;
+        }
+        twice += layers > 1;
+    }
+    return twice;
+}
+
+TEST(Remesh, TheBanksOfANarrowSlitDoNotCross)
+{
+    for (const auto& [width, size, tolerance] :
+         {std::tuple(0.2, 25., 1.), {0.2, 17., 0.6}, {0.05, 10., 2.}, {2., 25., 1.}}) {
+        const TriMesh ring = slit_ring(width, 240);
+        ASSERT_EQ(covered_twice(ring), 0);
+        RemeshOptions options;
+        options.size = size;
+        options.tolerance = tolerance;
+        const RemeshResult result = remesh(ring, options);
+        EXPECT_EQ(covered_twice(result.mesh), 0) << width << ' ' << size << ' ' << tolerance;
+        EXPECT_LT(result.mesh.triangles(), ring.triangles()) << "it is coarser all the same";
+    }
+}
+
+TEST(BorderClearance, IsTheWidthOfSlitsAndHoles)
+{
+    const TriMesh ring = slit_ring(0.2, 240);
+    const Eigen::VectorXd gap = border_clearance(ring, 1);
+    for (int v = 0; v < ring.vertices(); ++v) {
+        const double radius = ring.position.col(v).norm(), angle = std::atan2(ring.position(1, v), ring.position(0, v));
+        const bool bank = std::abs(std::abs(radius - 100) - 0.1) < 1e-9;
+        if (bank && angle > 0.15 * pi && angle < 0.85 * pi) {
+            EXPECT_LE(gap[v], 0.2 + 1e-9);
+            EXPECT_GE(gap[v], 0.1);
+        } else if (std::abs(radius - 100) > 6) {
+            EXPECT_EQ(gap[v], 2) << "wider than that is not looked for";
+        }
+    }
+}
+
+/// A quarter of a cylinder in strips along its generators, as BRepMesh makes of bends.
+TriMesh strips(int count)
+{
+    TriMesh mesh{Eigen::Matrix3Xd(3, 2 * (count + 1)), Eigen::Matrix3Xi(3, 2 * count)};
+    for (int i = 0; i <= count; ++i)
+        for (int end = 0; end < 2; ++end) {
+            const double angle = pi / 2 * i / count;
+            mesh.position.col(2 * i + end) << 200 * std::cos(angle), 200 * std::sin(angle), 1000 * end;
+        }
+    for (int i = 0; i < count; ++i) {
+        mesh.triangle.col(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
+        mesh.triangle.col(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
+    }
+    return mesh;
+}
+
+TEST(Remesh, StripsAreNotDividedAlongTheirLengthBeforeTheyVanish)
+{
+    int reports = 0; // one for every 256 edges or faces that are looked at
+    const Progress progress([&](double, std::string_view) { ++reports; });
+    const RemeshResult result = remesh(strips(1000), {}, {}, progress);
+    EXPECT_LT(result.mesh.triangles(), 2000);
+    EXPECT_GT(result.after.least_angle_of_99, 30 * degrees);
+    EXPECT_LT(reports, 20000) << "145 000 where each strip is divided first, 6500 where not";
+}
+
+TEST(Remesh, ALongLineCanBeCancelledWhileItIsDivided)
+{
+    const auto cancel = std::make_shared<std::atomic<bool>>(false);
+    int reports = 0;
+    const Progress progress(
+        [&](double, std::string_view step) {
+            if (step == "dividing the kept lines" && ++reports == 500)
+                *cancel = true;
+        },
+        cancel);
+    EXPECT_THROW(remesh(strips(1000), {}, {}, progress), Cancelled);
+    EXPECT_EQ(reports, 500);
 }
 
 TEST(Remesh, EndsWhenItIsCancelled)
