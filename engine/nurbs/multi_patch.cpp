@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -118,6 +119,35 @@ void require_watertight(const MultiPatch& patches)
             throw InputError(fmt::format("{} and {} are not the same curve: {}; fit the patches with shared borders",
                                          name(joint.first), name(joint.second), *what));
     }
+}
+
+SharedControls shared_controls(const MultiPatch& patches)
+{
+    SharedControls result;
+    for (const NurbsSurface& patch : patches.patch) {
+        result.offset.push_back(int(result.number.size()));
+        result.number.resize(result.number.size() + size_t(patch.count_u) * size_t(patch.count_v));
+    }
+    std::vector<int> parent(result.number.size()); // the first of those that are one
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int c) {
+        while (parent[size_t(c)] != c)
+            c = parent[size_t(c)] = parent[size_t(parent[size_t(c)])];
+        return c;
+    };
+    for (const PatchInterface& joint : patches.interfaces) {
+        const std::vector<int> i = controls(patches, joint.first), j = controls(patches, joint.second, joint.reversed);
+        for (size_t k = 0; k < i.size(); ++k) {
+            const int a = root(result.offset[size_t(joint.first.patch)] + i[k]),
+                      b = root(result.offset[size_t(joint.second.patch)] + j[k]);
+            parent[size_t(std::max(a, b))] = std::min(a, b);
+        }
+    }
+    for (size_t c = 0; c < parent.size(); ++c) {
+        const int first = root(int(c));
+        result.number[c] = first == int(c) ? result.count++ : result.number[size_t(first)];
+    }
+    return result;
 }
 
 MultiPatch joined(std::vector<NurbsSurface> patches)

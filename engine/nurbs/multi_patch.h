@@ -53,4 +53,16 @@ std::vector<PatchSide> outer_sides(const MultiPatch& patches);
 ///         interface are not the same curve to the last bit; the message names both sides and what differs
 void require_watertight(const MultiPatch& patches);
 
+/// The control points of all patches, where those of shared sides and corners count once.
+struct SharedControls {
+    std::vector<int> offset; ///< per patch the place of its first control point in `number`
+    std::vector<int> number; ///< per control point of every patch its number, rising in the order of first appearance
+    int count = 0;           ///< different numbers
+
+    int of(int patch, int control) const { return number[size_t(offset[size_t(patch)] + control)]; }
+};
+
+/// @pre each interface joins sides with as many control points, see require_watertight()
+SharedControls shared_controls(const MultiPatch& patches);
+
 } // namespace spia
