@@ -1,5 +1,6 @@
 #include "engine/nurbs/patch_field.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
+#include "engine/nurbs/evaluate.h"
 
 namespace spia {
 
@@ -105,6 +107,29 @@ double evaluate_field(const NurbsSurface& surface, const Eigen::VectorXd& value,
             weight += share;
         }
     return sum / weight;
+}
+
+double field_mean(const NurbsSurface& surface, const Eigen::VectorXd& value)
+{
+    constexpr double place[] = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+                                0.861136311594052575};
+    constexpr double share[] = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143, 0.347854845137453857};
+    const std::vector<double> u = span_borders(surface.knots_u, surface.degree_u),
+                              v = span_borders(surface.knots_v, surface.degree_v);
+    double sum = 0, area = 0;
+    for (size_t j = 0; j + 1 < v.size(); ++j)
+        for (size_t i = 0; i + 1 < u.size(); ++i)
+            for (int b = 0; b < 4; ++b)
+                for (int a = 0; a < 4; ++a) {
+                    const double s = (u[i] + u[i + 1] + place[a] * (u[i + 1] - u[i])) / 2,
+                                 t = (v[j] + v[j + 1] + place[b] * (v[j + 1] - v[j])) / 2;
+                    const SurfacePoint at = evaluate(surface, s, t);
+                    const double part =
+                        share[a] * share[b] * (u[i + 1] - u[i]) * (v[j + 1] - v[j]) * at.S_u.cross(at.S_v).norm();
+                    sum += part * evaluate_field(surface, value, s, t);
+                    area += part;
+                }
+    return sum / area;
 }
 
 Eigen::VectorXd fit_field(const NurbsSurface& surface, const std::vector<double>& u, const std::vector<double>& v,

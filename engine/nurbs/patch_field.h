@@ -18,6 +18,9 @@ struct PatchField {
 /// @param value one per control point
 double evaluate_field(const NurbsSurface& surface, const Eigen::VectorXd& value, double u, double v);
 
+/// The mean over the area of the patch, by Gauss points: exact but for the square root in the area.
+double field_mean(const NurbsSurface& surface, const Eigen::VectorXd& value);
+
 /// Control values of a field that is known at the lines u[i], v[j] of a grid, such as the nodes of a lifted grid with the
 /// parameters that interpolate() gave them. With as many control points as values the field has the values there;
 /// with fewer it is the least squares field, in which the values at the four corners are kept and each side depends on the values along

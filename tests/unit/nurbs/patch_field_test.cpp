@@ -95,6 +95,19 @@ TEST(PatchField, OfAHeightThatIsInterpolatedIsTheHeightOfTheSurface)
     EXPECT_LT((z - fitted.surface.control.row(2).transpose()).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
+TEST(PatchField, MeanIsOverTheArea)
+{
+    // z over a quarter of a cylinder of radius r: mean height 2 r / pi, though the parameters are uneven.
+    const NurbsSurface s = surfaces::quarter_cylinder(30, 50);
+    EXPECT_NEAR(field_mean(s, s.control.row(2).transpose()), 2 * 30 / M_PI, 1e-3);
+    EXPECT_NEAR(field_mean(s, Eigen::VectorXd::Constant(6, 0.8)), 0.8, 1e-15);
+    NurbsSurface uneven = patches::curved(100, false); // a plane with the speed of its parameter along u rising
+    for (int j = 0; j < uneven.count_v; ++j)
+        for (int i = 0; i < uneven.count_u; ++i)
+            uneven.control.col(uneven.index(i, j)) << i * i, 10 * j, 0;
+    EXPECT_NEAR(field_mean(uneven, uneven.control.row(0).transpose()), 18, 1e-12);
+}
+
 TEST(PatchField, ASideDependsOnItsValuesAlone)
 {
     const NurbsSurface s = patches::curved(200, false);
