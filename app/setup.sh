@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages of app/packages.txt that are missing, configures and builds a preset.
-# Usage: bash app/setup.sh PRESET [TARGET...]; a second call does only what has changed.
+# Usage: bash app/setup.sh PRESET [TARGET...]; a second call does only what has changed. SPIA_PACKAGES names one more list of packages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=$1
@@ -15,7 +15,7 @@ install_missing() {
     command -v dpkg-query >/dev/null || fail "this script installs Debian packages; on another system install the \
 equivalents of app/packages.txt by hand, then run: cmake --preset $preset && cmake --build --preset $preset"
     local wanted missing=() package
-    mapfile -t wanted < <(grep -vE '^\s*(#|$)' app/packages.txt)
+    mapfile -t wanted < <(grep -hvE '^\s*(#|$)' app/packages.txt ${SPIA_PACKAGES:+"$SPIA_PACKAGES"})
     for package in "${wanted[@]}"; do
         [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
     done

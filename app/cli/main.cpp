@@ -179,14 +179,18 @@ int main(int count, char** values)
         ->check(CLI::IsMember({"averaged", "natural"}))
         ->capture_default_str();
     run_command
-        ->add_option("--formats", run.formats,
-                     "files to write; for solver decks, with their ids: dynain (LS-DYNA), nastran, mapping (CSV): "
-                     "thickness and plastic strain of the elements; blank-k, -bdf, -inp, -msh: the blank as a mesh")
+        ->add_option(
+            "--formats", run.formats,
+            "files to write; for isogeometric analysis the surface with thickness and plastic strain: gismo (G+Smo XML), mfem, "
+            "geopdes (no fields), iga-k (LS-DYNA, mean thickness); for solver decks, with their ids: dynain (LS-DYNA), nastran, mapping (CSV): "
+            "thickness and plastic strain of the elements; blank-k, -bdf, -inp, -msh: the blank as a mesh")
         ->delimiter(',')
         ->check(CLI::IsMember(output_formats()))
         ->type_name("LIST")
         ->capture_default_str();
-    run_command->add_option("--export-unit", run.export_unit, "of IGES, STEP, DXF, CSV and VTU (glTF: always metres)")
+    run_command
+        ->add_option("--export-unit", run.export_unit,
+                     "of IGES, STEP, isogeometric files, DXF, CSV and VTU (glTF: always metres)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}))
         ->capture_default_str();
     run_command->add_option("--glb-nodes", run.glb_nodes, "what the GLB file shows")

@@ -5,7 +5,10 @@
 #include <fmt/core.h>
 
 #include "engine/mesh/topology.h"
+#include "engine/nurbs/certificate.h"
 #include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/certificate_report.h"
+#include "engine/pipeline/iga_outputs.h"
 
 namespace spia::cli {
 namespace {
@@ -81,6 +84,13 @@ void print_summary(const Session& session)
     say("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
         session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
         std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
+    const Certificate certificate = certify(surface_patches(session));
+    double scaled = 1;
+    for (const PatchCertificate& patch : certificate.patch)
+        scaled = std::min(scaled, patch.least_scaled);
+    const auto why_not = unsuited(certificate);
+    say("analysis  {}, least scaled Jacobian {:.3f}\n",
+        why_not ? "not proved to be fit for it: " + *why_not : "proved to have no fold", scaled);
 }
 
 } // namespace spia::cli

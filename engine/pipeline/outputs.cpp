@@ -17,6 +17,7 @@
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
 #include "engine/pipeline/deck_outputs.h"
+#include "engine/pipeline/iga_outputs.h"
 
 namespace fs = std::filesystem;
 
@@ -31,7 +32,7 @@ std::string file_stem(const Session& session, const OutputOptions& options)
 /// Whether the session has anything for a file of this format.
 bool has_content(const std::string& format, const Session& session, const OutputOptions& options)
 {
-    if (format == "iges" || format == "step")
+    if (format == "iges" || format == "step" || is_iga_format(format))
         return session.surface != nullptr;
     const GltfNodes& glb = options.glb;
     return format != "glb" || glb.part || glb.blank || (glb.quad_mesh && session.lifted) ||
@@ -60,6 +61,8 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     }
     if (is_deck_format(format))
         return deck_file_names(format, file_stem(session, options));
+    if (is_iga_format(format))
+        return iga_file_names(format, file_stem(session, options));
     if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
         throw InputError("nothing is chosen of the GLB file; take part, blank, quad_mesh, surface or control_net");
     return {file_stem(session, options) + "." + format};
@@ -83,6 +86,7 @@ const std::vector<std::string>& output_formats()
 {
     static const std::vector<std::string> formats = [] {
         std::vector<std::string> all = usual_formats();
+        all.insert(all.end(), iga_formats().begin(), iga_formats().end());
         all.insert(all.end(), deck_formats().begin(), deck_formats().end());
         return all;
     }();
@@ -179,14 +183,19 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
             files.insert(files.end(), written.begin(), written.end());
             continue;
         }
+        if (is_iga_format(format)) {
+            const auto written = write_iga_files(folder, name, format, session, unit);
+            files.insert(files.end(), written.begin(), written.end());
+            continue;
+        }
         const size_t first = files.size();
         for (const std::string& file : file_names(format, session, options))
             files.push_back(folder / file);
         const fs::path path = files[first];
         if (format == "iges")
-            write_iges(path, *surface, name, unit);
+            write_iges(path, surface_patches(session).patch, name, unit);
         else if (format == "step")
-            write_step(path, *surface, name, unit);
+            write_step(path, surface_patches(session).patch, name, unit);
         else if (format == "glb")
             write_gltf(path, scene, options.glb);
         else if (format == "vtu") {

@@ -10,7 +10,7 @@
 
 namespace spia {
 
-/// Formats by the names the command line uses: the usual ones, then those of solver decks (deck_outputs.h).
+/// Formats by the names the command line uses: the usual ones, those of isogeometric analysis (iga_outputs.h), those of solver decks (deck_outputs.h).
 const std::vector<std::string>& output_formats();
 const std::vector<std::string>& usual_formats(); ///< what is written unless something else is asked for
 
@@ -23,10 +23,10 @@ struct CsvTables {
 
 /// What the files hold, whatever their format.
 struct OutputOptions {
-    LengthUnit unit =
-        LengthUnit::mm; ///< of IGES, STEP, DXF, CSV and VTU; glTF has metres by its specification, and what
-                        ///< goes back to a deck has its unit
-    std::string name;   ///< of the files, without folder and ending; empty: the part's
+    LengthUnit unit = LengthUnit::
+        mm; ///< of IGES, STEP, isogeometric files, DXF, CSV and VTU; glTF has metres by its specification, and what
+            ///< goes back to a deck has its unit
+    std::string name; ///< of the files, without folder and ending; empty: the part's
     GltfNodes glb;
     CsvTables csv;
 
@@ -38,7 +38,7 @@ void require_file_name(const std::string& name);
 
 /// The files that write_outputs() would write now, in the order of `formats`: PART.iges, PART.step, PART.glb, PART.vtu,
 /// PART.dxf, PART.png, and for csv the tables fields.csv, outline.csv and faces.csv (with a name: NAME-fields.csv
-/// ...), and deck_file_names(). IGES and STEP need a surface, a GLB file one of its nodes; without it they are left out.
+/// ...), iga_file_names() and deck_file_names(). IGES, STEP and isogeometric files need a surface, a GLB file one of its nodes; without it they are left out.
 /// @throws InputError if a format is unknown, the name is none, or nothing is chosen of a CSV or GLB file
 std::vector<std::filesystem::path> output_files(const Session& session, const std::filesystem::path& folder,
                                                 const std::vector<std::string>& formats,

@@ -16,6 +16,8 @@
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/certificate_report.h"
+#include "engine/pipeline/iga_outputs.h"
 
 namespace spia {
 namespace {
@@ -502,6 +504,8 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["surface"] = surface_json(*session.surface);
     if (failure)
         json["failure"] = {{"stage", name(failure->stage)}, {"message", failure->message}};
+    if (session.surface)
+        json["certificate"] = certificate_json(certify(surface_patches(session)));
     json["shortcomings"] = shortcomings(session);
     json["files"] = Json::array();
     for (const auto& file : files)

@@ -32,4 +32,9 @@ for wrong in "--sewing -1" "--sewing nan" "--sewing 1e9" "--deflection 0" "--def
 done
 expect 2 "are for CAD files" "$spia" run "$source/assets/parts/dome.obj" --out "$out" --deflection 1
 expect 2 "are for CAD files" "$spia" unfold "$source/assets/parts/dome.obj" --auto --skip-bad-faces
+expect 0 "dome-mfem-plastic_strain.gf" "$spia" run "$source/assets/parts/dome.obj" --out "$out/iga" --formats gismo,mfem,geopdes,iga-k --json "$out/iga.json"
+for file in gismo.xml gismo-thickness.xml gismo-plastic_strain.xml mfem.mesh mfem-thickness.gf mfem-plastic_strain.gf geopdes.txt iga.k; do
+    [ -s "$out/iga/dome-$file" ] || fail "no dome-$file"
+    grep -q "dome-$file" "$out/iga.json" || fail "the report does not list dome-$file"
+done
 echo "CAD files on the command line are well"

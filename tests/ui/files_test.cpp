@@ -112,6 +112,8 @@ TEST_F(Scripts, WriteFilesPicturesAndAReportAsWanted)
     EXPECT_NE(content(out / "leg.dxf").find("$INSUNITS\n 70\n1\n"), std::string::npos) << "inches are 1";
     EXPECT_NE(content(out / "leg.step").find("INCH"), std::string::npos);
     EXPECT_NE(content(out / "leg.iges").find("4HINCH"), std::string::npos);
+    for (const char* file : {"leg-gismo.xml", "leg-gismo-thickness.xml", "leg-gismo-plastic_strain.xml", "leg-iga.k"})
+        EXPECT_NE(content(out / file).find("lengths inch"), std::string::npos) << file;
     const std::string glb = content(out / "leg.glb");
     EXPECT_NE(glb.find("\"blank\""), std::string::npos);
     EXPECT_NE(glb.find("\"control_net\""), std::string::npos);

@@ -34,7 +34,7 @@ FitVerdict fit_verdict(const Session& session, double tolerance)
 std::string text(const FitVerdict& verdict, double tolerance)
 {
     if (verdict.fit == Fit::none)
-        return "There is no surface yet: IGES and STEP are left out.";
+        return "There is no surface yet: IGES, STEP and isogeometric files are left out.";
     if (verdict.fit == Fit::within)
         return fmt::format("The surface is within {:.3g} mm of the part (95 % of it within {:.3g} mm).",
                            verdict.greatest, verdict.p95);

@@ -179,6 +179,15 @@ std::string key_figures(const Session& session, const Json& figures)
                     fmt::format("at most {} mm, 95 % below {} mm, RMS {} mm", significant(deviation.max()),
                                 significant(surface["deviation_p95_mm"].get<double>()),
                                 significant(surface["deviation_rms_mm"].get<double>())));
+        const Json& certificate = figures["certificate"];
+        for (const Json& patch : certificate["patches"])
+            rows += row("Fitness for analysis",
+                        fmt::format("{}; scaled Jacobian at least {}, mean {}",
+                                    patch["refused"].is_null()
+                                        ? "proved to have no fold"
+                                        : "not proved: " + patch["refused"]["why"].get<std::string>(),
+                                    significant(patch["scaled_jacobian_min"].get<double>()),
+                                    significant(patch["scaled_jacobian_mean"].get<double>())));
     } else {
         rows += row("NURBS surface", "not made");
     }

@@ -9,6 +9,7 @@
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/error.h"
+#include "engine/pipeline/iga_outputs.h"
 
 namespace fs = std::filesystem;
 
@@ -85,6 +86,28 @@ template <size_t n> void boxes(const Frame& frame, const std::array<std::pair<co
     ImGui::PopStyleVar();
 }
 
+/// The surface for isogeometric analysis.
+void iga_formats_boxes(const Frame& frame, std::vector<std::string>& formats)
+{
+    ImGui::PushFont(frame.ui.fonts.bold);
+    ImGui::TextUnformatted("Isogeometric analysis");
+    ImGui::PopFont();
+    const std::array<std::array<const char*, 3>, 4> each = {
+        {{"gismo", "G+Smo XML  surface, thickness, plastic strain",
+          "Three files with the same basis: the patches with their interfaces and boundary, the thickness, the plastic strain."},
+         {"mfem", "MFEM NURBS mesh  thickness, plastic strain",
+          "A NURBS mesh v1.0 with the surface in space, and a grid function each for thickness and plastic strain."},
+         {"geopdes", "GeoPDEs text  the surface",
+          "NURBS text v2.1, as octave-nurbs reads it too. It has no place for fields."},
+         {"iga-k", "LS-DYNA *IGA_SHELL  mean thickness",
+          "*IGA_2D_NURBS_XYZ, *IGA_FACE_XYZ, *IGA_SHELL with section, part and an elastic material. A section has one thickness, "
+          "the mean of the surface; it has no place for plastic strain."}}};
+    for (const auto& [format, label, explanation] : each) {
+        format_box(formats, format, label);
+        tooltip(explanation);
+    }
+}
+
 /// What goes back to a solver deck, with its ids.
 void solver_formats(const Frame& frame, std::vector<std::string>& formats)
 {
@@ -146,6 +169,9 @@ void formats_column(Frame& frame, ExportChoices& choices)
         ImGui::Unindent(indent);
     }
     format_box(formats, "png", "PNG  one picture of the whole chain");
+    ImGui::BeginDisabled(!surface);
+    iga_formats_boxes(frame, formats);
+    ImGui::EndDisabled();
     solver_formats(frame, formats);
 }
 
@@ -162,7 +188,7 @@ void unit_input(const Frame& frame, LengthUnit& unit)
         ImGui::EndCombo();
     }
     tooltip(
-        "Of IGES, STEP, DXF, CSV and VTU; the file names the unit. A GLB file has metres, as its specification wants; what goes "
+        "Of IGES, STEP, isogeometric files, DXF, CSV and VTU; the file names the unit. A GLB file has metres, as its specification wants; what goes "
         "back to the solver has the unit of its deck.");
 }
 
@@ -258,14 +284,18 @@ void export_dialog(Frame& frame)
     const auto wants = [&](const char* format) {
         return std::find(choices.formats.begin(), choices.formats.end(), format) != choices.formats.end();
     };
-    const bool doubtful = verdict.fit == Fit::far_off && (wants("iges") || wants("step"));
+    const bool doubtful =
+        verdict.fit == Fit::far_off && (wants("iges") || wants("step") ||
+                                        std::any_of(iga_formats().begin(), iga_formats().end(),
+                                                    [&](const std::string& format) { return wants(format.c_str()); }));
     choices.asked &= doubtful;
     const bool busy = frame.model.busy();
     if (busy)
         muted(frame, "A job is running; export when it has ended.");
     if (choices.asked)
-        coloured(palette_of(frame.state.view.dark).error,
-                 "IGES and STEP will hold a surface that is not the part. Click once more if you want that.");
+        coloured(
+            palette_of(frame.state.view.dark).error,
+            "CAD and isogeometric files will hold a surface that is not the part. Click once more if you want that.");
     const bool ready = planned.problem.empty() && !planned.files.empty() && !choices.folder.empty() && !busy;
     const Palette p = palette_of(frame.state.view.dark);
     const Answer answer =

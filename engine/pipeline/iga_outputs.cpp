@@ -1,0 +1,82 @@
+#include "engine/pipeline/iga_outputs.h"
+
+#include <algorithm>
+
+#include "engine/coons/carry_field.h"
+#include "engine/exchange/write_geopdes.h"
+#include "engine/exchange/write_gismo.h"
+#include "engine/exchange/write_iga_dyna.h"
+#include "engine/exchange/write_mfem.h"
+
+namespace spia {
+namespace {
+
+constexpr const char* field_names[] = {"thickness", "plastic_strain"};
+
+} // namespace
+
+const std::vector<std::string>& iga_formats()
+{
+    static const std::vector<std::string> formats = {"gismo", "mfem", "geopdes", "iga-k"};
+    return formats;
+}
+
+bool is_iga_format(const std::string& format)
+{
+    return std::find(iga_formats().begin(), iga_formats().end(), format) != iga_formats().end();
+}
+
+std::vector<std::string> iga_file_names(const std::string& format, const std::string& name)
+{
+    if (format == "geopdes")
+        return {name + "-geopdes.txt"};
+    if (format == "iga-k")
+        return {name + "-iga.k"};
+    const bool gismo = format == "gismo";
+    std::vector<std::string> names = {name + (gismo ? "-gismo.xml" : "-mfem.mesh")};
+    for (const char* field : field_names)
+        names.push_back(name + (gismo ? "-gismo-" : "-mfem-") + field + (gismo ? ".xml" : ".gf"));
+    return names;
+}
+
+MultiPatch surface_patches(const Session& session) { return {{session.surface->result.surface}, {}}; }
+
+std::vector<PatchField> surface_fields(const Session& session)
+{
+    const InterpolateResult& fitted = session.surface->result;
+    const SheetFields& sheet = session.blank->node;
+    const auto on_surface = [&](const char* name, const char* unit, const Eigen::VectorXd& at_vertices) {
+        const Eigen::VectorXd nodes = carry_field(*session.grid->result.filled, at_vertices, session.lifted->place);
+        return PatchField{name, unit, {fit_field(fitted.surface, fitted.u, fitted.v, nodes)}};
+    };
+    return {on_surface(field_names[0], "mm", sheet.thickness),
+            on_surface(field_names[1], "1", sheet.strain_equivalent)};
+}
+
+std::vector<std::filesystem::path> write_iga_files(const std::filesystem::path& folder, const std::string& name,
+                                                   const std::string& format, const Session& session, LengthUnit unit)
+{
+    std::vector<std::filesystem::path> files;
+    for (const std::string& file : iga_file_names(format, name))
+        files.push_back(folder / file);
+    const MultiPatch patches = surface_patches(session);
+    if (format == "geopdes") {
+        write_geopdes(files[0], patches, name, unit);
+        return files;
+    }
+    const std::vector<PatchField> fields = surface_fields(session);
+    if (format == "iga-k") {
+        std::vector<double> thickness;
+        for (size_t p = 0; p < patches.patch.size(); ++p)
+            thickness.push_back(field_mean(patches.patch[p], fields[0].value[p]));
+        write_iga_dyna(files[0], patches, thickness, session.options.flatten.material, name, unit);
+        return files;
+    }
+    const bool gismo = format == "gismo";
+    (gismo ? write_gismo : write_mfem)(files[0], patches, name, unit);
+    for (size_t k = 0; k < fields.size(); ++k)
+        (gismo ? write_gismo_field : write_mfem_field)(files[k + 1], patches, fields[k], name, unit);
+    return files;
+}
+
+} // namespace spia
