@@ -7,7 +7,11 @@ shift 2
 mkdir -p "$scratch"
 export XDG_CONFIG_HOME="$scratch/config" XDG_STATE_HOME="$scratch/state" LIBGL_ALWAYS_SOFTWARE=1
 cd "$(dirname "$0")/../.."
-xvfb-run -a -s "-screen 0 3840x2160x24" "$viewer" --report "$scratch/report.json" --screenshot "$scratch/window.png" --exit "$@" && code=0 || code=$?
+rm -f "$scratch/code"
+# xvfb-run's own exit code is another one where it cannot clean up behind itself.
+xvfb-run -a -s "-screen 0 3840x2160x24" sh -c '"$@"; echo $? >"$0"' "$scratch/code" \
+    "$viewer" --report "$scratch/report.json" --screenshot "$scratch/window.png" --exit "$@" || true
+code=$(cat "$scratch/code")
 [ "$code" -eq "${EXPECTED_EXIT:-0}" ] || { echo "exit code $code"; exit 1; }
 [ -s "$scratch/report.json" ] || { echo "no report"; exit 1; }
 size=$(stat -c %s "$scratch/window.png")
