@@ -1,0 +1,270 @@
+#include "engine/nurbs/fit.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <optional>
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/mesh/closest_point.h"
+#include "engine/mesh/topology.h"
+#include "engine/nurbs/evaluate.h"
+#include "engine/nurbs/fit_curve.h"
+#include "engine/nurbs/fit_patch.h"
+#include "engine/nurbs/fit_shortfall.h"
+#include "engine/nurbs/missing_knots.h"
+#include "engine/nurbs/span_borders.h"
+
+namespace spia {
+
+namespace {
+
+void require_in_range(const FitSource& source, const FitOptions& options)
+{
+    if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
+        throw InputError(fmt::format("a tolerance of {} mm cannot be met; give a positive one", options.tolerance));
+    for (const int degree : {options.degree_u, options.degree_v})
+        if (degree < 2 || degree > 5)
+            throw InputError(fmt::format("degree {} is not offered; choose one from 2 to 5", degree));
+    for (const auto* lines : {&source.lines_u, &source.lines_v})
+        if (!lines->empty() && lines->size() < 3)
+            throw InputError("a fit needs at least 3 x 3 points; choose a finer grid");
+    if (options.max_control_points < 16)
+        throw InputError(fmt::format("{} control points are too few for a surface; allow 16 or more",
+                                     options.max_control_points));
+}
+
+/// One least squares fit: its data, its two directions and its surface.
+struct Attempt {
+    std::vector<double> borders_u, borders_v; ///< of the spans
+    Eigen::Matrix3Xd points;
+    CurveFit along_u, along_v;
+    NurbsSurface surface;
+};
+
+Attempt attempt(const FitSource& source, const FitOptions& options, const std::vector<double>& borders_u,
+                const std::vector<double>& borders_v)
+{
+    const std::vector<double> u = data_parameters(borders_u, source.lines_u);
+    const std::vector<double> v = data_parameters(borders_v, source.lines_v);
+    Attempt result{borders_u,
+                   borders_v,
+                   source.at(u, v),
+                   CurveFit(clamped_knots(borders_u, options.degree_u), options.degree_u, options.ends, u),
+                   CurveFit(clamped_knots(borders_v, options.degree_v), options.degree_v, options.ends, v),
+                   {}};
+    if (result.points.cols() != Eigen::Index(u.size() * v.size()))
+        throw InputError(fmt::format("the source gave {} points where {} x {} were asked for", result.points.cols(),
+                                     u.size(), v.size()));
+    const PatchBorders borders = fit_borders(result.points, result.along_u, result.along_v);
+    result.surface = fit_patch(result.points, result.along_u, result.along_v, borders);
+    return result;
+}
+
+/// Lets the inner points slide over the mesh to the feet of the surface, and fits again; the border is held.
+void correct_parameters(Attempt& fit, const ClosestPointSearch& search, const Eigen::Matrix3Xd& face_normal)
+{
+    constexpr int times = 3;
+    const std::vector<double>&u = fit.along_u.parameters(), &v = fit.along_v.parameters();
+    const int columns = int(u.size()), count = int(fit.points.cols());
+    const PatchBorders borders = fit_borders(fit.points, fit.along_u, fit.along_v);
+    for (int time = 0; time < times; ++time) {
+        Eigen::Matrix3Xd slid = fit.points;
+        parallel_for(count, [&](int n) {
+            const int i = n % columns, j = n / columns;
+            if (i == 0 || i == columns - 1 || j == 0 || n >= count - columns)
+                return;
+            const SurfacePoint at = evaluate(fit.surface, u[size_t(i)], v[size_t(j)]);
+            const ClosestPoint foot = search.nearest(at.position);
+            // On another sheet of the part, or far from where the point belongs, the foot tells nothing.
+            const double turned = std::abs(at.normal().dot(face_normal.col(foot.face)));
+            const double missed = (fit.points.col(n) - at.position).norm();
+            if (turned > 0.5 && foot.distance <= missed)
+                slid.col(n) = foot.position;
+        });
+        fit.points = std::move(slid);
+        fit.surface = fit_patch(fit.points, fit.along_u, fit.along_v, borders);
+    }
+}
+
+/// The most urgent spans of both directions, as many as the number of control points allows.
+struct Halving {
+    std::vector<char> u, v;
+    int count = 0;
+    bool out_of_data = false; ///< a span that wants to be halved cannot be
+    bool out_of_points = false;
+};
+
+Halving choose(const MissingKnots& missing, const Attempt& fit, const FitSource& source, const FitOptions& options)
+{
+    struct Wish {
+        double urgency;
+        bool along_u;
+        size_t span;
+    };
+    std::vector<Wish> wishes;
+    Halving result{std::vector<char>(missing.u.size(), 0), std::vector<char>(missing.v.size(), 0), 0, false, false};
+    const auto collect = [&](const std::vector<double>& urgency, const std::vector<double>& borders,
+                             const std::vector<double>& lines, bool along_u) {
+        for (size_t s = 0; s < urgency.size(); ++s)
+            if (urgency[s] > 0) {
+                if (may_halve(borders[s], borders[s + 1], lines))
+                    wishes.push_back({urgency[s], along_u, s});
+                else
+                    result.out_of_data = true;
+            }
+    };
+    collect(missing.u, fit.borders_u, source.lines_u, true);
+    collect(missing.v, fit.borders_v, source.lines_v, false);
+    std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.urgency > b.urgency; });
+    double count_u = fit.surface.count_u, count_v = fit.surface.count_v;
+    for (const Wish& wish : wishes) {
+        const double more_u = count_u + wish.along_u, more_v = count_v + !wish.along_u;
+        if (more_u * more_v > options.max_control_points) {
+            result.out_of_points = true;
+            continue;
+        }
+        count_u = more_u;
+        count_v = more_v;
+        (wish.along_u ? result.u : result.v)[wish.span] = 1;
+        ++result.count;
+    }
+    return result;
+}
+
+/// The spans that the two border curves along u (along v) need.
+std::vector<double> borders_of_sides(const FitSource& source, const FitOptions& options, bool along_u)
+{
+    CurveFitOptions of_curve;
+    of_curve.tolerance = options.tolerance;
+    of_curve.degree = along_u ? options.degree_u : options.degree_v;
+    of_curve.ends = options.ends;
+    of_curve.lines = along_u ? source.lines_u : source.lines_v;
+    of_curve.most_spans = int(std::sqrt(double(options.max_control_points))) / 2;
+    std::vector<double> result = first_borders(options.ends);
+    for (const double across : {0., 1.}) {
+        const std::vector<double> ends = {0, 1}; // a source may ask for both borders of the other direction
+        const CurveSource side = [&](const std::vector<double>& t) -> Eigen::Matrix3Xd {
+            const Eigen::Index n = Eigen::Index(t.size());
+            const Eigen::Matrix3Xd both = along_u ? source.at(t, ends) : source.at(ends, t);
+            return along_u ? Eigen::Matrix3Xd(both.middleCols(across > 0 ? n : 0, n))
+                           : Eigen::Matrix3Xd(both(Eigen::all, Eigen::seqN(across > 0 ? 1 : 0, n, 2)));
+        };
+        result = united(result, fit_curve(side, of_curve).borders);
+    }
+    return result;
+}
+
+/// mm around the worst place within which its cause lies: what one cell of the knots and its neighbours cover.
+double reach_of(const Attempt& fit, const BeyondTolerance& worst)
+{
+    const SurfacePoint at = evaluate(fit.surface, worst.u, worst.v);
+    const size_t a = size_t(span_of(fit.borders_u, worst.u)), b = size_t(span_of(fit.borders_v, worst.v));
+    return worst.distance + 2 * std::max(at.S_u.norm() * (fit.borders_u[a + 1] - fit.borders_u[a]),
+                                         at.S_v.norm() * (fit.borders_v[b + 1] - fit.borders_v[b]));
+}
+
+} // namespace
+
+FitSource source_of(const QuadGrid& lifted)
+{
+    if (lifted.columns < 1 || lifted.rows < 1 || lifted.position.cols() != lifted.nodes())
+        throw InputError("the grid is empty, or its size and nodes disagree; fill and lift it again");
+    FitSource source;
+    const auto even = [](int cells) {
+        std::vector<double> lines;
+        for (int i = 0; i <= cells; ++i)
+            lines.push_back(double(i) / cells);
+        return lines;
+    };
+    source.lines_u = even(lifted.columns);
+    source.lines_v = even(lifted.rows);
+    source.at = [lifted](const std::vector<double>& u, const std::vector<double>& v) {
+        Eigen::Matrix3Xd points(3, Eigen::Index(u.size() * v.size()));
+        for (size_t j = 0; j < v.size(); ++j)
+            for (size_t i = 0; i < u.size(); ++i)
+                points.col(Eigen::Index(i + j * u.size())) = lifted.position.col(lifted.node(
+                    int(std::lround(u[i] * lifted.columns)), int(std::lround(v[j] * lifted.rows))));
+        return points;
+    };
+    return source;
+}
+
+FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options, const Progress& progress)
+{
+    require_in_range(source, options);
+    const ClosestPointSearch search(mesh);
+    Eigen::Matrix3Xd face_normal = area_vectors(mesh);
+    face_normal.colwise().normalize();
+
+    DeviationOptions of_surface; // while it is too far away one way is enough to look at
+    of_surface.part_faces = options.part_faces;
+    of_surface.tolerance = options.tolerance;
+    of_surface.mesh_to_surface = false;
+    DeviationOptions both = of_surface;
+    both.mesh_to_surface = true;
+    both.samples_per_span = 5; // between the data
+
+    progress.checkpoint(0, "fitting the border");
+    std::vector<double> borders_u = borders_of_sides(source, options, true);
+    std::vector<double> borders_v = borders_of_sides(source, options, false);
+    FitResult result;
+    result.report.tolerance = options.tolerance;
+    std::optional<Attempt> best;
+    double least = 0;
+    for (int round = 1;; ++round) {
+        const Progress here = progress.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
+        here.checkpoint(0, fmt::format("fitting {} x {} spans", borders_u.size() - 1, borders_v.size() - 1));
+        Attempt now = attempt(source, options, borders_u, borders_v);
+        if (options.parameters == FitParameters::corrected)
+            correct_parameters(now, search, face_normal);
+        Deviation measured = deviation(now.surface, mesh, of_surface, here.part(0.2, 0.5));
+        const bool complete = measured.beyond.empty();
+        if (complete)
+            measured = deviation(now.surface, mesh, both, here.part(0.5, 1));
+        result.report.rounds = round;
+        result.report.reached = measured.beyond.empty();
+        const Halving halve =
+            result.report.reached
+                ? Halving{}
+                : choose(missing_knots(now.surface, measured.beyond, now.points, now.along_u, now.along_v), now, source,
+                         options);
+        borders_u = halve.count > 0 ? halved(now.borders_u, halve.u) : now.borders_u;
+        borders_v = halve.count > 0 ? halved(now.borders_v, halve.v) : now.borders_v;
+        if (!best || result.report.reached || measured.max() < least) {
+            least = measured.max();
+            best = std::move(now);
+        }
+        if (result.report.reached || halve.count == 0) {
+            if (!result.report.reached)
+                measured = deviation(best->surface, mesh, both, here.part(0.5, 1));
+            result.deviation = std::move(measured);
+            if (!result.report.reached) {
+                const auto& beyond = result.deviation.beyond;
+                const auto worst = std::max_element(beyond.begin(), beyond.end(), [](const auto& a, const auto& b) {
+                    return a.distance < b.distance;
+                });
+                const Deviation& d = result.deviation;
+                const Eigen::Vector3d where =
+                    d.surface_to_mesh.max >= d.mesh_to_surface.max ? d.surface_to_mesh.where : d.mesh_to_surface.where;
+                if (worst != beyond.end())
+                    result.report.shortfall = find_shortfall(
+                        best->surface, mesh, options, where, reach_of(*best, *worst), d.max(),
+                        halve.out_of_points ? FitShortfall::Reason::control_points : FitShortfall::Reason::data);
+                else
+                    result.report.reached = true; // seen from all sides the best one is good
+            }
+            break;
+        }
+    }
+    result.surface = std::move(best->surface);
+    result.u = best->along_u.parameters();
+    result.v = best->along_v.parameters();
+    result.report.knots_u = result.surface.count_u - result.surface.degree_u - 1;
+    result.report.knots_v = result.surface.count_v - result.surface.degree_v - 1;
+    return result;
+}
+
+} // namespace spia
