@@ -115,7 +115,7 @@ std::vector<double> shares(const std::vector<double>& parameters)
 struct Reference {
     const TriMesh& mesh;
     int part_faces;
-    double tolerance; ///< mm
+    double tolerance, listed_from; ///< mm
     ClosestPointSearch search;
     MeshNormals normals;
 };
@@ -123,7 +123,7 @@ struct Reference {
 struct SurfaceMeasure {
     DeviationStatistics distance;
     NormalDeviation normal;
-    std::vector<BeyondTolerance> beyond;
+    std::vector<BeyondTolerance> beyond, turned;
 };
 
 /// The surface at u x v compared with the mesh.
@@ -151,9 +151,12 @@ SurfaceMeasure measure_surface(const NurbsSurface& surface, const std::vector<do
     SurfaceMeasure result;
     const auto position = [&](int i) { return at(i).position; };
     result.distance = statistics(samples, reference.tolerance, position);
-    result.normal = normal_deviation(normals, reference.normals, position);
+    std::vector<int> turned;
+    result.normal = normal_deviation(normals, reference.normals, position, turned);
+    for (const int i : turned)
+        result.turned.push_back({u[size_t(i % columns)], v[size_t(i / columns)], samples.distance[size_t(i)]});
     for (int i = 0; i < count; ++i)
-        if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > reference.tolerance)
+        if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > reference.listed_from)
             result.beyond.push_back({u[size_t(i % columns)], v[size_t(i / columns)], samples.distance[size_t(i)]});
     return result;
 }
@@ -193,7 +196,7 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
     const std::vector<double> u = sample_parameters(surface.knots_u, surface.degree_u, options.samples_per_span);
     const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, options.samples_per_span);
-    const Reference reference{mesh, part_faces, options.tolerance, ClosestPointSearch(mesh),
+    const Reference reference{mesh, part_faces, options.tolerance, options.listed_from * options.tolerance, ClosestPointSearch(mesh),
                               MeshNormals(mesh, part_faces, options.sharp_angle)};
 
     Deviation result;
@@ -201,6 +204,7 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     result.surface_to_mesh = measured.distance;
     result.normal = measured.normal;
     result.beyond = std::move(measured.beyond);
+    result.turned = std::move(measured.turned);
     if (!options.data_u.empty())
         result.between_data = measure_surface(surface, middles(options.data_u), middles(options.data_v),
                                               lengths(options.data_u), lengths(options.data_v), reference,
@@ -232,7 +236,7 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     result.mesh_to_surface =
         statistics(samples, options.tolerance, [&](int i) -> Eigen::Vector3d { return places.position.col(i); });
     for (int i = 0; i < count; ++i)
-        if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > options.tolerance)
+        if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > reference.listed_from)
             result.beyond.push_back({foot_uv(0, i), foot_uv(1, i), samples.distance[size_t(i)]});
     return result;
 }

@@ -20,6 +20,7 @@ struct DeviationOptions {
     std::vector<double> data_u = {}, data_v = {};
     /// mm; Deviation::beyond lists what is farther, DeviationStatistics::within says how much is not
     double tolerance = std::numeric_limits<double>::infinity();
+    double listed_from = 1;      ///< share of the tolerance from which on samples are listed
     double sharp_angle = 0.35;   ///< radians between the faces of an edge from which on it is sharp: about 20 degrees
     bool mesh_to_surface = true; ///< false leaves this way out, and at_vertex: quicker
 };
@@ -44,10 +45,11 @@ struct NormalDeviation {
     double p95 = 0;        ///< on 95 % of the area the angle is not larger
     double max = 0;        ///< at sharp edges about half the angle between their faces, at the best
     double max_smooth = 0; ///< over the faces without a sharp edge
+    double turned = 0;     ///< share of the area where the surface looks the other way than the part: it folds
     Eigen::Vector3d where = Eigen::Vector3d::Zero(); ///< mm, the sample of max_smooth
 };
 
-/// A sample that is farther away than the tolerance.
+/// A sample that is farther away than the tolerance (or a share of it, DeviationOptions::listed_from).
 struct BeyondTolerance {
     double u, v;     ///< of the surface: the sample, or the foot of a place of the mesh
     double distance; ///< mm
@@ -60,6 +62,7 @@ struct Deviation {
     DeviationStatistics between_data;    ///< the surface in the middle between the data, to the mesh
     NormalDeviation normal;              ///< of the samples of the surface
     std::vector<BeyondTolerance> beyond; ///< both ways, those of the surface first
+    std::vector<BeyondTolerance> turned; ///< samples of the surface that look the other way than the part
     /// Per vertex of the mesh, those of filled holes too: distance to the surface, mm; positive where the
     /// surface runs on the outer side of the part.
     Eigen::VectorXd at_vertex;

@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <optional>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
+#include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_patch.h"
 #include "engine/nurbs/fit_shortfall.h"
+#include "engine/nurbs/interpolate.h"
 #include "engine/nurbs/missing_knots.h"
 #include "engine/nurbs/span_borders.h"
 
@@ -158,12 +161,136 @@ std::vector<double> borders_of_sides(const FitSource& source, const FitOptions& 
 }
 
 /// mm around the worst place within which its cause lies: what one cell of the knots and its neighbours cover.
-double reach_of(const Attempt& fit, const BeyondTolerance& worst)
+double reach_of(const NurbsSurface& surface, const BeyondTolerance& worst)
 {
-    const SurfacePoint at = evaluate(fit.surface, worst.u, worst.v);
-    const size_t a = size_t(span_of(fit.borders_u, worst.u)), b = size_t(span_of(fit.borders_v, worst.v));
-    return worst.distance + 2 * std::max(at.S_u.norm() * (fit.borders_u[a + 1] - fit.borders_u[a]),
-                                         at.S_v.norm() * (fit.borders_v[b + 1] - fit.borders_v[b]));
+    const auto borders_u = span_borders(surface.knots_u, surface.degree_u);
+    const auto borders_v = span_borders(surface.knots_v, surface.degree_v);
+    const SurfacePoint at = evaluate(surface, worst.u, worst.v);
+    const size_t a = size_t(span_of(borders_u, worst.u)), b = size_t(span_of(borders_v, worst.v));
+    return worst.distance + 2 * std::max(at.S_u.norm() * (borders_u[a + 1] - borders_u[a]),
+                                         at.S_v.norm() * (borders_v[b + 1] - borders_v[b]));
+}
+
+/// What a surface is like, and where it is not good enough.
+struct Judgement {
+    Deviation deviation;
+    bool within = false;                  ///< the tolerance, at every sample
+    std::vector<BeyondTolerance> missing; ///< where knots are missing
+};
+
+class Judge {
+public:
+    Judge(const TriMesh& part, const FitOptions& options)
+        : mesh(part), search(part), face_normal(area_vectors(part)), options_(options)
+    {
+        face_normal.colwise().normalize();
+    }
+
+    /// @param at_once  both ways, whatever the first one shows
+    Judgement judge(const NurbsSurface& surface, bool at_once, const Progress& progress) const
+    {
+        Judgement result;
+        DeviationOptions one_way;
+        one_way.part_faces = options_.part_faces;
+        one_way.tolerance = options_.tolerance;
+        one_way.mesh_to_surface = false;
+        if (!at_once) { // while it is too far away there is no need for more
+            result.deviation = deviation(surface, mesh, one_way, progress.part(0, 0.3));
+            result.missing = result.deviation.beyond;
+            if (!result.missing.empty())
+                return result;
+        }
+        DeviationOptions both = one_way;
+        both.mesh_to_surface = true;
+        both.samples_per_span = 7; // between the data
+        both.listed_from = 0.7;
+        result.deviation = deviation(surface, mesh, both, progress.part(0.3, 0.9));
+        const std::vector<BeyondTolerance> suspects = std::move(result.deviation.beyond);
+        result.deviation.beyond.clear();
+        for (const BeyondTolerance& sample : suspects)
+            if (sample.distance > options_.tolerance)
+                result.deviation.beyond.push_back(sample);
+        result.missing = result.deviation.beyond;
+        if (result.missing.empty())
+            result.missing = look_closely(surface, suspects);
+        result.within = result.missing.empty();
+        if (result.within)
+            for (BeyondTolerance sample : result.deviation.turned) {
+                sample.distance = std::numeric_limits<double>::max(); // no matter how near: it folds
+                result.missing.push_back(sample);
+            }
+        return result;
+    }
+
+    const TriMesh& mesh;
+    ClosestPointSearch search;
+    Eigen::Matrix3Xd face_normal; ///< unit
+
+private:
+    /// Many more samples in the spans in which some came close to the tolerance: between them it may be exceeded.
+    std::vector<BeyondTolerance> look_closely(const NurbsSurface& surface,
+                                              const std::vector<BeyondTolerance>& suspects) const
+    {
+        constexpr int each = 16;
+        const auto borders_u = span_borders(surface.knots_u, surface.degree_u);
+        const auto borders_v = span_borders(surface.knots_v, surface.degree_v);
+        std::vector<std::pair<int, int>> cells;
+        for (const BeyondTolerance& sample : suspects)
+            cells.emplace_back(span_of(borders_v, sample.v), span_of(borders_u, sample.u));
+        std::sort(cells.begin(), cells.end());
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        std::vector<BeyondTolerance> found(cells.size(), {0, 0, 0});
+        const int part_faces = options_.part_faces < 0 ? mesh.triangles() : options_.part_faces;
+        parallel_for(int(cells.size()), [&](int c) {
+            const auto [b, a] = cells[size_t(c)];
+            for (int j = 0; j <= each; ++j)
+                for (int i = 0; i <= each; ++i) {
+                    const double u = std::lerp(borders_u[size_t(a)], borders_u[size_t(a) + 1], double(i) / each);
+                    const double v = std::lerp(borders_v[size_t(b)], borders_v[size_t(b) + 1], double(j) / each);
+                    const ClosestPoint foot = search.nearest(evaluate(surface, u, v).position);
+                    if (foot.face < part_faces && foot.distance > found[size_t(c)].distance)
+                        found[size_t(c)] = {u, v, foot.distance};
+                }
+        });
+        std::erase_if(found, [&](const BeyondTolerance& worst) { return worst.distance <= options_.tolerance; });
+        return found;
+    }
+
+    const FitOptions& options_;
+};
+
+/// The surface through the nodes of a fixed grid: as close as its data allow.
+std::optional<NurbsSurface> through_all(const FitSource& source, const FitOptions& options)
+{
+    if (source.lines_u.empty() || source.lines_v.empty() ||
+        (options.ends == CurveEnds::natural && (options.degree_u != 3 || options.degree_v != 3)))
+        return {};
+    QuadGrid grid;
+    grid.columns = int(source.lines_u.size()) - 1;
+    grid.rows = int(source.lines_v.size()) - 1;
+    grid.position = source.at(source.lines_u, source.lines_v);
+    InterpolateOptions interpolation;
+    interpolation.ends = options.ends;
+    interpolation.parameters = InterpolateOptions::Parameters::uniform;
+    interpolation.degree_u = options.degree_u;
+    interpolation.degree_v = options.degree_v;
+    NurbsSurface surface = interpolate(grid, interpolation).surface;
+    if (surface.control.cols() > options.max_control_points)
+        return {};
+    return surface;
+}
+
+FitShortfall shortfall_of(const NurbsSurface& surface, const Judgement& judgement, const TriMesh& mesh,
+                          const FitOptions& options, bool out_of_points)
+{
+    const Deviation& d = judgement.deviation;
+    const auto& missing = judgement.missing;
+    const auto worst = std::max_element(missing.begin(), missing.end(),
+                                        [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    const Eigen::Vector3d where =
+        d.surface_to_mesh.max >= d.mesh_to_surface.max ? d.surface_to_mesh.where : d.mesh_to_surface.where;
+    return find_shortfall(surface, mesh, options, where, reach_of(surface, *worst), std::max(d.max(), worst->distance),
+                          out_of_points ? FitShortfall::Reason::control_points : FitShortfall::Reason::data);
 }
 
 } // namespace
@@ -195,73 +322,62 @@ FitSource source_of(const QuadGrid& lifted)
 FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options, const Progress& progress)
 {
     require_in_range(source, options);
-    const ClosestPointSearch search(mesh);
-    Eigen::Matrix3Xd face_normal = area_vectors(mesh);
-    face_normal.colwise().normalize();
-
-    DeviationOptions of_surface; // while it is too far away one way is enough to look at
-    of_surface.part_faces = options.part_faces;
-    of_surface.tolerance = options.tolerance;
-    of_surface.mesh_to_surface = false;
-    DeviationOptions both = of_surface;
-    both.mesh_to_surface = true;
-    both.samples_per_span = 5; // between the data
-
+    const Judge judge(mesh, options);
     progress.checkpoint(0, "fitting the border");
     std::vector<double> borders_u = borders_of_sides(source, options, true);
     std::vector<double> borders_v = borders_of_sides(source, options, false);
+
+    struct Best {
+        NurbsSurface surface;
+        std::vector<double> u, v;
+        Judgement judgement;
+    };
+    std::optional<Best> best;
+    const auto better = [&](const Judgement& now) {
+        if (!best || now.within != best->judgement.within)
+            return !best || now.within;
+        return now.within ? now.deviation.normal.turned < best->judgement.deviation.normal.turned
+                          : now.deviation.max() < best->judgement.deviation.max();
+    };
     FitResult result;
     result.report.tolerance = options.tolerance;
-    std::optional<Attempt> best;
-    double least = 0;
-    for (int round = 1;; ++round) {
+    bool out_of_points = false;
+    constexpr int most_rounds_for_folds = 4; // once it is near enough
+    for (int round = 1, folded_rounds = 0;; ++round) {
         const Progress here = progress.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
         here.checkpoint(0, fmt::format("fitting {} x {} spans", borders_u.size() - 1, borders_v.size() - 1));
         Attempt now = attempt(source, options, borders_u, borders_v);
         if (options.parameters == FitParameters::corrected)
-            correct_parameters(now, search, face_normal);
-        Deviation measured = deviation(now.surface, mesh, of_surface, here.part(0.2, 0.5));
-        const bool complete = measured.beyond.empty();
-        if (complete)
-            measured = deviation(now.surface, mesh, both, here.part(0.5, 1));
+            correct_parameters(now, judge.search, judge.face_normal);
+        Judgement judgement = judge.judge(now.surface, false, here.part(0.2, 1));
         result.report.rounds = round;
-        result.report.reached = measured.beyond.empty();
-        const Halving halve =
-            result.report.reached
-                ? Halving{}
-                : choose(missing_knots(now.surface, measured.beyond, now.points, now.along_u, now.along_v), now, source,
-                         options);
-        borders_u = halve.count > 0 ? halved(now.borders_u, halve.u) : now.borders_u;
-        borders_v = halve.count > 0 ? halved(now.borders_v, halve.v) : now.borders_v;
-        if (!best || result.report.reached || measured.max() < least) {
-            least = measured.max();
-            best = std::move(now);
-        }
-        if (result.report.reached || halve.count == 0) {
-            if (!result.report.reached)
-                measured = deviation(best->surface, mesh, both, here.part(0.5, 1));
-            result.deviation = std::move(measured);
-            if (!result.report.reached) {
-                const auto& beyond = result.deviation.beyond;
-                const auto worst = std::max_element(beyond.begin(), beyond.end(), [](const auto& a, const auto& b) {
-                    return a.distance < b.distance;
-                });
-                const Deviation& d = result.deviation;
-                const Eigen::Vector3d where =
-                    d.surface_to_mesh.max >= d.mesh_to_surface.max ? d.surface_to_mesh.where : d.mesh_to_surface.where;
-                if (worst != beyond.end())
-                    result.report.shortfall = find_shortfall(
-                        best->surface, mesh, options, where, reach_of(*best, *worst), d.max(),
-                        halve.out_of_points ? FitShortfall::Reason::control_points : FitShortfall::Reason::data);
-                else
-                    result.report.reached = true; // seen from all sides the best one is good
-            }
+        Halving halve;
+        if (!judgement.missing.empty() && !(judgement.within && ++folded_rounds > most_rounds_for_folds))
+            halve = choose(missing_knots(now.surface, judgement.missing, now.points, now.along_u, now.along_v), now,
+                           source, options);
+        out_of_points = halve.out_of_points;
+        if (better(judgement))
+            best = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
+        if (halve.count == 0)
             break;
+        borders_u = halved(borders_u, halve.u);
+        borders_v = halved(borders_v, halve.v);
+    }
+    if (!best->judgement.within) {
+        best->judgement = judge.judge(best->surface, true, progress.part(0.9, 0.95));
+        if (std::optional<NurbsSurface> through = through_all(source, options)) {
+            Judgement judgement = judge.judge(*through, true, progress.part(0.95, 1));
+            if (better(judgement))
+                best = Best{std::move(*through), source.lines_u, source.lines_v, std::move(judgement)};
         }
     }
+    result.report.reached = best->judgement.within;
+    if (!result.report.reached)
+        result.report.shortfall = shortfall_of(best->surface, best->judgement, mesh, options, out_of_points);
     result.surface = std::move(best->surface);
-    result.u = best->along_u.parameters();
-    result.v = best->along_v.parameters();
+    result.u = std::move(best->u);
+    result.v = std::move(best->v);
+    result.deviation = std::move(best->judgement.deviation);
     result.report.knots_u = result.surface.count_u - result.surface.degree_u - 1;
     result.report.knots_v = result.surface.count_v - result.surface.degree_v - 1;
     return result;

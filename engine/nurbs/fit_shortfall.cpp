@@ -81,7 +81,8 @@ void look_around(const TriMesh& mesh, int part_faces, const std::array<Eigen::Ve
 FitShortfall find_shortfall(const NurbsSurface& surface, const TriMesh& mesh, const FitOptions& options,
                             const Eigen::Vector3d& where, double reach, double left, FitShortfall::Reason otherwise)
 {
-    constexpr double notable = 5 * M_PI / 180; // less than the facets of a coarse mesh have
+    // More than the facets of a fine mesh have; with few data an edge must be sharper to be the reason.
+    const double notable = (otherwise == FitShortfall::Reason::data ? 20 : 5) * M_PI / 180;
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
     Sharpest edge, corner;
     look_around(mesh, part_faces, corners_of(surface), where, reach, edge, corner);

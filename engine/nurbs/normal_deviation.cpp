@@ -26,7 +26,7 @@ MeshNormals::MeshNormals(const TriMesh& mesh, int part_faces, double sharp_angle
 }
 
 NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const MeshNormals& mesh,
-                                 const std::function<Eigen::Vector3d(int sample)>& position)
+                                 const std::function<Eigen::Vector3d(int sample)>& position, std::vector<int>& turned)
 {
     struct Angle {
         double angle, weight;
@@ -51,6 +51,10 @@ NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const
             here.angle = M_PI - here.angle;
         area += here.weight;
         sum += here.weight * here.angle;
+        if (here.angle > M_PI / 2) {
+            turned.push_back(here.sample);
+            result.turned += here.weight;
+        }
         result.max = std::max(result.max, here.angle);
         if (!mesh.sharp[size_t(samples[size_t(here.sample)].face)] && here.angle > result.max_smooth) {
             result.max_smooth = here.angle;
@@ -62,6 +66,7 @@ NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const
     if (!(area > 0))
         return result;
     result.mean = sum / area;
+    result.turned /= area;
     std::sort(angles.begin(), angles.end(), [](const Angle& a, const Angle& b) {
         return a.angle < b.angle || (a.angle == b.angle && a.sample < b.sample);
     });

@@ -23,7 +23,8 @@ struct NormalSample {
 };
 
 /// A surface that looks to the inner side on most of its area counts as turned round.
+/// @param turned  gets the samples that look the other way than their face
 NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const MeshNormals& mesh,
-                                 const std::function<Eigen::Vector3d(int sample)>& position);
+                                 const std::function<Eigen::Vector3d(int sample)>& position, std::vector<int>& turned);
 
 } // namespace spia

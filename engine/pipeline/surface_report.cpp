@@ -72,6 +72,7 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
                    {"p95_deg", degrees(d.normal.p95)},
                    {"max_deg", degrees(d.normal.max)},
                    {"max_away_from_sharp_edges_deg", degrees(d.normal.max_smooth)},
+                   {"share_turned", d.normal.turned},
                    {"at_mm", {d.normal.where[0], d.normal.where[1], d.normal.where[2]}}}}};
     if (!stage.fit)
         json["between_data"] = statistics_json(d.between_data, false);
