@@ -8,17 +8,17 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/core/parallel.h"
-#include "engine/mesh/closest_point.h"
-#include "engine/mesh/topology.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
+#include "engine/nurbs/coarsen.h"
+#include "engine/nurbs/fit_attempt.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_judge.h"
 #include "engine/nurbs/fit_patch.h"
 #include "engine/nurbs/fit_shortfall.h"
 #include "engine/nurbs/interpolate.h"
 #include "engine/nurbs/missing_knots.h"
+#include "engine/nurbs/slide.h"
 #include "engine/nurbs/span_borders.h"
 
 namespace spia {
@@ -38,59 +38,6 @@ void require_in_range(const FitSource& source, const FitOptions& options)
     if (options.max_control_points < 16)
         throw InputError(fmt::format("{} control points are too few for a surface; allow 16 or more",
                                      options.max_control_points));
-}
-
-/// One least squares fit: its data, its two directions and its surface.
-struct Attempt {
-    std::vector<double> borders_u, borders_v; ///< of the spans
-    Eigen::Matrix3Xd points;
-    CurveFit along_u, along_v;
-    NurbsSurface surface;
-};
-
-Attempt attempt(const FitSource& source, const FitOptions& options, const std::vector<double>& borders_u,
-                const std::vector<double>& borders_v)
-{
-    const std::vector<double> u = data_parameters(borders_u, source.lines_u);
-    const std::vector<double> v = data_parameters(borders_v, source.lines_v);
-    Attempt result{borders_u,
-                   borders_v,
-                   source.at(u, v),
-                   CurveFit(clamped_knots(borders_u, options.degree_u), options.degree_u, options.ends, u),
-                   CurveFit(clamped_knots(borders_v, options.degree_v), options.degree_v, options.ends, v),
-                   {}};
-    if (result.points.cols() != Eigen::Index(u.size() * v.size()))
-        throw InputError(fmt::format("the source gave {} points where {} x {} were asked for", result.points.cols(),
-                                     u.size(), v.size()));
-    const PatchBorders borders = fit_borders(result.points, result.along_u, result.along_v);
-    result.surface = fit_patch(result.points, result.along_u, result.along_v, borders);
-    return result;
-}
-
-/// Lets the inner points slide over the mesh to the feet of the surface, and fits again; the border is held.
-void correct_parameters(Attempt& fit, const ClosestPointSearch& search, const Eigen::Matrix3Xd& face_normal)
-{
-    constexpr int times = 3;
-    const std::vector<double>&u = fit.along_u.parameters(), &v = fit.along_v.parameters();
-    const int columns = int(u.size()), count = int(fit.points.cols());
-    const PatchBorders borders = fit_borders(fit.points, fit.along_u, fit.along_v);
-    for (int time = 0; time < times; ++time) {
-        Eigen::Matrix3Xd slid = fit.points;
-        parallel_for(count, [&](int n) {
-            const int i = n % columns, j = n / columns;
-            if (i == 0 || i == columns - 1 || j == 0 || n >= count - columns)
-                return;
-            const SurfacePoint at = evaluate(fit.surface, u[size_t(i)], v[size_t(j)]);
-            const ClosestPoint foot = search.nearest(at.position);
-            // On another sheet of the part, or far from where the point belongs, the foot tells nothing.
-            const double turned = std::abs(at.normal().dot(face_normal.col(foot.face)));
-            const double missed = (fit.points.col(n) - at.position).norm();
-            if (turned > 0.5 && foot.distance <= missed)
-                slid.col(n) = foot.position;
-        });
-        fit.points = std::move(slid);
-        fit.surface = fit_patch(fit.points, fit.along_u, fit.along_v, borders);
-    }
 }
 
 /// The most urgent spans of both directions, as many as the number of control points allows.
@@ -240,6 +187,10 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     std::vector<double> borders_u = borders_of_sides(source, options, true);
     std::vector<double> borders_v = borders_of_sides(source, options, false);
 
+    std::optional<Slide> slide;
+    if (options.parameters == FitParameters::corrected)
+        slide.emplace(mesh);
+
     struct Best {
         NurbsSurface surface;
         std::vector<double> u, v;
@@ -249,19 +200,18 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     const auto better = [&](const Judgement& now) {
         if (!best || now.within != best->judgement.within)
             return !best || now.within;
-        return now.within ? now.deviation.normal.turned < best->judgement.deviation.normal.turned
+        // More knots than the tolerance needs are worth it only where they take every fold away.
+        return now.within ? now.deviation.turned.empty() && !best->judgement.deviation.turned.empty()
                           : now.deviation.max() < best->judgement.deviation.max();
     };
     FitResult result;
     result.report.tolerance = options.tolerance;
     bool out_of_points = false;
-    constexpr int most_rounds_for_folds = 4; // once it is near enough
+    constexpr int most_rounds_for_folds = 3; // once it is near enough
     for (int round = 1, folded_rounds = 0;; ++round) {
         const Progress here = progress.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
         here.checkpoint(0, fmt::format("fitting {} x {} spans", borders_u.size() - 1, borders_v.size() - 1));
-        Attempt now = attempt(source, options, borders_u, borders_v);
-        if (options.parameters == FitParameters::corrected)
-            correct_parameters(now, judge.search, judge.face_normal);
+        Attempt now = attempt(source, options, slide ? &*slide : nullptr, borders_u, borders_v);
         Judgement judgement = judge.judge(now.surface, false, here.part(0.2, 1));
         result.report.rounds = round;
         Halving halve;
@@ -275,6 +225,21 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
             break;
         borders_u = halved(borders_u, halve.u);
         borders_v = halved(borders_v, halve.v);
+    }
+    // Halving gives more than is needed: where two halves are far better than asked for, they are joined again.
+    Joining joining(options);
+    while (best->judgement.within) {
+        const auto joined = joining.next(best->surface, mesh);
+        if (!joined)
+            break;
+        progress.checkpoint(0.9, fmt::format("joining to {} x {} spans", joined->u.size() - 1, joined->v.size() - 1));
+        Attempt now = attempt(source, options, slide ? &*slide : nullptr, joined->u, joined->v);
+        Judgement judgement = judge.judge(now.surface, false, progress.part(0.9, 0.95));
+        const bool good = judgement.within &&
+                          judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
+        joining.tried(good);
+        if (good)
+            best = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
     }
     if (!best->judgement.within) {
         best->judgement = judge.judge(best->surface, true, progress.part(0.9, 0.95));
