@@ -175,8 +175,31 @@ int main(int count, char** values)
         ->delimiter(',')
         ->expected(4)
         ->type_name("a,b,c,d");
-    run_command->add_option("--ends", run.ends, "of the interpolation: averaged knots, or natural as in the paper")
-        ->check(CLI::IsMember({"averaged", "natural"}))
+    run_command
+        ->add_option("--tolerance", run.tolerance,
+                     "mm, two-sided, between the surface and the part: least squares with knots where they are needed "
+                     "(default: the surface through the nodes of the grid)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("MM");
+    run_command->add_option("--degree", run.degree, "of the surface along u and v, 2 to 5; one number for both")
+        ->delimiter(',')
+        ->expected(1, 2)
+        ->check(CLI::Range(2, 5))
+        ->type_name("U[,V]")
+        ->capture_default_str();
+    run_command
+        ->add_option("--ends", run.ends,
+                     "of the surface: averaged knots, clamped by estimated tangents, or natural as in the paper")
+        ->check(CLI::IsMember({"averaged", "clamped", "natural"}))
+        ->capture_default_str();
+    run_command
+        ->add_option("--fit-parameters", run.fit_parameters,
+                     "within a tolerance: those of the blank, or corrected, which follows the part with fewer knots but gives up "
+                     "the places in the blank")
+        ->check(CLI::IsMember({"blank", "corrected"}))
+        ->capture_default_str();
+    run_command->add_option("--max-control-points", run.max_control_points, "of the surface within a tolerance")
+        ->check(CLI::Range(16, 4'000'000))
         ->capture_default_str();
     run_command
         ->add_option(

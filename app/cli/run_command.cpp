@@ -75,7 +75,15 @@ SessionOptions options(const RunArguments& arguments)
                          : arguments.grid_method == "harmonic" ? GridMethod::harmonic
                                                                : GridMethod::automatic;
     if (arguments.ends == "natural")
-        result.interpolate.ends = InterpolateOptions::Ends::natural;
+        result.interpolate.ends = CurveEnds::natural;
+    if (arguments.ends == "clamped")
+        result.interpolate.ends = CurveEnds::clamped;
+    result.interpolate.degree_u = arguments.degree.front();
+    result.interpolate.degree_v = arguments.degree.back();
+    result.tolerance = arguments.tolerance;
+    if (arguments.fit_parameters == "corrected")
+        result.fit_parameters = FitParameters::corrected;
+    result.max_control_points = arguments.max_control_points;
     return result;
 }
 

@@ -41,6 +41,7 @@ GridResult empty_grid(const Workshop& shop, int columns, int rows, const BorderP
 {
     GridResult grid;
     grid.filled = shop.filled;
+    grid.border = border;
     grid.planar.columns = columns;
     grid.planar.rows = rows;
     grid.planar.position = Eigen::Matrix3Xd::Zero(3, grid.planar.nodes());

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,8 @@ struct GridResult {
     int nodes_outside = 0;    ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
     int refinements = 0;      ///< how often an automatic cell count was doubled to get there
     bool border_slid = false; ///< the border nodes do not divide the sides evenly: that made loops, see slid_border()
+    /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
+    std::array<Eigen::VectorXd, 4> border;
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside
     std::shared_ptr<const FilledMesh> filled; ///< part and blank with their holes closed
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
-#include <tuple>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -12,6 +11,8 @@
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
+#include "engine/nurbs/mesh_samples.h"
+#include "engine/nurbs/normal_deviation.h"
 #include "engine/nurbs/project.h"
 #include "engine/nurbs/tessellate.h"
 
@@ -54,7 +55,8 @@ struct Samples {
 };
 
 /// @param position  of sample i
-template <class Position> DeviationStatistics statistics(const Samples& samples, const Position& position)
+template <class Position>
+DeviationStatistics statistics(const Samples& samples, double tolerance, const Position& position)
 {
     std::vector<int> order;
     for (int i = 0; i < int(samples.counts.size()); ++i)
@@ -66,10 +68,13 @@ template <class Position> DeviationStatistics statistics(const Samples& samples,
     if (order.empty())
         return result;
 
-    double area = 0, sum = 0, sum_of_squares = 0;
+    double area = 0, sum = 0, sum_of_squares = 0, within = 0;
+    int samples_within = 0;
     for (int i : order) {
         const double distance = samples.distance[size_t(i)], weight = samples.weight[size_t(i)];
         area += weight;
+        within += distance <= tolerance ? weight : 0;
+        samples_within += distance <= tolerance;
         sum += weight * distance;
         sum_of_squares += weight * distance * distance;
     }
@@ -83,6 +88,7 @@ template <class Position> DeviationStatistics statistics(const Samples& samples,
     if (!(area > 0)) // nothing but collapsed places
         return result;
     result.mean = sum / area;
+    result.within = samples_within == result.samples ? 1 : within / area;
     result.rms = std::sqrt(sum_of_squares / area);
     double below = 0;
     for (int i : order) {
@@ -105,11 +111,25 @@ std::vector<double> shares(const std::vector<double>& parameters)
     return result;
 }
 
-/// The distances of the surface at u x v from the mesh.
-DeviationStatistics measure_surface(const NurbsSurface& surface, const std::vector<double>& u,
-                                    const std::vector<double>& v, const std::vector<double>& share_u,
-                                    const std::vector<double>& share_v, const ClosestPointSearch& mesh, int part_faces,
-                                    const Progress& progress)
+/// What the surface is compared with.
+struct Reference {
+    const TriMesh& mesh;
+    int part_faces;
+    double tolerance, listed_from; ///< mm
+    ClosestPointSearch search;
+    MeshNormals normals;
+};
+
+struct SurfaceMeasure {
+    DeviationStatistics distance;
+    NormalDeviation normal;
+    std::vector<BeyondTolerance> beyond, turned;
+};
+
+/// The surface at u x v compared with the mesh.
+SurfaceMeasure measure_surface(const NurbsSurface& surface, const std::vector<double>& u, const std::vector<double>& v,
+                               const std::vector<double>& share_u, const std::vector<double>& share_v,
+                               const Reference& reference, const Progress& progress)
 {
     const int columns = int(u.size());
     if (double(columns) * double(v.size()) > std::numeric_limits<int>::max())
@@ -118,69 +138,26 @@ DeviationStatistics measure_surface(const NurbsSurface& surface, const std::vect
     const int count = columns * int(v.size());
     const auto at = [&](int i) { return evaluate(surface, u[size_t(i % columns)], v[size_t(i / columns)]); };
     Samples samples(count);
+    std::vector<NormalSample> normals(static_cast<size_t>(count));
     for_each_sample(count, progress, "measuring from the surface to the mesh", [&](int i) {
         const SurfacePoint point = at(i);
-        const ClosestPoint found = mesh.nearest(point.position);
+        const ClosestPoint found = reference.search.nearest(point.position);
         samples.distance[size_t(i)] = found.distance;
         samples.weight[size_t(i)] =
             point.S_u.cross(point.S_v).norm() * share_u[size_t(i % columns)] * share_v[size_t(i / columns)];
-        samples.counts[size_t(i)] = found.face < part_faces;
+        samples.counts[size_t(i)] = found.face < reference.part_faces;
+        normals[size_t(i)] = {point.normal(), samples.counts[size_t(i)] ? found.face : -1, samples.weight[size_t(i)]};
     });
-    return statistics(samples, [&](int i) { return at(i).position; });
-}
-
-/// The places of the mesh that are projected on the surface: all vertices first, then the midpoints of the part's edges
-/// and faces. The weights integrate cubic functions exactly over each face (1/20, 2/15 and 9/20 of its area).
-struct MeshSamples {
-    Eigen::Matrix3Xd position;
-    Samples samples;
-};
-
-MeshSamples sample_mesh(const TriMesh& mesh, int part_faces)
-{
-    struct EdgeOfFace {
-        int a, b, face; ///< a < b
-    };
-    std::vector<EdgeOfFace> edges;
-    edges.reserve(size_t(part_faces) * 3);
-    for (int f = 0; f < part_faces; ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = mesh.triangle(k, f), b = mesh.triangle((k + 1) % 3, f);
-            edges.push_back({std::min(a, b), std::max(a, b), f});
-        }
-    std::sort(edges.begin(), edges.end(), [](const EdgeOfFace& x, const EdgeOfFace& y) {
-        return std::tie(x.a, x.b, x.face) < std::tie(y.a, y.b, y.face);
-    });
-
-    std::vector<Eigen::Vector3d> position;
-    std::vector<double> weight(size_t(mesh.vertices()), 0);
-    std::vector<char> counts(size_t(mesh.vertices()), 0);
-    for (int v = 0; v < mesh.vertices(); ++v)
-        position.push_back(mesh.position.col(v));
-    const Eigen::VectorXd area = area_vectors(mesh).colwise().norm();
-    for (int f = 0; f < part_faces; ++f) {
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (int v : mesh.triangle.col(f)) {
-            weight[size_t(v)] += area[f] / 20;
-            counts[size_t(v)] = 1;
-            middle += mesh.position.col(v) / 3;
-        }
-        position.push_back(middle);
-        weight.push_back(area[f] * 9 / 20);
-    }
-    for (size_t e = 0; e < edges.size(); ++e) {
-        if (e == 0 || edges[e].a != edges[e - 1].a || edges[e].b != edges[e - 1].b) {
-            position.push_back((mesh.position.col(edges[e].a) + mesh.position.col(edges[e].b)) / 2);
-            weight.push_back(0);
-        }
-        weight.back() += area[edges[e].face] * 2 / 15;
-    }
-
-    MeshSamples result{Eigen::Matrix3Xd(3, position.size()), Samples(int(position.size()))};
-    for (size_t i = 0; i < position.size(); ++i)
-        result.position.col(Eigen::Index(i)) = position[i];
-    std::copy(counts.begin(), counts.end(), result.samples.counts.begin());
-    result.samples.weight = std::move(weight);
+    SurfaceMeasure result;
+    const auto position = [&](int i) { return at(i).position; };
+    result.distance = statistics(samples, reference.tolerance, position);
+    std::vector<int> turned;
+    result.normal = normal_deviation(normals, reference.normals, position, turned);
+    for (const int i : turned)
+        result.turned.push_back({u[size_t(i % columns)], v[size_t(i / columns)], samples.distance[size_t(i)]});
+    for (int i = 0; i < count; ++i)
+        if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > reference.listed_from)
+            result.beyond.push_back({u[size_t(i % columns)], v[size_t(i / columns)], samples.distance[size_t(i)]});
     return result;
 }
 
@@ -219,33 +196,48 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
     const std::vector<double> u = sample_parameters(surface.knots_u, surface.degree_u, options.samples_per_span);
     const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, options.samples_per_span);
-    const ClosestPointSearch search(mesh);
+    const Reference reference{mesh, part_faces, options.tolerance, options.listed_from * options.tolerance, ClosestPointSearch(mesh),
+                              MeshNormals(mesh, part_faces, options.sharp_angle)};
 
     Deviation result;
-    result.surface_to_mesh =
-        measure_surface(surface, u, v, shares(u), shares(v), search, part_faces, progress.part(0, 0.3));
+    SurfaceMeasure measured = measure_surface(surface, u, v, shares(u), shares(v), reference, progress.part(0, 0.3));
+    result.surface_to_mesh = measured.distance;
+    result.normal = measured.normal;
+    result.beyond = std::move(measured.beyond);
+    result.turned = std::move(measured.turned);
     if (!options.data_u.empty())
-        result.between_data =
-            measure_surface(surface, middles(options.data_u), middles(options.data_v), lengths(options.data_u),
-                            lengths(options.data_v), search, part_faces, progress.part(0.3, 0.35));
+        result.between_data = measure_surface(surface, middles(options.data_u), middles(options.data_v),
+                                              lengths(options.data_u), lengths(options.data_v), reference,
+                                              progress.part(0.3, 0.35))
+                                  .distance;
+    if (!options.mesh_to_surface)
+        return result;
 
     progress.checkpoint(0.35, "preparing the surface");
     const SurfaceProjection projection(surface, start_samples_per_span(surface, options.samples_per_span));
     MeshSamples places = sample_mesh(mesh, part_faces);
+    const int count = int(places.position.cols());
+    Samples samples(count);
+    samples.weight = std::move(places.weight);
+    samples.counts = std::move(places.counts);
+    Eigen::Matrix2Xd foot_uv(2, count);
     const Eigen::Matrix3Xd normal = vertex_normals(mesh);
     result.at_vertex.resize(mesh.vertices());
-    for_each_sample(int(places.position.cols()), progress.part(0.4, 1), "measuring from the mesh to the surface",
-                    [&](int i) {
-                        const Eigen::Vector3d point = places.position.col(i);
-                        const SurfaceFoot foot = projection.nearest(point);
-                        places.samples.distance[size_t(i)] = foot.distance;
-                        if (i < mesh.vertices()) {
-                            const bool outside = (foot.position - point).dot(normal.col(i)) >= 0;
-                            result.at_vertex[i] = outside ? foot.distance : -foot.distance;
-                        }
-                    });
+    for_each_sample(count, progress.part(0.4, 1), "measuring from the mesh to the surface", [&](int i) {
+        const Eigen::Vector3d point = places.position.col(i);
+        const SurfaceFoot foot = projection.nearest(point);
+        samples.distance[size_t(i)] = foot.distance;
+        foot_uv.col(i) << foot.u, foot.v;
+        if (i < mesh.vertices()) {
+            const bool outside = (foot.position - point).dot(normal.col(i)) >= 0;
+            result.at_vertex[i] = outside ? foot.distance : -foot.distance;
+        }
+    });
     result.mesh_to_surface =
-        statistics(places.samples, [&](int i) -> Eigen::Vector3d { return places.position.col(i); });
+        statistics(samples, options.tolerance, [&](int i) -> Eigen::Vector3d { return places.position.col(i); });
+    for (int i = 0; i < count; ++i)
+        if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > reference.listed_from)
+            result.beyond.push_back({foot_uv(0, i), foot_uv(1, i), samples.distance[size_t(i)]});
     return result;
 }
 

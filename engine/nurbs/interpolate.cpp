@@ -7,6 +7,8 @@
 
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
+#include "engine/nurbs/end_tangent.h"
+#include "engine/nurbs/point_rows.h"
 
 namespace spia {
 
@@ -26,17 +28,6 @@ void require_usable(const QuadGrid& grid)
                 throw InputError(fmt::format("node ({}, {}) of the grid has a coordinate that is not a number; lift "
                                              "the grid again",
                                              i, j));
-}
-
-/// The grid with columns and rows exchanged.
-Eigen::Matrix3Xd transposed(const Eigen::Matrix3Xd& points, int count_u)
-{
-    const int count_v = int(points.cols()) / count_u;
-    Eigen::Matrix3Xd result(3, points.cols());
-    for (int j = 0; j < count_v; ++j)
-        for (int i = 0; i < count_u; ++i)
-            result.col(j + i * count_v) = points.col(i + j * count_u);
-    return result;
 }
 
 struct MeanParameters {
@@ -110,14 +101,32 @@ std::vector<double> knots_at_parameters(const std::vector<double>& parameters)
     return knots;
 }
 
+/// Clamped knots for two control points more than parameters. [NURBS Book, 9.2.4]
+std::vector<double> averaged_knots_with_end_tangents(const std::vector<double>& parameters, int degree)
+{
+    std::vector<double> knots(size_t(degree) + 1, 0);
+    for (size_t j = 0; j + size_t(degree) <= parameters.size(); ++j) {
+        double sum = 0;
+        for (int k = 0; k < degree; ++k)
+            sum += parameters[j + size_t(k)];
+        knots.push_back(sum / degree);
+    }
+    knots.insert(knots.end(), size_t(degree) + 1, 1);
+    return knots;
+}
+
 /// One direction of the interpolation: curves through points at fixed parameters.
 class CurveSolver {
 public:
-    CurveSolver(const std::vector<double>& parameters, InterpolateOptions::Ends ends)
-        : natural_(ends == InterpolateOptions::Ends::natural), points_(int(parameters.size()))
+    CurveSolver(const std::vector<double>& parameters, CurveEnds ends, int wanted_degree)
+        : ends_(ends), points_(int(parameters.size()))
     {
-        degree = natural_ ? 3 : std::min(3, points_ - 1);
-        knots = natural_ ? knots_at_parameters(parameters) : averaged_knots(parameters, degree);
+        if (ends_ == CurveEnds::clamped && points_ < wanted_degree)
+            ends_ = CurveEnds::averaged_knots; // a polynomial through all points: its tangents are the estimated ones
+        degree = ends_ == CurveEnds::averaged_knots ? std::min(wanted_degree, points_ - 1) : wanted_degree;
+        knots = ends_ == CurveEnds::natural   ? knots_at_parameters(parameters)
+                : ends_ == CurveEnds::clamped ? averaged_knots_with_end_tangents(parameters, degree)
+                                              : averaged_knots(parameters, degree);
         count = int(knots.size()) - degree - 1;
         Eigen::SparseMatrix<double> matrix(count, count);
         std::vector<Eigen::Triplet<double>> entries;
@@ -128,16 +137,20 @@ public:
         for (int i = 0; i < points_; ++i) {
             const BasisValues N = basis(knots, degree, parameters[size_t(i)]);
             add_row(row_of_point(i), N.first, N.value);
-            if (natural_ && (i == 0 || i == points_ - 1)) {
-                // S'' = 0, scaled so that the row is of the size of the others
-                auto second = N.second_derivative;
-                double largest = 0;
-                for (double value : second)
-                    largest = std::max(largest, std::abs(value));
-                for (double& value : second)
-                    value /= largest;
-                add_row(i == 0 ? 1 : count - 2, N.first, second);
-            }
+            if (i > 0 && i < points_ - 1)
+                continue;
+            // What is asked of an end, scaled so that the row is of the size of the others.
+            auto asked = ends_ == CurveEnds::natural ? N.second_derivative : N.first_derivative;
+            double largest = 0;
+            for (double value : asked)
+                largest = std::max(largest, std::abs(value));
+            for (double& value : asked)
+                value /= largest;
+            if (has_end_rows())
+                add_row(i == 0 ? 1 : count - 2, N.first, asked);
+            if (ends_ == CurveEnds::clamped)
+                (i == 0 ? tangent_start_ : tangent_end_) =
+                    end_derivative_weights(parameters, std::min(degree + 1, points_), i == 0) / largest;
         }
         matrix.setFromTriplets(entries.begin(), entries.end());
         lu_.compute(matrix);
@@ -154,6 +167,10 @@ public:
         Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3 * width); // one column per curve and coordinate
         for (int j = 0; j < points_; ++j)
             right.row(row_of_point(j)) = rows.col(j).transpose();
+        for (Eigen::Index k = 0; k < tangent_start_.size(); ++k) {
+            right.row(1) += tangent_start_[k] * rows.col(k).transpose();
+            right.row(count - 2) += tangent_end_[k] * rows.col(points_ - 1 - k).transpose();
+        }
         const Eigen::MatrixXd solution = lu_.solve(right);
         Eigen::Matrix3Xd control(3, width * count);
         Eigen::Map<Eigen::MatrixXd>(control.data(), 3 * width, count) = solution.transpose();
@@ -165,33 +182,49 @@ public:
     std::vector<double> knots;
 
 private:
-    /// The second and the last row but one of the matrix hold the natural end conditions.
+    bool has_end_rows() const { return ends_ != CurveEnds::averaged_knots; }
+
+    /// The second and the last row but one of the matrix hold what is asked of the ends.
     int row_of_point(int i) const
     {
-        if (!natural_ || i == 0)
+        if (!has_end_rows() || i == 0)
             return i;
         return i == points_ - 1 ? count - 1 : i + 1;
     }
 
-    bool natural_;
+    CurveEnds ends_;
     int points_;
+    Eigen::VectorXd tangent_start_, tangent_end_; ///< clamped: weights of the points in the right side's end rows
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;
 };
+
+void require_possible(const InterpolateOptions& options)
+{
+    for (const int degree : {options.degree_u, options.degree_v}) {
+        if (degree < 2 || degree > 5)
+            throw InputError(fmt::format("degree {} is not offered; choose one from 2 to 5", degree));
+        if (options.ends == CurveEnds::natural && degree != 3)
+            throw InputError(fmt::format("natural ends, as in the paper, are those of cubic curves; degree {} needs averaged "
+                                         "knots or clamped ends",
+                                         degree));
+    }
+}
 
 } // namespace
 
 InterpolateResult interpolate(const QuadGrid& lifted, const InterpolateOptions& options, const Progress& progress)
 {
     require_usable(lifted);
+    require_possible(options);
     const int nodes_u = lifted.columns + 1, nodes_v = lifted.rows + 1;
     MeanParameters u = mean_parameters(lifted.position, nodes_u, options.parameters);
     MeanParameters v = mean_parameters(transposed(lifted.position, nodes_u), nodes_v, options.parameters);
 
     progress.checkpoint(0, "interpolating along v");
-    const CurveSolver along_v(v.value, options.ends);
+    const CurveSolver along_v(v.value, options.ends, options.degree_v);
     const Eigen::Matrix3Xd columns = along_v.solve(lifted.position, nodes_u);
     progress.checkpoint(0.5, "interpolating along u");
-    const CurveSolver along_u(u.value, options.ends);
+    const CurveSolver along_u(u.value, options.ends, options.degree_u);
     const Eigen::Matrix3Xd control = along_u.solve(transposed(columns, nodes_u), along_v.count);
 
     InterpolateResult result;

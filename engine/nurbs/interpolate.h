@@ -3,21 +3,17 @@
 
 #include "engine/coons/quad_grid.h"
 #include "engine/core/progress.h"
+#include "engine/nurbs/curve_ends.h"
 #include "engine/nurbs/surface.h"
 
 namespace spia {
 
 struct InterpolateOptions {
-    /// What the degrees of freedom beyond the data are used for.
-    enum class Ends {
-        /// None are left: the knots are means of the parameters, with as many control points as nodes. Order 4 up to
-        /// the border; the degree is 3, or nodes - 1 where a direction has fewer than 4 nodes.
-        averaged_knots,
-        /// As in the paper (4.4.4): a knot at every node, two control points more than nodes in each direction, second
-        /// derivatives zero along the border, the fourth mixed derivative zero at the corners. It loses two orders at
-        /// the border (theory.md 5; the test AveragedKnotsHaveOrderFourUpToTheBorderAndNaturalEndsTwo).
-        natural
-    };
+    /// What the degrees of freedom beyond the data are used for. Averaged knots leave none: the knots are means of the
+    /// parameters, with as many control points as nodes; order degree + 1 up to the border. Clamped and natural ends take
+    /// two control points more than nodes in each direction. Natural ones, as in the paper (4.4.4), have a knot at every
+    /// node, are cubic, and the fourth mixed derivative is zero at the corners.
+    using Ends = CurveEnds;
     /// How far apart in parameter two neighbouring rows of nodes lie.
     enum class Parameters {
         chord,       ///< by their distance: even speed; for smooth parts
@@ -26,6 +22,7 @@ struct InterpolateOptions {
     };
     Ends ends = Ends::averaged_knots;
     Parameters parameters = Parameters::chord;
+    int degree_u = 3, degree_v = 3; ///< 2 to 5; nodes - 1 where a direction has too few
 };
 
 struct InterpolateResult {
@@ -37,13 +34,14 @@ struct InterpolateResult {
     int coinciding_columns = 0, coinciding_rows = 0;
 };
 
-/// The bicubic surface through all nodes of the grid, by one sweep of banded systems along each direction; the matrix
+/// The surface through all nodes of the grid, by one sweep of banded systems along each direction; the matrix
 /// is factored once per direction. Parameters are the means over all rows (columns) of the grid; a row that is
 /// collapsed to a point has no say. [Zhu2013, eq. 26 and 4.4.4; NURBS Book, eqs. 9.5
 /// to 9.8, 9.4.1]
 /// @param lifted  at least one column and one row of cells
 /// @param progress  one checkpoint per sweep
-/// @throws InputError  if the grid is empty, its size and nodes disagree or a coordinate is not a number
+/// @throws InputError  if the grid is empty, its size and nodes disagree, a coordinate is not a number, or the
+///                     degree is not offered with these ends
 InterpolateResult interpolate(const QuadGrid& lifted, const InterpolateOptions& options = {},
                               const Progress& progress = {});
 

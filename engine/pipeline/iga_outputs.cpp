@@ -7,11 +7,34 @@
 #include "engine/exchange/write_gismo.h"
 #include "engine/exchange/write_iga_dyna.h"
 #include "engine/exchange/write_mfem.h"
+#include "engine/mesh/closest_point.h"
+#include "engine/nurbs/blank_chart.h"
+#include "engine/nurbs/evaluate.h"
 
 namespace spia {
 namespace {
 
 constexpr const char* field_names[] = {"thickness", "plastic_strain"};
+
+/// Where on the part the lines u[i], v[j] of the surface's data meet: nodes of the grid; of a fit within a tolerance those of its
+/// finer chart, or what the surface is nearest to where its parameters are no places of the blank any more.
+std::vector<MeshPoint> places_of_data(const Session& session)
+{
+    const InterpolateResult& fitted = session.surface->result;
+    if (!session.surface->fit)
+        return session.lifted->place;
+    const GridStage& grid = *session.grid;
+    if (session.options.fit_parameters == FitParameters::blank)
+        return BlankChart(grid.result, grid.boundary).refined(fitted.u, fitted.v).place;
+    const ClosestPointSearch search(grid.result.filled->mesh);
+    std::vector<MeshPoint> places;
+    for (const double v : fitted.v)
+        for (const double u : fitted.u) {
+            const ClosestPoint nearest = search.nearest(evaluate(fitted.surface, u, v).position);
+            places.push_back({nearest.face, nearest.barycentric});
+        }
+    return places;
+}
 
 } // namespace
 
@@ -45,8 +68,9 @@ std::vector<PatchField> surface_fields(const Session& session)
 {
     const InterpolateResult& fitted = session.surface->result;
     const SheetFields& sheet = session.blank->node;
+    const std::vector<MeshPoint> places = places_of_data(session);
     const auto on_surface = [&](const char* name, const char* unit, const Eigen::VectorXd& at_vertices) {
-        const Eigen::VectorXd nodes = carry_field(*session.grid->result.filled, at_vertices, session.lifted->place);
+        const Eigen::VectorXd nodes = carry_field(*session.grid->result.filled, at_vertices, places);
         return PatchField{name, unit, {fit_field(fitted.surface, fitted.u, fitted.v, nodes)}};
     };
     return {on_surface(field_names[0], "mm", sheet.thickness),

@@ -18,6 +18,7 @@
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
+#include "engine/pipeline/surface_report.h"
 
 namespace spia {
 namespace {
@@ -346,24 +347,6 @@ Json grid_json(const Session& session)
             {"filled_holes", grid.filled->holes}};
 }
 
-Json statistics_json(const DeviationStatistics& s)
-{
-    return {{"max_mm", s.max}, {"rms_mm", s.rms}, {"p95_mm", s.p95}, {"at_mm", {s.where[0], s.where[1], s.where[2]}}};
-}
-
-Json surface_json(const SurfaceStage& stage)
-{
-    const Deviation& d = stage.deviation;
-    return {{"control_points_u", stage.result.surface.count_u},
-            {"control_points_v", stage.result.surface.count_v},
-            {"deviation_max_mm", d.max()},
-            {"deviation_rms_mm", std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms)},
-            {"deviation_p95_mm", std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95)},
-            {"surface_to_mesh", statistics_json(d.surface_to_mesh)},
-            {"mesh_to_surface", statistics_json(d.mesh_to_surface)},
-            {"between_data", statistics_json(d.between_data)}};
-}
-
 } // namespace
 
 namespace {
@@ -471,6 +454,16 @@ std::vector<std::string> shortcomings(const Session& session)
                         quality.folded_cells == 1 ? "1 cell" : fmt::format("{} cells", quality.folded_cells),
                         quality.folded_cells == 1 ? "is" : "are", column, row, quality.min_scaled_jacobian));
     }
+    if (session.surface && session.surface->fit) {
+        const FitReport& fit = *session.surface->fit;
+        if (!fit.reached)
+            list.push_back(fit.shortfall.text);
+        else if (session.surface->deviation.max() > fit.tolerance)
+            list.push_back(fmt::format(
+                "the surface is within {:.3g} mm of the remeshed part, but up to {:.3g} mm from the part that was read: give the "
+                "remeshing a smaller tolerance",
+                fit.tolerance, session.surface->deviation.max()));
+    }
     return list;
 }
 
@@ -501,7 +494,7 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
     if (session.grid)
         json["grid"] = grid_json(session);
     if (session.surface)
-        json["surface"] = surface_json(*session.surface);
+        json["surface"] = surface_json(*session.surface, *session.part);
     if (failure)
         json["failure"] = {{"stage", name(failure->stage)}, {"message", failure->message}};
     if (session.surface)

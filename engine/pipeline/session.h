@@ -12,6 +12,7 @@
 #include "engine/forming/flatten.h"
 #include "engine/limits/limits.h"
 #include "engine/nurbs/deviation.h"
+#include "engine/nurbs/fit.h"
 #include "engine/nurbs/interpolate.h"
 #include "engine/unfold/unfold_script.h"
 
@@ -37,7 +38,12 @@ struct SessionOptions {
     LimitsOptions limits;
     std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if not given
     GridOptions grid;
-    InterpolateOptions interpolate;
+    InterpolateOptions interpolate; ///< its degrees and ends hold for a fit, too
+    /// mm, two-sided, of the surface. Not given: it runs through the nodes of the grid, and is as far from the part between
+    /// them as it is.
+    std::optional<double> tolerance;
+    FitParameters fit_parameters = FitParameters::blank; ///< where a tolerance is given
+    int max_control_points = FitOptions{}.max_control_points;
 };
 
 /// A planar grid and the sides it was made from.
@@ -52,6 +58,7 @@ std::string_view name(const std::optional<BlankOfSteps>& steps);
 struct SurfaceStage {
     InterpolateResult result;
     Deviation deviation;
+    std::optional<FitReport> fit; ///< where a tolerance was given
 };
 
 /// All there is to know about one part: what was asked for and the results so far. Results are finished and const;

@@ -7,6 +7,7 @@
 #include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
+#include "engine/nurbs/blank_chart.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/stepped_blank.h"
@@ -125,25 +126,59 @@ TriMesh with_holes_filled(const TriMesh& original, const TriMesh& filled, int pa
     return result;
 }
 
-void fit(Session& session, const Progress& progress)
+/// The surface within the tolerance, its points taken from the grid's map of the blank wherever they are needed.
+FitResult fit_within_tolerance(const Session& session, const Progress& progress)
 {
-    InterpolateResult result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
-    DeviationOptions options;
-    options.part_faces = session.grid->result.filled->part_triangles;
-    options.data_u = result.u;
-    options.data_v = result.v;
+    const SessionOptions& options = session.options;
+    const FilledMesh& filled = *session.grid->result.filled;
+    FitOptions fitting;
+    fitting.tolerance = *options.tolerance;
+    fitting.degree_u = options.interpolate.degree_u;
+    fitting.degree_v = options.interpolate.degree_v;
+    fitting.ends = options.interpolate.ends;
+    fitting.parameters = options.fit_parameters;
+    fitting.max_control_points = options.max_control_points;
+    fitting.part_faces = filled.part_triangles;
+    fitting.file_number = session.part->source_vertex;
+    const BlankChart chart(session.grid->result, session.grid->boundary);
+    FitSource source;
+    source.at = [&](const std::vector<double>& u, const std::vector<double>& v) {
+        return lift(chart.refined(u, v)).lifted.position;
+    };
+    return fit(source, filled.mesh, fitting, progress);
+}
+
+void make_surface(Session& session, const Progress& progress)
+{
     const auto& remeshed = session.part->remeshed;
-    Deviation measured =
-        deviation(result.surface, session.grid->result.filled->mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
-    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is shown
-        const TriMesh whole =
-            with_holes_filled(*remeshed->original, session.grid->result.filled->mesh, options.part_faces);
-        options.part_faces = remeshed->original->triangles();
-        Eigen::VectorXd at_vertex = std::move(measured.at_vertex);
-        measured = deviation(result.surface, whole, options, progress.part(0.6, 1));
-        measured.at_vertex = std::move(at_vertex);
+    const FilledMesh& filled = *session.grid->result.filled;
+    SurfaceStage stage;
+    DeviationOptions options;
+    options.part_faces = filled.part_triangles;
+    if (session.options.tolerance) {
+        options.tolerance = *session.options.tolerance;
+        FitResult fitted = fit_within_tolerance(session, progress.part(0, remeshed ? 0.6 : 1));
+        stage.result.surface = std::move(fitted.surface);
+        stage.result.u = std::move(fitted.u);
+        stage.result.v = std::move(fitted.v);
+        stage.deviation = std::move(fitted.deviation);
+        stage.fit = std::move(fitted.report);
+    } else {
+        stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
+        options.data_u = stage.result.u;
+        options.data_v = stage.result.v;
+        stage.deviation =
+            deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
     }
-    session.surface = std::make_shared<SurfaceStage>(SurfaceStage{std::move(result), std::move(measured)});
+    if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is shown
+        const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
+        options.part_faces = remeshed->original->triangles();
+        Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
+        stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, 1));
+        stage.deviation.at_vertex = std::move(at_vertex);
+    }
+    stage.deviation.beyond.clear(); // needed no longer, and may be long
+    session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
 void require(bool there, const char* what)
@@ -247,7 +282,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
         break;
     case Stage::fit:
         require(session.lifted != nullptr, "lift the grid");
-        fit(session, progress);
+        make_surface(session, progress);
         break;
     }
     session.seconds[stage] = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();

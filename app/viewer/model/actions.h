@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/viewer/model/fit_choice.h"
 #include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
 #include "app/viewer/model/step_friction.h"
@@ -99,9 +100,11 @@ struct ProposeCorners {}; ///< "propose_corners": automatic ones again
 struct SetGrid {
     GridOptions grid;
 }; ///< "set_grid": columns, rows, cells, smoothing, method
-struct SetEnds {
-    bool natural = false;
-}; ///< "set_ends" of the interpolation
+/// "set_fit", of the surface: tolerance (mm, two-sided; null: it runs through the nodes of the grid), degree_u, degree_v (2 to
+/// 5), ends ("averaged", "clamped", "natural"), parameters ("blank", "corrected"), max_control_points.
+struct SetFit {
+    FitChoice fit;
+};
 
 /// "set_limits": curve ("automatic", "keeler_brazier", "points" of a table, "none"), table, n, margin, max_thinning,
 /// max_thickening, low_strain. A blank that is there is judged anew at once.
@@ -346,7 +349,7 @@ struct Quit {};            ///< "quit"
 using Action =
     std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
                  SetMaterial, FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
-                 SetEnds, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
+                 SetFit, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
                  SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
                  SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection,
                  ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine,

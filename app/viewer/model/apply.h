@@ -54,7 +54,7 @@ struct ViewerModel::Apply {
     void operator()(const SetCorner& action);
     void operator()(const ProposeCorners&);
     void operator()(const SetGrid& action);
-    void operator()(const SetEnds& action);
+    void operator()(const SetFit& action);
     void operator()(const SetLimits& action);
 
     // --- unfolding step by step

@@ -77,6 +77,7 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.session.options.flatten.material = session.options.flatten.material;
     fresh.session.options.flatten.thickness = session.options.flatten.thickness;
     fresh.session.options.interpolate = session.options.interpolate;
+    set_fit(fresh.session.options, fit_choice(session.options));
     if (!action.unit.empty())
         fresh.session.options.read.unit = length_unit(action.unit);
     set_reading(fresh.session.options.read, action.reading);
@@ -281,11 +282,12 @@ void ViewerModel::Apply::operator()(const SetGrid& action)
         model.run_to(Stage::fit, "Making the grid");
 }
 
-void ViewerModel::Apply::operator()(const SetEnds& action)
+void ViewerModel::Apply::operator()(const SetFit& action)
 {
-    change("Change ends of the surface");
-    session.options.interpolate.ends =
-        action.natural ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
+    SessionOptions options = session.options;
+    set_fit(options, action.fit);
+    change("Change the surface");
+    session.options = std::move(options);
     if (session.lifted)
         model.run_to(Stage::fit, "Fitting the surface");
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/viewer/model/fit_choice.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {
@@ -64,7 +65,10 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
         made_with.grid = options.grid;
         break;
     case Stage::lift: break;
-    case Stage::fit: made_with.interpolate = options.interpolate; break;
+    case Stage::fit:
+        made_with.interpolate = options.interpolate;
+        set_fit(made_with, fit_choice(options));
+        break;
     }
 }
 
@@ -97,7 +101,7 @@ std::optional<Stage> first_stale(const Document& document)
         return Stage::grid;
     if (!session.lifted)
         return Stage::lift;
-    if (!session.surface || wanted.interpolate.ends != made.interpolate.ends ||
+    if (!session.surface || fit_choice(wanted) != fit_choice(made) ||
         wanted.interpolate.parameters != made.interpolate.parameters)
         return Stage::fit;
     return std::nullopt;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "app/viewer/model/fit_choice.h"
 #include "app/viewer/model/json_members.h"
 #include "app/viewer/model/report_options.h"
 #include "app/viewer/model/state.h"
@@ -101,6 +102,15 @@ inline constexpr auto members_of<GridOptions> = std::tuple{
     member("columns", &GridOptions::columns, Between{0, 2000}), member("rows", &GridOptions::rows, Between{0, 2000}),
     member("cells", &GridOptions::cells, Between{1, 2000}),
     member("smoothing", &GridOptions::smoothing, Between{0, 100000}), member("method", &GridOptions::method)};
+
+template <>
+inline constexpr auto members_of<FitChoice> =
+    std::tuple{member("tolerance", &FitChoice::tolerance, Between{1e-9, most_mm}),
+               member("degree_u", &FitChoice::degree_u, Between{2, 5}),
+               member("degree_v", &FitChoice::degree_v, Between{2, 5}),
+               member("ends", &FitChoice::ends),
+               member("parameters", &FitChoice::parameters),
+               member("max_control_points", &FitChoice::max_control_points, Between{16, 4'000'000})};
 
 inline constexpr auto has_length = [](const Eigen::Vector3d& direction, const Place& place) {
     if (!(direction.norm() > 0))

@@ -61,6 +61,13 @@ inline constexpr std::array names_of<InterpolateOptions::Parameters>{
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::centripetal, "centripetal"},
     Names<InterpolateOptions::Parameters>{InterpolateOptions::Parameters::uniform, "uniform"}};
 template <>
+inline constexpr std::array names_of<CurveEnds>{Names<CurveEnds>{CurveEnds::averaged_knots, "averaged"},
+                                                Names<CurveEnds>{CurveEnds::clamped, "clamped"},
+                                                Names<CurveEnds>{CurveEnds::natural, "natural"}};
+template <>
+inline constexpr std::array names_of<FitParameters>{Names<FitParameters>{FitParameters::blank, "blank"},
+                                                    Names<FitParameters>{FitParameters::corrected, "corrected"}};
+template <>
 inline constexpr std::array names_of<LimitsOptions::Source>{
     Names<LimitsOptions::Source>{LimitsOptions::Source::automatic, "automatic"},
     Names<LimitsOptions::Source>{LimitsOptions::Source::keeler_brazier, "keeler_brazier"},

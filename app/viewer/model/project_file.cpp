@@ -39,7 +39,8 @@ struct StoredProject {
     bool skins = false;
     std::optional<Eigen::Vector3d> direction;
     GridOptions grid;
-    bool natural_ends = false;
+    bool natural_ends = false; ///< how older files have the ends
+    std::optional<FitChoice> fit;
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
     std::optional<Stage> ran;
     bool steps_ran = false;
@@ -143,6 +144,7 @@ inline constexpr auto members_of<StoredProject> =
                member("direction", &StoredProject::direction),
                member("grid", &StoredProject::grid),
                member("natural_ends", &StoredProject::natural_ends),
+               member("fit", &StoredProject::fit),
                member("parameters", &StoredProject::parameters),
                member("ran", &StoredProject::ran),
                member("steps_ran", &StoredProject::steps_ran),
@@ -244,8 +246,8 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.flatten.skins = stored.skins;
     session.options.flatten.direction = stored.direction;
     session.options.grid = stored.grid;
-    session.options.interpolate.ends =
-        stored.natural_ends ? InterpolateOptions::Ends::natural : InterpolateOptions::Ends::averaged_knots;
+    set_fit(session.options, stored.fit.value_or(FitChoice{
+                                 .ends = stored.natural_ends ? CurveEnds::natural : CurveEnds::averaged_knots}));
     session.options.interpolate.parameters = stored.parameters;
     document.edge_restraint = stored.edge_restraint;
     document.rolling = stored.rolling;
@@ -285,7 +287,8 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.skins = session.options.flatten.skins;
     stored.direction = session.options.flatten.direction;
     stored.grid = session.options.grid;
-    stored.natural_ends = session.options.interpolate.ends == InterpolateOptions::Ends::natural;
+    stored.natural_ends = session.options.interpolate.ends == CurveEnds::natural;
+    stored.fit = fit_choice(session.options);
     stored.parameters = session.options.interpolate.parameters;
     stored.ran = last_stage(session);
     stored.steps_ran = steps_done(document) > 0;

@@ -17,6 +17,7 @@
 /// | `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`, `part.leave_out_bad_faces`, `part.seam`, `part.remesh` | as in the script actions set_reading, set_seam and set_remeshing |
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
+/// | `fit` | as in the script action set_fit; without it `natural_ends` says the ends |
 /// | `ran` | the last stage that had been run, or null |
 /// | `steps_ran` | whether steps of unfolding had been run |
 /// | `blank_of_steps_polished` | null where the blank is that of one step; else it is that of the steps, polished or not |

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "app/viewer/model/html_text.h"
 #include "app/viewer/model/statistics.h"
@@ -188,6 +189,15 @@ std::string key_figures(const Session& session, const Json& figures)
                                         : "not proved: " + patch["refused"]["why"].get<std::string>(),
                                     significant(patch["scaled_jacobian_min"].get<double>()),
                                     significant(patch["scaled_jacobian_mean"].get<double>())));
+        if (const auto& fit = session.surface->fit)
+            rows += row("Tolerance of the surface",
+                        fmt::format("{} mm, {} in {} rounds; {} % of the area within it", significant(fit->tolerance),
+                                    fit->reached ? "met" : "not met", fit->rounds, fixed(100 * deviation.within(), 2)));
+        constexpr double degrees = 180 / std::numbers::pi;
+        rows += row("Normals of the surface",
+                    fmt::format("mean {}\u00b0, 95 % below {}\u00b0, away from sharp edges at most {}\u00b0",
+                                fixed(degrees * deviation.normal.mean, 2), fixed(degrees * deviation.normal.p95, 2),
+                                fixed(degrees * deviation.normal.max_smooth, 1)));
     } else {
         rows += row("NURBS surface", "not made");
     }

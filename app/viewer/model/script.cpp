@@ -83,7 +83,7 @@ constexpr std::tuple forms{
                     required("vertex", &SetCorner::vertex, any_index), member("dragging", &SetCorner::dragging)),
     form<ProposeCorners>("propose_corners"),
     form_of_inner("set_grid", &SetGrid::grid),
-    form<SetEnds>("set_ends", required("natural", &SetEnds::natural)),
+    form_of_inner("set_fit", &SetFit::fit),
     form_of_inner("set_limits", &SetLimits::limits),
     form<ProposeSteps>("propose_steps", member("keep", &ProposeSteps::keep, any_index)),
     form<RunSteps>("run_steps"),

@@ -63,7 +63,7 @@ Json options_json(const Document& document)
             {"direction", written(options.flatten.direction)},
             {"corners", written(options.corners)},
             {"grid", written(options.grid)},
-            {"natural_ends", options.interpolate.ends == InterpolateOptions::Ends::natural}};
+            {"fit", written(fit_choice(options))}};
 }
 
 Json stages_json(const Session& session)

@@ -9,7 +9,7 @@ namespace spia::viewer {
 /// | member | what |
 /// |---|---|
 /// | `part` | null, or `file`, `vertices`, `triangles`, `format`, `unit` |
-/// | `options` | `material`, `thickness`, `skins`, `seam`, `direction` (null: automatic), `corners` (vertices of the file; null: automatic), `grid`, `natural_ends` |
+/// | `options` | `material`, `thickness`, `skins`, `seam`, `direction` (null: automatic), `corners` (vertices of the file; null: automatic), `grid`, `fit` (as in the script action set_fit) |
 /// | `stages.{read,solve,grid,lift,fit}` | whether the result of the stage is there |
 /// | `figures` | what the chain found: the JSON of `spia run --json` without `files`, see engine/pipeline/README.md |
 /// | `selection` | `faces`: how many; `first`: the first ten of them |

@@ -3,6 +3,7 @@
 
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/fit_editor.h"
 #include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -295,12 +296,7 @@ void surface_step(Frame& frame)
         return;
     }
     const SurfaceStage& surface = *session.surface;
-    static constexpr const char* ends[] = {"averaged knots", "natural (paper)"};
-    int natural = session.options.interpolate.ends == InterpolateOptions::Ends::natural;
-    ImGui::SetNextItemWidth(150 * frame.ui.scale);
-    if (ImGui::Combo("Ends", &natural, ends, 2))
-        frame.actions.push(SetEnds{natural == 1});
-    tooltip("Averaged knots keep order 4 up to the border; natural ends, as in the paper, lose two orders there");
+    fit_editor(frame, fit_choice(session.options));
     figure(frame, "Control points",
            fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
     figure(frame, "Deviation, max", fmt::format("{:.3g} mm", surface.deviation.max()));
@@ -310,6 +306,7 @@ void surface_step(Frame& frame)
     figure(frame, "95 % within",
            fmt::format("{:.3g} mm",
                        std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
+    fit_figures(frame, surface);
 }
 
 } // namespace

@@ -62,7 +62,7 @@ double largest_miss(const QuadGrid& grid, const InterpolateResult& result)
 
 TEST(Interpolate, SurfaceRunsThroughAllNodes)
 {
-    for (Ends ends : {Ends::averaged_knots, Ends::natural})
+    for (Ends ends : {Ends::averaged_knots, Ends::clamped, Ends::natural})
         for (Kind kind : {Kind::chord, Kind::centripetal, Kind::uniform})
             for (auto [columns, rows] : {std::pair{1, 1}, {1, 2}, {2, 5}, {3, 3}, {17, 4}, {60, 90}}) {
                 const QuadGrid grid = surfaces::grid(columns, rows, sheet);
@@ -96,6 +96,53 @@ TEST(Interpolate, FewNodesLowerTheDegreeAndTwoRowsMakeARuledSurface)
     EXPECT_EQ(s.degree_v, 1);
     const Eigen::Vector3d middle = (evaluate(s, 0.3, 0).position + evaluate(s, 0.3, 1).position) / 2;
     EXPECT_LT((evaluate(s, 0.3, 0.5).position - middle).norm(), 1e-12);
+}
+
+TEST(Interpolate, EveryDegreeHasItsOrderUpToTheBorderAndClampedEndsKeepIt)
+{
+    for (const int degree : {2, 3, 4, 5})
+        for (const Ends ends : {Ends::averaged_knots, Ends::clamped}) {
+            std::vector<SheetError> error;
+            for (int cells : {20, 40, 80}) {
+                InterpolateOptions options{ends, Kind::uniform};
+                options.degree_u = options.degree_v = degree;
+                const NurbsSurface surface = interpolate(surfaces::grid(cells, cells, sheet), options).surface;
+                EXPECT_EQ(surface.degree_u, degree);
+                EXPECT_EQ(surface.count_v, cells + 1 + (ends == Ends::clamped ? 2 : 0));
+                error.push_back(error_of(surface));
+            }
+            const double order = std::log2(error[1].anywhere / error[2].anywhere);
+            EXPECT_GT(order, degree + 0.5) << "degree " << degree << ", " << name(ends);
+            EXPECT_GT(std::log2(error[1].border / error[2].border), degree + 0.5) << degree << ", " << name(ends);
+        }
+}
+
+TEST(Interpolate, ClampedEndsGiveBackTheTangentsOfAPolynomial)
+{
+    const auto quintic = [](double s, double t) {
+        return Eigen::Vector3d(300 * s + 40 * std::pow(s, 5), 200 * t - 30 * std::pow(t, 4), 25 * std::pow(s * t, 3));
+    };
+    InterpolateOptions options{Ends::clamped, Kind::uniform};
+    options.degree_u = options.degree_v = 5;
+    for (auto [columns, rows] : {std::pair{11, 8}, {5, 6}, {5, 5}}) {
+        const InterpolateResult result = interpolate(surfaces::grid(columns, rows, quintic), options);
+        for (int i = 0; i <= 30; ++i)
+            for (int j = 0; j <= 30; ++j)
+                EXPECT_LT((evaluate(result.surface, i / 30., j / 30.).position - quintic(i / 30., j / 30.)).norm(),
+                          1e-10 * 300);
+        EXPECT_NEAR(evaluate(result.surface, 1, 0).S_u.x(), 500, 1e-7);
+    }
+    EXPECT_LT(largest_miss(surfaces::grid(2, 3, quintic), interpolate(surfaces::grid(2, 3, quintic), options)), 1e-9);
+}
+
+TEST(Interpolate, DegreesThatAreNotOfferedAreRefused)
+{
+    InterpolateOptions options;
+    options.degree_v = 6;
+    EXPECT_THROW(interpolate(surfaces::grid(9, 9, sheet), options), InputError);
+    options = {Ends::natural};
+    options.degree_u = 4;
+    EXPECT_THROW(interpolate(surfaces::grid(9, 9, sheet), options), InputError);
 }
 
 TEST(Interpolate, BicubicSurfaceIsReproducedUpToTheBorder)

@@ -1,11 +1,13 @@
 #include "engine/pipeline/iga_outputs.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 
 #include "engine/coons/carry_field.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
+#include "engine/nurbs/project.h"
 #include "engine/pipeline/outputs.h"
 #include "tests/support/iga_readers.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -72,6 +74,30 @@ TEST(IgaOutputs, HoldTheSurfaceOfTheChainBitForBit)
     EXPECT_NEAR(mean, field_mean(surface, fields[0].value[0]), 1e-7);
     EXPECT_GT(mean, sheet.thickness.minCoeff());
     EXPECT_LT(mean, sheet.thickness.maxCoeff());
+}
+
+/// Within a tolerance the surface has data of its own: what the field says at the foot of a vertex of the part is still what the vertex has.
+TEST(IgaOutputs, FieldsOfASurfaceWithinAToleranceAreThoseOfThePart)
+{
+    Session session = finished("dome.obj");
+    for (const FitParameters parameters : {FitParameters::blank, FitParameters::corrected}) {
+        session.options.tolerance = 0.5;
+        session.options.fit_parameters = parameters;
+        session = run_stage(Stage::fit, std::move(session));
+        ASSERT_TRUE(session.surface->fit && session.surface->fit->reached);
+        const NurbsSurface& surface = session.surface->result.surface;
+        const PatchField thickness = surface_fields(session).at(0);
+        const Eigen::VectorXd& at_vertex = session.blank->node.thickness;
+        const double range = at_vertex.maxCoeff() - at_vertex.minCoeff();
+        const SurfaceProjection projection(surface);
+        double sum = 0;
+        for (int v = 0; v < at_vertex.size(); ++v) {
+            const SurfaceFoot foot = projection.nearest(session.part->mesh.position.col(v));
+            const double off = evaluate_field(surface, thickness.value[0], foot.u, foot.v) - at_vertex[v];
+            sum += off * off;
+        }
+        EXPECT_LT(std::sqrt(sum / double(at_vertex.size())), 0.05 * range) << "of the least squares field";
+    }
 }
 
 TEST(IgaOutputs, GoOverHolesOfThePart)

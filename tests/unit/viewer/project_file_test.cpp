@@ -85,7 +85,11 @@ Document picked(const fs::path& part, Stage last)
     options.flatten.thickness = 0.8;
     options.flatten.direction = Eigen::Vector3d(0.1, 0.2, 0.97);
     options.grid = {30, 20, 50, 3, GridMethod::harmonic};
-    options.interpolate.ends = InterpolateOptions::Ends::natural;
+    options.interpolate.ends = CurveEnds::clamped;
+    options.interpolate.degree_u = 5;
+    options.tolerance = 0.035;
+    options.fit_parameters = FitParameters::corrected;
+    options.max_control_points = 4321;
     return document;
 }
 
@@ -147,7 +151,7 @@ TEST(ProjectFile, ReopensToTheSameState)
     EXPECT_EQ(after.session.options.flatten.thickness, 0.8);
     EXPECT_EQ(after.session.options.flatten.direction, before.session.options.flatten.direction);
     EXPECT_EQ(after.session.options.flatten.material.name, before.session.options.flatten.material.name);
-    EXPECT_EQ(after.session.options.interpolate.ends, InterpolateOptions::Ends::natural);
+    EXPECT_EQ(fit_choice(after.session.options), (FitChoice{0.035, 5, 3, CurveEnds::clamped, FitParameters::corrected, 4321}));
     EXPECT_EQ(after.session.options.read.unit, LengthUnit::mm);
 
     save_project(

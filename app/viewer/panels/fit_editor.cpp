@@ -1,0 +1,73 @@
+#include "app/viewer/panels/fit_editor.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+namespace spia::viewer {
+
+void fit_editor(Frame& frame, FitChoice fit)
+{
+    const float width = 150 * frame.ui.scale;
+    bool changed = false;
+    bool limited = fit.tolerance.has_value();
+    if (ImGui::Checkbox("Within a tolerance", &limited)) {
+        constexpr double usual = 0.1; // mm
+        fit.tolerance = limited ? std::optional(usual) : std::nullopt;
+        changed = true;
+    }
+    tooltip("Least squares, with knots only where the surface is too far from the part; else it runs through the nodes of "
+            "the grid");
+    if (fit.tolerance) {
+        ImGui::SetNextItemWidth(width);
+        if (typed_numbers(frame, "mm##tolerance", &*fit.tolerance, 1, "%.4g")) {
+            fit.tolerance = std::clamp(*fit.tolerance, 1e-9, 1e6);
+            changed = true;
+        }
+    }
+    double degrees[] = {double(fit.degree_u), double(fit.degree_v)};
+    ImGui::SetNextItemWidth(width);
+    if (typed_numbers(frame, "Degree u, v", degrees, 2, "%.0f")) {
+        fit.degree_u = int(std::clamp(degrees[0], 2., 5.));
+        fit.degree_v = int(std::clamp(degrees[1], 2., 5.));
+        if (fit.ends == CurveEnds::natural && (fit.degree_u != 3 || fit.degree_v != 3))
+            fit.ends = CurveEnds::averaged_knots;
+        changed = true;
+    }
+    static constexpr const char* names[] = {"averaged knots", "clamped", "natural (paper)"};
+    int ends = int(fit.ends);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::Combo("Ends", &ends, names, 3)) {
+        fit.ends = CurveEnds(ends);
+        if (fit.ends == CurveEnds::natural)
+            fit.degree_u = fit.degree_v = 3;
+        changed = true;
+    }
+    tooltip("Averaged knots and clamped ends (by estimated tangents) keep the full order up to the border; natural ends, as in "
+            "the paper, are cubic and lose two orders there");
+    if (fit.tolerance) {
+        bool corrected = fit.parameters == FitParameters::corrected;
+        if (ImGui::Checkbox("Correct parameters", &corrected)) {
+            fit.parameters = corrected ? FitParameters::corrected : FitParameters::blank;
+            changed = true;
+        }
+        tooltip("Follows the part with fewer knots, but the surface's parameters no longer are places of the blank");
+    }
+    if (changed)
+        frame.actions.push(SetFit{fit});
+}
+
+void fit_figures(Frame& frame, const SurfaceStage& surface)
+{
+    if (!surface.fit)
+        return;
+    const Palette p = palette_of(frame.state.view.dark);
+    ImGui::PushStyleColor(ImGuiCol_Text,
+                          surface.fit->reached ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.warning);
+    figure(frame, "Within tolerance", fmt::format("{:.2f} % of the area", 100 * surface.deviation.within()));
+    ImGui::PopStyleColor();
+    figure(frame, "Knots inserted", fmt::format("{} + {}", surface.fit->knots_u, surface.fit->knots_v));
+    if (!surface.fit->reached)
+        coloured(p.warning, surface.fit->shortfall.text);
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,82 @@
+#include "engine/nurbs/coarsen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/nurbs/basis.h"
+#include "engine/nurbs/span_borders.h"
+
+namespace spia {
+
+namespace {
+
+constexpr Eigen::Index most_control_points = 20'000; // beyond, a trial takes seconds
+constexpr int most_trials = 16;
+constexpr double greatest_factor = 64; // more than a cubic loses by joining two spans
+
+/// Joins halves of one span in which nothing is farther away than `distance`. @param largest  per span, mm
+std::vector<double> joined(const std::vector<double>& borders, const std::vector<double>& largest, double distance,
+                           size_t fewest)
+{
+    std::vector<double> result = {borders.front()};
+    size_t left = borders.size() - 1;
+    for (size_t s = 0; s + 1 < borders.size(); ++s) {
+        if (s + 2 < borders.size() && left > fewest) {
+            const double width = borders[s + 1] - borders[s];
+            const bool halves = borders[s + 2] - borders[s + 1] == width &&
+                                std::fmod(borders[s], 2 * width) == 0; // of one dyadic span
+            if (halves && std::max(largest[s], largest[s + 1]) <= distance) {
+                result.push_back(borders[s + 2]);
+                ++s;
+                --left;
+                continue;
+            }
+        }
+        result.push_back(borders[s + 1]);
+    }
+    return result;
+}
+
+} // namespace
+
+std::optional<SpanBorders> Joining::next(const NurbsSurface& surface, const TriMesh& mesh)
+{
+    if (surface.control.cols() > most_control_points)
+        return {};
+    const SpanBorders now{span_borders(surface.knots_u, surface.degree_u),
+                          span_borders(surface.knots_v, surface.degree_v)};
+    DeviationOptions all;
+    all.part_faces = options_.part_faces;
+    all.tolerance = options_.tolerance;
+    all.listed_from = 0;
+    all.mesh_to_surface = false;
+    std::vector<double> of_u(now.u.size() - 1, 0), of_v(now.v.size() - 1, 0);
+    for (const BeyondTolerance& sample : deviation(surface, mesh, all).beyond) {
+        double& at_u = of_u[size_t(span_of(now.u, sample.u))];
+        double& at_v = of_v[size_t(span_of(now.v, sample.v))];
+        at_u = std::max(at_u, sample.distance);
+        at_v = std::max(at_v, sample.distance);
+    }
+    const size_t fewest = first_borders(options_.ends).size() - 1;
+    for (; factor_ <= greatest_factor && trials_ < most_trials; along_u_ = !along_u_, factor_ *= along_u_ ? 2 : 1) {
+        const double distance = options_.tolerance / factor_;
+        SpanBorders proposed = now;
+        (along_u_ ? proposed.u : proposed.v) =
+            along_u_ ? joined(now.u, of_u, distance, fewest) : joined(now.v, of_v, distance, fewest);
+        if (proposed.u.size() + proposed.v.size() < now.u.size() + now.v.size()) {
+            ++trials_;
+            return proposed;
+        }
+    }
+    return {};
+}
+
+void Joining::tried(bool good)
+{
+    if (good)
+        return;
+    along_u_ = !along_u_;
+    factor_ *= along_u_ ? 2 : 1;
+}
+
+} // namespace spia

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/nurbs/fit.h"
+
+namespace spia {
+
+struct SpanBorders {
+    std::vector<double> u, v;
+};
+
+/// Proposes halves of spans that could be joined again: those in which a surface within the tolerance is better by a factor than
+/// it need be. Which factor suffices is tried: what was proposed has to be fitted and judged.
+class Joining {
+public:
+    explicit Joining(const FitOptions& options) : options_(options) {}
+
+    /// @returns none if nothing is left to try, or the surface is so large that trying costs too much
+    std::optional<SpanBorders> next(const NurbsSurface& surface, const TriMesh& mesh);
+
+    /// Whether the last proposal was good enough.
+    void tried(bool good);
+
+private:
+    const FitOptions& options_;
+    double factor_ = 1.2; ///< nearly all at first: what can be joined depends on the neighbours, too
+    bool along_u_ = true; ///< one direction at a time
+    int trials_ = 0;
+};
+
+} // namespace spia

@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "engine/nurbs/fit.h"
+#include "engine/nurbs/fit_patch.h"
+
+namespace spia {
+
+class Slide;
+
+/// One least squares fit: its data, its two directions and its surface.
+struct Attempt {
+    std::vector<double> borders_u, borders_v; ///< of the spans
+    Eigen::Matrix3Xd points;
+    CurveFit along_u, along_v;
+    NurbsSurface surface;
+};
+
+/// Border curves first, then the surface that holds them.
+/// @param slide  nullptr: the points stay where the source has them
+Attempt attempt(const FitSource& source, const FitOptions& options, const Slide* slide,
+                const std::vector<double>& borders_u, const std::vector<double>& borders_v);
+
+} // namespace spia

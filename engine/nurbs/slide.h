@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+#include "engine/mesh/closest_point.h"
+#include "engine/nurbs/surface.h"
+
+namespace spia {
+
+/// Lets the points of a fit slide over the part.
+class Slide {
+public:
+    /// @throws InputError if the part has no boundary
+    explicit Slide(const TriMesh& part);
+
+    /// Moves inner points to the nearest place of the part to the surface at their parameters, border points likewise along
+    /// the part's boundary; corners stay. A foot on another sheet of the part, or farther off than the point itself, is left.
+    /// @param points  (i, j) at u[i], v[j], i fastest
+    void to_feet(const NurbsSurface& surface, const std::vector<double>& u, const std::vector<double>& v,
+                 Eigen::Matrix3Xd& points) const;
+
+private:
+    Eigen::Matrix3Xd face_normal_; ///< unit
+    ClosestPointSearch inside_, boundary_;
+};
+
+} // namespace spia

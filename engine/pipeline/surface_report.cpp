@@ -1,0 +1,86 @@
+#include "engine/pipeline/surface_report.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace spia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double degrees(double angle) { return angle * 180 / std::numbers::pi; }
+
+Json statistics_json(const DeviationStatistics& s, bool with_tolerance)
+{
+    Json json = {{"max_mm", s.max}, {"rms_mm", s.rms}, {"p95_mm", s.p95}, {"at_mm", {s.where[0], s.where[1], s.where[2]}}};
+    if (with_tolerance)
+        json["share_within_tolerance"] = s.within;
+    return json;
+}
+
+std::string_view name(FitShortfall::Reason reason)
+{
+    switch (reason) {
+    case FitShortfall::Reason::none: break;
+    case FitShortfall::Reason::sharp_edge: return "sharp edge";
+    case FitShortfall::Reason::outline_corner: return "corner of the outline";
+    case FitShortfall::Reason::data: return "grid too coarse";
+    case FitShortfall::Reason::control_points: return "too few control points";
+    }
+    return "none";
+}
+
+Json fit_json(const FitReport& fit, const PartFile& part)
+{
+    Json json = {{"tolerance_mm", fit.tolerance},
+                 {"reached", fit.reached},
+                 {"rounds", fit.rounds},
+                 {"knots_inserted_u", fit.knots_u},
+                 {"knots_inserted_v", fit.knots_v}};
+    if (fit.reached)
+        return json;
+    const FitShortfall& shortfall = fit.shortfall;
+    json["shortfall"] = {{"reason", name(shortfall.reason)},
+                         {"at_mm", {shortfall.where[0], shortfall.where[1], shortfall.where[2]}},
+                         {"text", shortfall.text}};
+    for (const int vertex : {shortfall.a, shortfall.b})
+        if (vertex >= 0)
+            json["shortfall"]["vertices"].push_back(part.source_vertex[size_t(vertex)]);
+    if (shortfall.a >= 0)
+        json["shortfall"]["angle_deg"] = degrees(shortfall.angle);
+    return json;
+}
+
+} // namespace
+
+nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& part)
+{
+    const Deviation& d = stage.deviation;
+    const bool with_tolerance = stage.fit.has_value();
+    const NurbsSurface& surface = stage.result.surface;
+    Json json = {{"control_points_u", surface.count_u},
+                 {"control_points_v", surface.count_v},
+                 {"degree_u", surface.degree_u},
+                 {"degree_v", surface.degree_v},
+                 {"deviation_max_mm", d.max()},
+                 {"deviation_rms_mm", std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms)},
+                 {"deviation_p95_mm", std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95)},
+                 {"surface_to_mesh", statistics_json(d.surface_to_mesh, with_tolerance)},
+                 {"mesh_to_surface", statistics_json(d.mesh_to_surface, with_tolerance)},
+                 {"normal_deviation",
+                  {{"mean_deg", degrees(d.normal.mean)},
+                   {"p95_deg", degrees(d.normal.p95)},
+                   {"max_deg", degrees(d.normal.max)},
+                   {"max_away_from_sharp_edges_deg", degrees(d.normal.max_smooth)},
+                   {"share_turned", d.normal.turned},
+                   {"at_mm", {d.normal.where[0], d.normal.where[1], d.normal.where[2]}}}}};
+    if (!stage.fit)
+        json["between_data"] = statistics_json(d.between_data, false);
+    else {
+        json["fit"] = fit_json(*stage.fit, part);
+        json["share_within_tolerance"] = d.within();
+    }
+    return json;
+}
+
+} // namespace spia
