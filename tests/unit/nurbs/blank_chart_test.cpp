@@ -76,6 +76,23 @@ TEST(BlankChart, GivesTheNodesOfItsGridAndABorderOnTheOutline)
         }
 }
 
+TEST(BlankChart, LinesNextToTheBorderFollowTheOutlineBetweenTheNodes)
+{
+    // Eight nodes a side are too few for the waves: the map through them alone would leave the outline by a millimetre.
+    const Waves sheet(1.5, 0.05);
+    GridOptions options;
+    options.columns = options.rows = 8;
+    const GridResult grid = coons_grid(sheet.part, sheet.blank, sheet.boundary, options);
+    const BlankChart chart(grid, sheet.boundary);
+    std::vector<double> v = lines(8);
+    v.insert(v.begin() + 1, 1e-4);
+    const GridResult fine = chart.refined(lines(128), v);
+    for (int i = 0; i <= 128; ++i)
+        EXPECT_LT((fine.planar.position.col(fine.planar.node(i, 1)) - fine.planar.position.col(fine.planar.node(i, 0))).norm(),
+                  0.05)
+            << i;
+}
+
 TEST(BlankChart, IsSmoothAcrossTheCellsOfItsGrid)
 {
     // Second differences of the finer lines across a node of the grid are like those beside it: bilinear cells would kink.

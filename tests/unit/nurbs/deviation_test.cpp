@@ -223,4 +223,70 @@ TEST(Deviation, CancelledWhenItsOwnerAsksForIt)
     EXPECT_THROW(deviation(flat(0, 4), shapes::rectangle(100, 100, 2, 2), {}, Progress(nullptr, cancel)), Cancelled);
 }
 
+TEST(Deviation, NormalsAreComparedWhicheverWayTheSurfaceLooks)
+{
+    // A plane against a roof of two planes at 0.1 and 0.5 radians to it, their ridge sharp, each of half the width.
+    const double gentle = 0.1, steep = 0.5;
+    TriMesh mesh = shapes::rectangle(100, 100, 20, 20);
+    for (int v = 0; v < mesh.vertices(); ++v) {
+        const double x = mesh.position(0, v) - 50;
+        mesh.position(2, v) = x < 0 ? std::tan(gentle) * x : -std::tan(steep) * x;
+    }
+    for (const bool turned_round : {false, true}) {
+        const NurbsSurface surface = interpolate(surfaces::grid(8, 8,
+                                                                [&](double s, double t) {
+                                                                    return turned_round
+                                                                               ? Eigen::Vector3d(100 * t, 100 * s, 0)
+                                                                               : Eigen::Vector3d(100 * s, 100 * t, 0);
+                                                                }))
+                                         .surface;
+        DeviationOptions options;
+        options.sharp_angle = 0.4;
+        const Deviation d = deviation(surface, mesh, options);
+        EXPECT_NEAR(d.normal.max, steep, 1e-12);
+        EXPECT_NEAR(d.normal.max_smooth, steep, 1e-12);
+        EXPECT_GT(d.normal.mean, gentle);
+        EXPECT_LT(d.normal.mean, steep);
+        EXPECT_NEAR(d.normal.p95, steep, 1e-12);
+        EXPECT_EQ(d.normal.turned, 0);
+        EXPECT_TRUE(d.turned.empty());
+    }
+}
+
+TEST(Deviation, FacesWithASharpEdgeAreLeftOutOfTheGreatestSmoothAngle)
+{
+    // A ridge of two columns of cells across a flat sheet, with sharp edges at its top and feet, under a plane.
+    TriMesh mesh = shapes::rectangle(100, 100, 20, 20);
+    for (int v = 0; v < mesh.vertices(); ++v)
+        if (std::abs(mesh.position(0, v) - 50) < 1e-9)
+            mesh.position(2, v) = -3;
+    const Deviation d = deviation(flat(0, 8), mesh);
+    EXPECT_NEAR(d.normal.max, std::atan2(3, 5), 1e-12);
+    EXPECT_EQ(d.normal.max_smooth, 0);
+    DeviationOptions blunt;
+    blunt.sharp_angle = 1.2; // more than twice the slope
+    EXPECT_NEAR(deviation(flat(0, 8), mesh, blunt).normal.max_smooth, std::atan2(3, 5), 1e-12);
+}
+
+TEST(Deviation, FoldedSurfaceLooksTheOtherWayWhereItRunsBack)
+{
+    // Along u it goes to 60, back to 40 and on: a fifth of its length, over flat ground.
+    const NurbsSurface surface =
+        interpolate(surfaces::grid(70, 4, [](double s, double t) {
+            const double x = 140 * s;
+            return Eigen::Vector3d(x < 60 ? x : x < 80 ? 120 - x : x - 40, 100 * t, 0);
+        })).surface;
+    DeviationOptions options;
+    options.tolerance = 1;
+    const Deviation d = deviation(surface, shapes::rectangle(100, 100, 20, 20), options);
+    EXPECT_NEAR(d.normal.turned, 20. / 140, 0.02);
+    EXPECT_FALSE(d.turned.empty());
+    for (const BeyondTolerance& sample : d.turned) {
+        EXPECT_GT(sample.u, 55. / 140);
+        EXPECT_LT(sample.u, 85. / 140);
+    }
+    EXPECT_TRUE(d.beyond.empty()) << "it is on the ground all the same";
+    EXPECT_EQ(d.within(), 1);
+}
+
 } // namespace spia

@@ -134,6 +134,21 @@ TEST(Fit, KnotsAreDyadicAndOnlyWhereTheyAreNeeded)
     EXPECT_GT(near, far) << "even spans have as many outside";
 }
 
+TEST(Fit, KnotsComeInTheDirectionThatLacksThem)
+{
+    // Ridges that fade towards a flat border: the border curves tell nothing of them.
+    KnownSheet ridges;
+    ridges.place = [](double s, double t) {
+        const double pi = std::numbers::pi;
+        return Vector3d(100 * s, 100 * t, 4 * std::sin(8 * pi * s) * std::pow(std::sin(pi * t), 2));
+    };
+    const MeshedSheet meshed(ridges, 120);
+    const FitResult result = fit(meshed.source, meshed.mesh, within(0.1));
+    ASSERT_TRUE(result.report.reached);
+    EXPECT_GT(result.report.knots_u, 3 * result.report.knots_v);
+    EXPECT_GE(result.report.knots_u, 12) << "eight half waves";
+}
+
 TEST(Fit, ClampedEndsHaveTheTangentOfTheData)
 {
     // A cubic is given back whatever the ends; so is its derivative.
