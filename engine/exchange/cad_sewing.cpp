@@ -23,6 +23,7 @@
 #include "engine/exchange/cad_gaps.h"
 #include "engine/exchange/cad_swept.h"
 #include "engine/exchange/occt_progress.h"
+#include "engine/mesh/disjoint_sets.h"
 
 namespace spia {
 namespace {
@@ -181,6 +182,40 @@ SewnFaces without_doubles(const SewnFaces& whole, const Progress& progress)
     return rest;
 }
 
+/// The sheets that faces with common edges form: per face a number of its own sheet.
+std::vector<int> sheets(const EdgeFaces& edges, size_t faces)
+{
+    DisjointSets joined(faces);
+    for (int e = 0; e < edges.edges(); ++e)
+        for (const int face : edges.faces(e))
+            joined.join(edges.faces(e).front(), face);
+    std::vector<int> sheet;
+    for (size_t f = 0; f < faces; ++f)
+        sheet.push_back(joined.root(int(f)));
+    return sheet;
+}
+
+/// 0: nothing is to be sewn. Where hardly a free edge is near another, the near ones may be the sides of a slit: then gaps are what parts one
+/// sheet from another, and what is no wider than a flaw.
+double tolerance_from_gaps(const SewnFaces& whole, const EdgeFaces& edges, const Progress& progress)
+{
+    constexpr double hardly_any = 0.05;
+    const double least = std::min(flaw, whole.widest_closed), most = whole.widest_closed;
+    std::vector<FreeEdge> free;
+    for (int e = 0; e < edges.edges(); ++e)
+        if (edges.faces(e).size() == 1)
+            free.push_back({edges.edge(e), edges.faces(e)[0]});
+    const std::vector<double> gaps = gaps_to_others(free, most, progress.part(0, 0.5));
+    if (double(gaps.size()) < hardly_any * double(free.size())) {
+        const std::vector<int> sheet = sheets(edges, whole.face.size());
+        for (FreeEdge& each : free)
+            each.owner = sheet[size_t(each.owner)];
+        const double flaws = gaps.empty() || gaps.front() > least ? 0 : least;
+        return std::max(flaws, tolerance_for(gaps_to_others(free, most, progress.part(0.5, 1)), least, most));
+    }
+    return tolerance_for(gaps, least, most);
+}
+
 /// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
 SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optional<double> given,
                     const Progress& progress)
@@ -189,13 +224,7 @@ SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optiona
         return *given > 0 ? sewn(without_doubles(whole, progress.part(0, 0.3)), *given, progress.part(0.3, 1)) : whole;
     if (whole.free_after == 0)
         return whole; // closed bodies
-    std::vector<FreeEdge> free;
-    for (int e = 0; e < edges.edges(); ++e)
-        if (edges.faces(e).size() == 1)
-            free.push_back({edges.edge(e), edges.faces(e)[0]});
-    const std::vector<double> gaps = gaps_to_others(free, whole.widest_closed, progress.part(0, 0.2));
-    const double tolerance =
-        tolerance_for(gaps, int(free.size()), std::min(flaw, whole.widest_closed), whole.widest_closed);
+    const double tolerance = tolerance_from_gaps(whole, edges, progress.part(0, 0.2));
     const SewnFaces rest = without_doubles(whole, progress.part(0.2, 0.4));
     if (!(tolerance > 0))
         return rest;
