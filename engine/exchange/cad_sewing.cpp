@@ -75,13 +75,18 @@ std::vector<double> lengths_of(const EdgeFaces& edges)
     return lengths;
 }
 
-/// The widest gap that is closed unasked, mm. Edges that are much shorter than nearly all others are slips, and do not count.
-double widest_closed(const std::vector<double>& lengths, double diagonal)
+/// Half of what nearly all edges are longer than, mm: those that are much shorter than the others are slips, and do not count.
+double half_an_edge(const std::vector<double>& lengths)
 {
-    constexpr double usual = 0.5, of_diagonal = 1e-3, slips = 0.05;
-    if (lengths.empty())
-        return flaw;
-    return std::min(lengths[size_t(slips * double(lengths.size()))] / 2, std::max(usual, of_diagonal * diagonal));
+    constexpr double slips = 0.05;
+    return lengths.empty() ? flaw : lengths[size_t(slips * double(lengths.size()))] / 2;
+}
+
+/// The widest gap that is closed unasked, mm.
+double widest_closed(double half_an_edge, double diagonal)
+{
+    constexpr double usual = 0.5, of_diagonal = 1e-3;
+    return std::min(half_an_edge, std::max(usual, of_diagonal * diagonal));
 }
 
 /// What has become of each face; it may be several or none.
@@ -256,10 +261,12 @@ SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> toleranc
     whole.free_before = whole.free_after = edges.free();
     const std::vector<double> lengths = lengths_of(edges);
     whole.shortest_edge = lengths.empty() ? 0 : lengths.front();
-    whole.widest_closed = widest_closed(lengths, diagonal);
+    whole.half_an_edge = half_an_edge(lengths);
+    whole.widest_closed = widest_closed(whole.half_an_edge, diagonal);
     SewnFaces result = best_sewn(whole, edges, tolerance, progress.part(0.2, 1));
     result.free_before = whole.free_before;
     result.shortest_edge = whole.shortest_edge;
+    result.half_an_edge = whole.half_an_edge;
     result.widest_closed = whole.widest_closed;
     result.gaps = gaps_between(result);
     return result;
