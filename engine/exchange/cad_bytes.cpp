@@ -91,12 +91,13 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.unit);
     way.one(cad.deflection);
     way.one(cad.sewing_tolerance);
-    way.one(cad.widest_closed);
+    way.one(cad.half_an_edge);
     way.one(cad.shortest_edge);
     way.one(cad.free_before);
     way.one(cad.free_after);
     way.row(cad.gaps);
     way.row(cad.lost);
+    way.row(cad.lost_elsewhere);
     way.row(cad.unmeshed);
     way.row(cad.slivers);
     way.one(cad.unmeshed_left_out);

@@ -79,15 +79,21 @@ void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
         report(int(cad.unmeshed.size()),
                fmt::format("no triangles could be made of {}: {}",
                            counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)));
-    if (cad.lost.empty())
-        return;
-    report(int(cad.lost.size()),
-           fmt::format("{} of the file could not be read: {}",
-                       counted(int(cad.lost.size()), "face or body", "faces and bodies"), listed(cad.lost)));
-    if (cad.taken < cad.faces) { // perhaps of what was not chosen
-        findings.back().severity = Severity::note;
-        findings.back().advice = "see whether what was chosen is whole";
-    }
+    const auto lost = [](const std::vector<std::string>& labels) {
+        return fmt::format("{} of the file could not be read: {}",
+                           counted(int(labels.size()), "face or body", "faces and bodies"), listed(labels));
+    };
+    if (!cad.lost.empty())
+        report(int(cad.lost.size()), lost(cad.lost));
+    if (!cad.lost_elsewhere.empty())
+        findings.push_back({Fault::unmeshed_face,
+                            Severity::note,
+                            int(cad.lost_elsewhere.size()),
+                            -1,
+                            lost(cad.lost_elsewhere) + "; what was chosen does not lack them",
+                            "",
+                            {},
+                            {}});
 }
 
 void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
@@ -224,11 +230,11 @@ void report_cad(const CadContent& cad, PartFile& part)
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",
                                            cad.sewing_tolerance, cad.free_before, cad.free_after)
                              : fmt::format("not sewn: {} free edges", cad.free_after));
-    if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.widest_closed)
+    if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.half_an_edge)
         part.notes.push_back(
-            fmt::format("the sewing tolerance is about half the length of edges, the shortest {:.3g} mm: small faces "
-                        "may have closed up, and wider gaps are open",
-                        cad.shortest_edge));
+            fmt::format("the sewing tolerance is half the length of edges or more, the shortest {:.3g} mm: small faces "
+                        "may have closed up{}",
+                        cad.shortest_edge, cad.sewing_tolerance > cad.half_an_edge ? "" : ", and wider gaps are open"));
     std::vector<Finding> findings;
     report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);

@@ -1,13 +1,14 @@
 #include "engine/exchange/cad_gaps.h"
 
-#include <BRepAdaptor_Curve.hxx>
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Standard_Failure.hxx>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <unordered_map>
+#include <optional>
+
+#include "engine/exchange/edge_points.h"
+#include "engine/mesh/box_tree.h"
 
 namespace spia {
 namespace {
@@ -17,109 +18,105 @@ constexpr int stride = 4;  // every how manieth point of it is asked
 
 using Polyline = std::vector<Eigen::Vector3d>;
 
+/// None of an edge without a curve, or of one that leads beyond all numbers.
 Polyline points_of(const TopoDS_Edge& edge)
 {
-    Polyline points;
     try {
-        const BRepAdaptor_Curve curve(edge);
-        const double from = curve.FirstParameter(), to = curve.LastParameter();
-        for (int k = 0; k <= pieces; ++k) {
-            const gp_Pnt p = curve.Value(from + (to - from) * k / pieces);
-            points.emplace_back(p.X(), p.Y(), p.Z());
-        }
+        Polyline points = points_along(edge, pieces);
+        const bool finite = std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
+        return finite ? points : Polyline();
     } catch (const Standard_Failure&) {
-        points.clear(); // an edge without a curve
+        return {};
     }
-    return points;
 }
 
-double distance2(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-    const Eigen::Vector3d along = b - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
-    return (a + t * along - p).squaredNorm();
-}
-
-/// Boxes of one size in which segments are looked up.
-class SegmentGrid {
+/// The pieces of many edges, to be found by their place. They are kept as triangles of no area: memory goes with their number alone,
+/// however long one of them is.
+class Segments {
 public:
-    explicit SegmentGrid(double size) : size_(size) {}
-    void add(int segment, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double reach)
+    explicit Segments(const std::vector<Polyline>& lines)
     {
-        const auto low = cell(a.cwiseMin(b).array() - reach), high = cell(a.cwiseMax(b).array() + reach);
-        for (int x = low[0]; x <= high[0]; ++x)
-            for (int y = low[1]; y <= high[1]; ++y)
-                for (int z = low[2]; z <= high[2]; ++z)
-                    in_[key({x, y, z})].push_back(segment);
+        TriMesh mesh;
+        for (size_t e = 0; e < lines.size(); ++e)
+            for (size_t k = 1; k < lines[e].size(); ++k)
+                edge_.push_back(int(e));
+        mesh.position.resize(3, 2 * Eigen::Index(edge_.size()));
+        mesh.triangle.resize(3, Eigen::Index(edge_.size()));
+        int next = 0;
+        for (const Polyline& line : lines)
+            for (size_t k = 1; k < line.size(); ++k, ++next) {
+                mesh.position.col(2 * next) = line[k - 1];
+                mesh.position.col(2 * next + 1) = line[k];
+                mesh.triangle.col(next) << 2 * next, 2 * next + 1, 2 * next + 1;
+            }
+        if (next > 0)
+            tree_.emplace(mesh);
     }
-    const std::vector<int>& near(const Eigen::Vector3d& p) const
+    /// Squared distance of the nearest one whose edge is wanted; infinite if none is within reach.
+    template <class Wanted> double nearest2(const Eigen::Vector3d& place, double reach, const Wanted& wanted) const
     {
-        static const std::vector<int> none;
-        const auto found = in_.find(key(cell(p)));
-        return found == in_.end() ? none : found->second;
+        double best = reach * reach;
+        bool found = false;
+        std::vector<int> open(tree_ ? 1 : 0, 0);
+        while (!open.empty()) {
+            const int here = open.back();
+            open.pop_back();
+            const BoxTree::Node& node = tree_->node[size_t(here)];
+            if (node.box.squaredExteriorDistance(place) > best)
+                continue;
+            for (int i = node.first; i < node.first + node.count; ++i) {
+                if (!wanted(edge_[size_t(tree_->face[size_t(i)])]))
+                    continue;
+                const Eigen::Matrix3d& ends = tree_->triangle[size_t(i)];
+                const double away2 = squared_distance(place, ends.col(0), ends.col(1));
+                found |= away2 <= best;
+                best = std::min(best, away2);
+            }
+            if (node.count == 0)
+                open.insert(open.end(), {node.second, here + 1});
+        }
+        return found ? best : std::numeric_limits<double>::infinity();
     }
 
 private:
-    double size_;
-    std::unordered_map<std::uint64_t, std::vector<int>> in_;
-    Eigen::Vector3i cell(const Eigen::Vector3d& p) const { return (p / size_).array().floor().cast<int>(); }
-    static std::uint64_t key(
-        const Eigen::Vector3i& c) // 21 bits each: others in the same box are only looked at in vain
-    {
-        const auto part = [](int i) { return std::uint64_t(std::uint32_t(i)) & 0x1fffff; };
-        return part(c[0]) | part(c[1]) << 21 | part(c[2]) << 42;
-    }
+    std::vector<int> edge_; ///< per segment
+    std::optional<BoxTree> tree_;
 };
 
 } // namespace
 
 std::vector<double> gaps_to_others(std::span<const FreeEdge> edges, double most, const Progress& progress)
 {
-    std::vector<Polyline> line;
-    double length = 0;
-    int segments = 0;
+    std::vector<Polyline> lines;
     for (const FreeEdge& each : edges) {
-        line.push_back(points_of(each.edge));
-        for (size_t k = 1; k < line.back().size(); ++k, ++segments)
-            length += (line.back()[k] - line.back()[k - 1]).norm();
+        progress.checkpoint(0.2 * double(lines.size()) / double(edges.size()), "measuring the gaps");
+        lines.push_back(points_of(each.edge));
     }
-    if (!(length > 0) || !std::isfinite(length))
-        return {};
-    SegmentGrid grid(std::max(4 * most, 2 * length / segments));
-    const auto number = [](size_t edge, size_t k) { return int(edge) * pieces + int(k); };
-    for (size_t e = 0; e < line.size(); ++e)
-        for (size_t k = 1; k < line[e].size(); ++k)
-            grid.add(number(e, k - 1), line[e][k - 1], line[e][k], most);
+    const Segments segments(lines);
     std::vector<double> gaps;
-    for (size_t e = 0; e < line.size(); ++e) {
-        progress.checkpoint(double(e) / double(line.size()), "measuring the gaps");
-        double widest = line[e].empty() ? std::numeric_limits<double>::infinity() : 0;
-        for (size_t k = stride; k + 1 < line[e].size();
-             k += stride) { // without the ends: something always begins there
-            double nearest2 = std::numeric_limits<double>::infinity();
-            for (const int segment : grid.near(line[e][k])) {
-                const auto other = size_t(segment / pieces), at = size_t(segment % pieces);
-                if (edges[other].face != edges[e].face)
-                    nearest2 = std::min(nearest2, distance2(line[e][k], line[other][at], line[other][at + 1]));
-            }
-            widest = std::max(widest, std::sqrt(nearest2));
-        }
-        if (widest <= most)
-            gaps.push_back(widest);
+    for (size_t e = 0; e < lines.size(); ++e) {
+        progress.checkpoint(0.2 + 0.8 * double(e) / double(lines.size()), "measuring the gaps");
+        const auto of_others = [&](int edge) { return edges[size_t(edge)].owner != edges[e].owner; };
+        double widest2 = lines[e].empty() ? std::numeric_limits<double>::infinity() : 0;
+        for (size_t k = stride; k + 1 < lines[e].size() && std::isfinite(widest2);
+             k += stride) // without the ends: something always begins there
+            widest2 = std::max(widest2, segments.nearest2(lines[e][k], most, of_others));
+        if (std::isfinite(widest2))
+            gaps.push_back(std::sqrt(widest2));
     }
     std::sort(gaps.begin(), gaps.end());
     return gaps;
 }
 
-double tolerance_for(std::span<const double> gaps, int edges, double least, double most)
+double tolerance_for(std::span<const double> gaps, double least, double most)
 {
-    constexpr double nearly_all = 0.9, few = 0.0025, hardly_any = 0.05; // of the gaps, of the edges
-    if (double(gaps.size()) < hardly_any * edges || gaps.empty())
+    constexpr double nearly_all = 0.9, few = 0.0025; // of the gaps
+    if (gaps.empty())
         return 0;
     const auto up_to = [&](double t) { return std::upper_bound(gaps.begin(), gaps.end(), t) - gaps.begin(); };
     double tolerance = std::max(least, 1.25 * gaps[size_t(nearly_all * double(gaps.size() - 1))]);
-    while (tolerance < most && double(up_to(2 * tolerance) - up_to(tolerance)) >= std::max(1.0, few * edges))
+    while (tolerance < most &&
+           double(up_to(2 * tolerance) - up_to(tolerance)) >= std::max(1.0, few * double(gaps.size())))
         tolerance *= 2;
     return std::min(tolerance, most);
 }

@@ -2,15 +2,11 @@
 
 #include <BRep_Builder.hxx>
 #include <IGESData_IGESEntity.hxx>
-#include <Interface_InterfaceModel.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_RepresentationItem.hxx>
-#include <StepShape_ConnectedFaceSet.hxx>
-#include <StepShape_FaceSurface.hxx>
-#include <StepShape_SolidModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
@@ -20,8 +16,6 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
-#include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
@@ -54,18 +48,6 @@ TopoDS_Shape unplaced(const TopoDS_Shape& shape) { return shape.Located(TopLoc_L
 bool is_holder(const TopoDS_Shape& shape)
 {
     return shape.ShapeType() == TopAbs_COMPOUND || shape.ShapeType() == TopAbs_COMPSOLID;
-}
-
-bool is_made_of_faces(const Standard_Transient& entity)
-{
-    if (const auto* iges = dynamic_cast<const IGESData_IGESEntity*>(&entity)) {
-        constexpr std::array types = {108, 114, 118, 120, 122, 128, 140, 143, 144,
-                                      186, 190, 192, 194, 196, 198, 510, 514};
-        return std::find(types.begin(), types.end(), iges->TypeNumber()) != types.end();
-    }
-    return entity.IsKind(STANDARD_TYPE(StepShape_FaceSurface)) ||
-           entity.IsKind(STANDARD_TYPE(StepShape_ConnectedFaceSet)) ||
-           entity.IsKind(STANDARD_TYPE(StepShape_SolidModel));
 }
 
 /// Walks through a shape and notes what it meets.
@@ -187,20 +169,6 @@ std::string CadNames::place(const TopoDS_Shape& placed) const
 {
     const int* name = of_place_.Seek(placed);
     return name ? name_[size_t(*name)] : "";
-}
-
-std::vector<std::string> not_translated(const XSControl_Reader& read)
-{
-    const Handle(Transfer_TransientProcess) process = read.WS()->TransferReader()->TransientProcess();
-    std::vector<std::string> labels;
-    for (int i = 1; i <= process->NbMapped(); ++i) {
-        const Handle(Standard_Transient) entity = process->Mapped(i);
-        const Handle(Transfer_Binder) result = process->MapItem(i);
-        if (!entity.IsNull() && is_made_of_faces(*entity) &&
-            (result.IsNull() || TransferBRep::ShapeResult(result).IsNull()))
-            labels.emplace_back(read.WS()->Model()->StringLabel(entity)->ToCString());
-    }
-    return labels;
 }
 
 CadTree tree_of(const TopoDS_Shape& shape, const CadNames& names)

@@ -23,9 +23,6 @@ private:
     TopTools_DataMapOfShapeInteger of_shape_, of_place_;
 };
 
-/// Faces, shells and solids of the file that could not be made, as the file labels them ("#123", in IGES "D12").
-std::vector<std::string> not_translated(const XSControl_Reader& read);
-
 /// Assemblies and bodies of a shape, with the faces in the order of a TopExp_Explorer. Compounds without a name, and with one body
 /// alone, are not told apart from what they hold.
 CadTree tree_of(const TopoDS_Shape& shape, const CadNames& names);

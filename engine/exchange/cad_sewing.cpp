@@ -23,6 +23,7 @@
 #include "engine/exchange/cad_gaps.h"
 #include "engine/exchange/cad_swept.h"
 #include "engine/exchange/occt_progress.h"
+#include "engine/mesh/disjoint_sets.h"
 
 namespace spia {
 namespace {
@@ -74,13 +75,18 @@ std::vector<double> lengths_of(const EdgeFaces& edges)
     return lengths;
 }
 
-/// The widest gap that is closed unasked, mm. Edges that are much shorter than nearly all others are slips, and do not count.
-double widest_closed(const std::vector<double>& lengths, double diagonal)
+/// Half of what nearly all edges are longer than, mm: those that are much shorter than the others are slips, and do not count.
+double half_an_edge(const std::vector<double>& lengths)
 {
-    constexpr double usual = 0.5, of_diagonal = 1e-3, slips = 0.05;
-    if (lengths.empty())
-        return flaw;
-    return std::min(lengths[size_t(slips * double(lengths.size()))] / 2, std::max(usual, of_diagonal * diagonal));
+    constexpr double slips = 0.05;
+    return lengths.empty() ? flaw : lengths[size_t(slips * double(lengths.size()))] / 2;
+}
+
+/// The widest gap that is closed unasked, mm.
+double widest_closed(double half_an_edge, double diagonal)
+{
+    constexpr double usual = 0.5, of_diagonal = 1e-3;
+    return std::min(half_an_edge, std::max(usual, of_diagonal * diagonal));
 }
 
 /// What has become of each face; it may be several or none.
@@ -181,6 +187,40 @@ SewnFaces without_doubles(const SewnFaces& whole, const Progress& progress)
     return rest;
 }
 
+/// The sheets that faces with common edges form: per face a number of its own sheet.
+std::vector<int> sheets(const EdgeFaces& edges, size_t faces)
+{
+    DisjointSets joined(faces);
+    for (int e = 0; e < edges.edges(); ++e)
+        for (const int face : edges.faces(e))
+            joined.join(edges.faces(e).front(), face);
+    std::vector<int> sheet;
+    for (size_t f = 0; f < faces; ++f)
+        sheet.push_back(joined.root(int(f)));
+    return sheet;
+}
+
+/// 0: nothing is to be sewn. Where hardly a free edge is near another, the near ones may be the sides of a slit: then gaps are what parts one
+/// sheet from another, and what is no wider than a flaw.
+double tolerance_from_gaps(const SewnFaces& whole, const EdgeFaces& edges, const Progress& progress)
+{
+    constexpr double hardly_any = 0.05;
+    const double least = std::min(flaw, whole.widest_closed), most = whole.widest_closed;
+    std::vector<FreeEdge> free;
+    for (int e = 0; e < edges.edges(); ++e)
+        if (edges.faces(e).size() == 1)
+            free.push_back({edges.edge(e), edges.faces(e)[0]});
+    const std::vector<double> gaps = gaps_to_others(free, most, progress.part(0, 0.5));
+    if (double(gaps.size()) < hardly_any * double(free.size())) {
+        const std::vector<int> sheet = sheets(edges, whole.face.size());
+        for (FreeEdge& each : free)
+            each.owner = sheet[size_t(each.owner)];
+        const double flaws = gaps.empty() || gaps.front() > least ? 0 : least;
+        return std::max(flaws, tolerance_for(gaps_to_others(free, most, progress.part(0.5, 1)), least, most));
+    }
+    return tolerance_for(gaps, least, most);
+}
+
 /// Zero, as the faces are, stands for itself: a shell whose faces share edges already needs no sewing.
 SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optional<double> given,
                     const Progress& progress)
@@ -189,13 +229,7 @@ SewnFaces best_sewn(const SewnFaces& whole, const EdgeFaces& edges, std::optiona
         return *given > 0 ? sewn(without_doubles(whole, progress.part(0, 0.3)), *given, progress.part(0.3, 1)) : whole;
     if (whole.free_after == 0)
         return whole; // closed bodies
-    std::vector<FreeEdge> free;
-    for (int e = 0; e < edges.edges(); ++e)
-        if (edges.faces(e).size() == 1)
-            free.push_back({edges.edge(e), edges.faces(e)[0]});
-    const std::vector<double> gaps = gaps_to_others(free, whole.widest_closed, progress.part(0, 0.2));
-    const double tolerance =
-        tolerance_for(gaps, int(free.size()), std::min(flaw, whole.widest_closed), whole.widest_closed);
+    const double tolerance = tolerance_from_gaps(whole, edges, progress.part(0, 0.2));
     const SewnFaces rest = without_doubles(whole, progress.part(0.2, 0.4));
     if (!(tolerance > 0))
         return rest;
@@ -227,10 +261,12 @@ SewnFaces sew(std::span<const TopoDS_Face> faces, std::optional<double> toleranc
     whole.free_before = whole.free_after = edges.free();
     const std::vector<double> lengths = lengths_of(edges);
     whole.shortest_edge = lengths.empty() ? 0 : lengths.front();
-    whole.widest_closed = widest_closed(lengths, diagonal);
+    whole.half_an_edge = half_an_edge(lengths);
+    whole.widest_closed = widest_closed(whole.half_an_edge, diagonal);
     SewnFaces result = best_sewn(whole, edges, tolerance, progress.part(0.2, 1));
     result.free_before = whole.free_before;
     result.shortest_edge = whole.shortest_edge;
+    result.half_an_edge = whole.half_an_edge;
     result.widest_closed = whole.widest_closed;
     result.gaps = gaps_between(result);
     return result;

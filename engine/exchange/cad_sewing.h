@@ -20,7 +20,8 @@ struct SewnFaces {
         {};                   ///< faces given that were left out, each with the one on which it lies
     double tolerance = 0;     ///< mm, with which they were sewn; 0: they were taken as they are
     double shortest_edge = 0; ///< mm, among edges that are more than flaws
-    double widest_closed = 0; ///< mm, the widest gap that would have been closed unasked
+    double half_an_edge = 0;  ///< mm: what nearly all edges are twice as long as
+    double widest_closed = 0; ///< mm, the widest gap that would have been closed unasked: half an edge at most
     int free_before = 0;      ///< edges of one face only
     int free_after = 0;
     std::vector<CadGap> gaps; ///< between the two faces of an edge, the widest first

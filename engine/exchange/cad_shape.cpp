@@ -3,6 +3,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
+#include <IGESData_BasicEditor.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
@@ -28,19 +29,41 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& why) { throw InputError(why + "; export it again"); }
 
+/// What lengths are converted from; OpenCASCADE takes them for mm where there is no name.
 std::string unit_of(STEPControl_Reader& reader)
 {
     TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
     reader.FileUnits(lengths, angles, solid_angles);
-    return lengths.IsEmpty() ? "" : lengths.First().ToCString();
+    return lengths.IsEmpty() || lengths.First().IsEmpty() ? "mm (none is stated)" : lengths.First().ToCString();
 }
 
+/// The flag counts, the name only where the flag says so: OpenCASCADE has looked at that already.
 std::string unit_of(IGESControl_Reader& reader)
 {
     const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
-    if (model.IsNull() || model->GlobalSection().UnitName().IsNull())
-        return "";
-    return model->GlobalSection().UnitName()->ToCString();
+    if (model.IsNull())
+        refuse("OpenCASCADE finds no model in it");
+    const IGESData_GlobalSection& head = model->GlobalSection();
+    const std::string unit = IGESData_BasicEditor::UnitFlagName(head.UnitFlag());
+    if (unit.empty())
+        refuse(fmt::format("its lengths are in a unit that is none of IGES (flag {}, name '{}')", head.UnitFlag(),
+                           head.UnitName().IsNull() ? "" : head.UnitName()->ToCString()));
+    return unit;
+}
+
+std::string first_fail(Interface_CheckIterator checks)
+{
+    for (checks.Start(); checks.More(); checks.Next())
+        if (const Handle(Interface_Check)& check = checks.Value(); check->HasFailed())
+            return check->CFail(1);
+    return "";
+}
+
+void list_faces(CadShape& whole)
+{
+    if (!whole.shape.IsNull())
+        for (TopExp_Explorer at(whole.shape, TopAbs_FACE); at.More(); at.Next())
+            whole.face.push_back(TopoDS::Face(at.Current()));
 }
 
 CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path, CadShape& result,
@@ -49,12 +72,13 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
         refuse("OpenCASCADE finds no model in it");
     progress.checkpoint(0.4, "reading the CAD model");
-    if (reader.WS()->ModelCheckList().Status() == Interface_CheckFail)
-        refuse("OpenCASCADE finds it damaged");
+    if (const Interface_CheckIterator checks = reader.WS()->ModelCheckList(); checks.Status() == Interface_CheckFail)
+        refuse("OpenCASCADE finds it damaged: " + first_fail(checks));
     const Handle(OcctProgress) passed_on = new OcctProgress(progress.part(0.4, 1), "making its faces");
     reader.TransferRoots(passed_on->Start());
     result.shape = reader.OneShape();
-    result.lost = not_translated(reader);
+    list_faces(result);
+    result.lost = not_translated(reader, result.face);
     return CadNames(reader);
 }
 
@@ -67,6 +91,7 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     std::istringstream stream(content);
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "reading the CAD model");
     BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
+    list_faces(result);
 }
 
 CadNames read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)
@@ -114,9 +139,6 @@ CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progr
         result.format = "IGES";
         names = read_iges(path, result, progress);
     }
-    if (!result.shape.IsNull())
-        for (TopExp_Explorer at(result.shape, TopAbs_FACE); at.More(); at.Next())
-            result.face.push_back(TopoDS::Face(at.Current()));
     if (result.face.empty())
         throw InputError("it holds no face; export the part with its surfaces (curves and points alone make no sheet)");
     result.tree = tree_of(result.shape, names);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/cad_lost.h"
 #include "engine/exchange/cad_tree.h"
 
 namespace spia {
@@ -15,9 +16,9 @@ struct CadShape {
     TopoDS_Shape shape;
     std::vector<TopoDS_Face> face; ///< by its number: the order of the file
     CadTree tree;                  ///< assemblies and bodies with these faces
-    std::vector<std::string> lost; ///< labels of faces and bodies that could not be made
+    std::vector<LostShape> lost;   ///< what could not be made
     std::string format;            ///< e.g. "STEP"
-    std::string unit;              ///< of the file, e.g. "INCH"; empty if it names none (BREP)
+    std::string unit;              ///< of the file, e.g. "INCH"; empty: the format has none (BREP)
 };
 
 /// For .cpp files of engine/exchange that hold an OcctSession.

@@ -1,12 +1,14 @@
 #include "engine/exchange/cad_slivers.h"
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "engine/exchange/edge_points.h"
 
 namespace spia {
 namespace {
@@ -21,24 +23,9 @@ std::vector<Polyline> border_of(const TopoDS_Face& face)
         const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
         if (BRep_Tool::Degenerated(edge))
             continue;
-        const BRepAdaptor_Curve curve(edge);
-        const double from = curve.FirstParameter(), to = curve.LastParameter();
-        Polyline line;
-        for (int k = 0; k <= parts; ++k) {
-            const gp_Pnt p = curve.Value(from + (to - from) * k / parts);
-            line.emplace_back(p.X(), p.Y(), p.Z());
-        }
-        border.push_back(std::move(line));
+        border.push_back(points_along(edge, parts));
     }
     return border;
-}
-
-double distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-    const Eigen::Vector3d along = b - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
-    return (a + t * along - p).norm();
 }
 
 /// From a point of one edge to the other edges.
@@ -47,8 +34,8 @@ double to_others(const std::vector<Polyline>& border, size_t edge, const Eigen::
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t other = 0; other < border.size(); ++other)
         for (size_t k = 1; k < border[other].size() && other != edge; ++k)
-            nearest = std::min(nearest, distance(p, border[other][k - 1], border[other][k]));
-    return nearest;
+            nearest = std::min(nearest, squared_distance(p, border[other][k - 1], border[other][k]));
+    return std::sqrt(nearest);
 }
 
 } // namespace

@@ -9,8 +9,10 @@
 #include <new>
 #include <optional>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "engine/core/error.h"
@@ -40,21 +42,31 @@ void limit(int resource, rlim_t most)
     ::setrlimit(__rlimit_resource_t(resource), &both);
 }
 
-void bound_this_process()
+void bound_this_process(std::chrono::seconds busy)
 {
     long pages = 0;
     std::ifstream("/proc/self/statm") >> pages; // in use already: with a sanitizer that is terabytes
     limit(RLIMIT_AS, rlim_t(pages) * rlim_t(::sysconf(_SC_PAGESIZE)) + (rlim_t(16) << 30));
-    constexpr rlimit cpu{600, 610}; // the kernel tells of the first; of the second it kills without a word
+    const auto most = rlim_t(busy.count());
+    const rlimit cpu{most, most + 10}; // the kernel tells of the first; of the second it kills without a word
     ::setrlimit(RLIMIT_CPU, &cpu);
     limit(RLIMIT_CORE, 0);
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDOUT_FILENO);
 }
 
-[[noreturn]] void be_the_child(int pipe, const std::function<std::string(const Progress&, const ChildLog&)>& work)
+/// The kernel ends this process with the thread that started it: that one waits for the result, and without it nobody does.
+void end_with(pid_t parent)
 {
-    bound_this_process();
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) // it was gone before
+        ::_exit(1);
+}
+
+[[noreturn]] void be_the_child(int pipe, const std::function<std::string(const Progress&, const ChildLog&)>& work,
+                               std::chrono::seconds busy)
+{
+    bound_this_process(busy);
     const Progress progress([&](double fraction, std::string_view step) {
         std::string bytes(reinterpret_cast<const char*>(&fraction), sizeof fraction);
         send(pipe, Kind::progress, bytes.append(step));
@@ -84,6 +96,14 @@ public:
         }
     }
     int pipe() const { return pipe_; }
+    double seconds() const ///< of computing; those of a child that has just ended stand still
+    {
+        clockid_t clock;
+        timespec time{};
+        if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+            return 0;
+        return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+    }
     int ended() ///< waits for it
     {
         int status = 0;
@@ -96,6 +116,30 @@ public:
 private:
     pid_t pid_;
     int pipe_;
+};
+
+/// How long a child has not computed, counted by our own looks: while this process stood still too, there were none.
+class Patience {
+public:
+    Patience(const Child& child, std::chrono::milliseconds between_looks, std::chrono::milliseconds most)
+        : child_(child), step_(between_looks), most_(most)
+    {
+    }
+    void look() ///< @throws InputError
+    {
+        const double now = child_.seconds();
+        idle_ = now > last_ ? std::chrono::milliseconds(0) : idle_ + step_;
+        last_ = now;
+        if (idle_ > most_)
+            throw InputError(fmt::format("reading it stands still, for {} seconds now; see whether its disk answers, "
+                                         "and try again or export it again",
+                                         std::chrono::duration_cast<std::chrono::seconds>(most_).count()));
+    }
+
+private:
+    const Child& child_;
+    std::chrono::milliseconds step_, most_, idle_{0};
+    double last_ = 0;
 };
 
 /// Takes the first whole message out of what has arrived.
@@ -112,15 +156,18 @@ std::optional<std::pair<Kind, std::string>> next_message(std::string& arrived)
     return message;
 }
 
-std::string result_of(Child& child, const ChildLog& log, const Progress& progress)
+std::string result_of(Child& child, const ChildLog& log, const Progress& progress, const ChildLimits& limits)
 {
+    constexpr std::chrono::milliseconds between_looks{100}; // at whether the job is still wanted
+    Patience patience(child, between_looks, limits.idle);
     double fraction = 0;
     std::string step = "reading the file", arrived, buffer(size_t(1) << 20, '\0');
     progress.checkpoint(fraction, step);
     for (;;) {
         pollfd waiting{child.pipe(), POLLIN, 0};
-        constexpr int milliseconds = 100; // between looks at whether the job is still wanted
-        const int ready = ::poll(&waiting, 1, milliseconds);
+        const int ready = ::poll(&waiting, 1, int(between_looks.count()));
+        if (ready == 0)
+            patience.look();
         if (ready > 0) {
             const ssize_t got = ::read(child.pipe(), buffer.data(), buffer.size());
             if (got == 0)
@@ -146,7 +193,9 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
     }
     const int status = child.ended();
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        throw InputError("reading it was given up after ten minutes; export it again, or a part of it");
+        throw InputError(
+            fmt::format("reading it was given up after {} seconds of computing; export it again, or a part of it",
+                        limits.busy.count()));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
         throw InputError(
             "reading it was ended from outside, perhaps for want of memory; close other programs, or export a part of it");
@@ -158,21 +207,22 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
 } // namespace
 
 std::string in_child(const std::function<std::string(const Progress&, const ChildLog&)>& work, const ChildLog& log,
-                     const Progress& progress)
+                     const Progress& progress, const ChildLimits& limits)
 {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
         throw InputError(fmt::format("no process can be started to read it ({})", std::strerror(errno)));
-    const pid_t pid = ::fork();
+    const pid_t parent = ::getpid(), pid = ::fork();
     if (pid == 0) {
+        end_with(parent);
         ::close(ends[0]);
-        be_the_child(ends[1], work);
+        be_the_child(ends[1], work, limits.busy);
     }
     ::close(ends[1]);
     Child child(pid, ends[0]);
     if (pid < 0)
         throw InputError(fmt::format("no process can be started to read it ({})", std::strerror(errno)));
-    return result_of(child, log, progress);
+    return result_of(child, log, progress, limits);
 }
 
 } // namespace spia

@@ -82,9 +82,9 @@ void scale(CadShape& shape, LengthUnit unit)
 {
     if (!shape.unit.empty())
         throw InputError(
-            fmt::format("the file says itself that its lengths are in {}, and they were converted to mm; leave the "
-                        "unit out (--unit)",
-                        shape.unit));
+            fmt::format("{} files have a unit of their own, here {}, and lengths were converted to mm; leave the unit "
+                        "out (--unit)",
+                        shape.format, shape.unit));
     gp_Trsf scaling;
     scaling.SetScaleFactor(millimetres(unit));
     BRepBuilderAPI_Transform transform(shape.shape, scaling, true); // the whole, for faces to keep common edges
@@ -98,11 +98,12 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     CadContent result;
     result.format = shape.format;
     result.unit = shape.unit;
-    result.lost = std::move(shape.lost);
     result.unmeshed_left_out = options.leave_out_unmeshed;
     result.faces = int(shape.face.size());
     const std::vector<int> numbers = chosen_faces(shape.tree, wanted);
     result.taken = int(numbers.size());
+    for (LostShape& lost : shape.lost)
+        (may_lack(numbers, lost) ? result.lost : result.lost_elsewhere).push_back(std::move(lost.label));
     result.tree = std::move(shape.tree);
     result.solid = std::any_of(numbers.begin(), numbers.end(), [&](int face) {
         return result.tree.item[size_t(result.tree.body_of[size_t(face)])].kind == CadItem::Kind::solid;
@@ -117,7 +118,7 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     SewnFaces sewn = sew(taken, options.sewing_tolerance, diagonal, progress.part(0, 0.5));
     result.sewing_tolerance = sewn.tolerance;
     result.shortest_edge = sewn.shortest_edge;
-    result.widest_closed = sewn.widest_closed;
+    result.half_an_edge = sewn.half_an_edge;
     result.free_before = sewn.free_before;
     result.free_after = sewn.free_after;
     const auto number_of = [&](int face) { return numbers[size_t(face)]; };
@@ -149,7 +150,7 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
         }
     std::stable_sort(result.slivers.begin(), result.slivers.end(),
                      [](const CadSliver& a, const CadSliver& b) { return a.width > b.width; });
-    result.overlapping = overlapping(result, std::max(result.sewing_tolerance, 1e-6 * diagonal));
+    result.overlapping = overlapping(result, 1e-6 * diagonal);
     progress.checkpoint(1, "looking for overlapping faces");
     return result;
 }

@@ -39,17 +39,18 @@ struct CadContent {
     CadTree tree;                ///< what the file holds
     bool solid = false;          ///< some of the faces taken are of a solid
     std::string format;          ///< e.g. "STEP"
-    std::string unit;            ///< that the file names, e.g. "INCH"; lengths here are mm; empty: it names none
+    std::string unit;            ///< of the file, e.g. "INCH"; lengths here are mm; empty: the format has none (BREP)
     double deflection = 0;       ///< mm, largest distance between triangle and face that was asked for
     double sewing_tolerance = 0; ///< mm; 0: the faces were taken as they are
-    double widest_closed = 0;    ///< mm, the widest gap that is closed unasked
+    double half_an_edge = 0;     ///< mm: what nearly all edges are twice as long as; gaps are closed unasked up to it
     double shortest_edge = 0;    ///< mm
     int free_before = 0;         ///< edges of one face only, before sewing
     int free_after = 0;          ///< and after it
     std::vector<CadGap> gaps;    ///< at edges that two faces share now, the widest first
     std::vector<std::string>
-        lost;                  ///< labels of faces and bodies of the file that could not be made; they have no numbers
-    std::vector<int> unmeshed; ///< faces without triangles, but for slivers
+        lost; ///< labels of faces and bodies of the file that could not be made, and may be missing; without numbers
+    std::vector<std::string> lost_elsewhere; ///< those of other bodies than were chosen
+    std::vector<int> unmeshed;               ///< faces without triangles, but for slivers
     std::vector<CadSliver> slivers;          ///< that were closed
     bool unmeshed_left_out = false;          ///< as was asked for
     std::vector<std::array<int, 2>> doubled; ///< faces that were left out, each with the one on which it lies
@@ -62,7 +63,7 @@ bool is_cad(std::string_view extension);
 /// Reads, heals, sews and meshes the faces of a STEP, IGES or BREP file through OpenCASCADE, one file at a time. That is done in a
 /// process of its own (in_child()), for OpenCASCADE crashes and hangs on some damaged files.
 /// @param wanted  faces to take, as chosen_faces() has it; empty: all
-/// @param unit  of a BREP file (not given: mm); the others name their unit, and it is obeyed
+/// @param unit  of a BREP file (not given: mm); the others have their unit, and it is obeyed
 /// @throws InputError  the file is damaged or holds no face, a face wanted does not exist, an option makes no sense, a
 ///         unit is given and the file has its own
 CadContent read_cad(const std::filesystem::path& path, const CadOptions& options = {},

@@ -91,6 +91,13 @@ TEST(CadFaults, AFaceThatOpenCascadeCannotMakeIsNotLostSilently)
     options.parts = {"Cover"};
     const PartFile other = read_part(folder / "car.step", options);
     EXPECT_EQ(other.doctor.find(Fault::unmeshed_face)->severity, Severity::note);
+    options.parts = {"Roof"};
+    const PartFile holed = examine_part(folder / "car.step", options);
+    ASSERT_TRUE(holed.doctor.find(Fault::unmeshed_face));
+    EXPECT_EQ(holed.doctor.find(Fault::unmeshed_face)->severity, Severity::fatal) << "it is a face of this body";
+    options.cad.leave_out_unmeshed = true;
+    EXPECT_EQ(examine_part(folder / "car.step", options).doctor.find(Fault::unmeshed_face)->severity,
+              Severity::repaired);
 }
 
 TEST(CadFaults, ASweptCylinderIsMeshedAlongItsStraightLines)

@@ -1,16 +1,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <gtest/gtest.h>
 #include <memory>
 #include <numbers>
 #include <random>
 #include <set>
-#include <unistd.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/child_process.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/exchange/write_iges.h"
@@ -342,6 +339,39 @@ TEST(CadSewing, NamesFacesThatBranchOff)
     EXPECT_NEAR(area(part.mesh), 400, 1e-6);
 }
 
+TEST(CadSewing, FindsNoOverlapInTrianglesThatAreSmallerThanTheTolerance)
+{
+    const ScratchFolder folder;
+    write_iges(folder / "sheet.igs", quarter_cylinder());
+    const CadOptions fine{.sewing_tolerance = 1, .deflection = 0.0005}; // chords of 0.45 mm
+    const CadContent cad = read_cad(folder / "sheet.igs", fine);
+    EXPECT_EQ(cad.sewing_tolerance, 1);
+    EXPECT_GT(cad.soup.polygons(), 300);
+    EXPECT_EQ(cad.overlapping, std::vector<int>());
+}
+
+TEST(CadSewing, SaysThatEdgesBoundTheToleranceOnlyIfTheyDo)
+{
+    const ScratchFolder folder;
+    const auto note = [&](std::optional<double> tolerance) {
+        ReadOptions options;
+        options.cad.sewing_tolerance = tolerance;
+        std::string found;
+        for (const std::string& each : examine_part(folder / "strips.igs", options).notes)
+            if (each.find("half the length of edges") != std::string::npos)
+                found = each;
+        return found;
+    };
+    write_iges(folder / "strips.igs", std::vector{rectangle(0, 100, 0, 100), rectangle(100.1, 200, 0, 100)});
+    EXPECT_EQ(note({}), "");
+    EXPECT_EQ(note(5), "") << "more than is closed unasked, but far from 50 mm";
+    write_iges(folder / "strips.igs", std::vector{rectangle(0, 10, 0, 0.4), rectangle(10.17, 20, 0, 0.4)});
+    EXPECT_NE(note({}).find("shortest 0.4 mm: small faces may have closed up, and wider gaps"), std::string::npos);
+    EXPECT_EQ(note(0.19), "");
+    EXPECT_NE(note(0.21), "");
+    EXPECT_EQ(note(0.21).find("wider gaps"), std::string::npos);
+}
+
 namespace {
 
 /// As shared/data/README.md states; of files without an area it is that of the same surface in another format.
@@ -457,39 +487,6 @@ TEST(CadPart, SameFileGivesTheSameTriangles)
     const CadContent a = read_cad(folder / "wall.igs"), b = read_cad(folder / "wall.igs");
     EXPECT_EQ(a.soup.corner, b.soup.corner);
     EXPECT_EQ(a.soup.position, b.soup.position);
-}
-
-TEST(ChildProcess, GivesTheResultOrTheErrorAndOutlivesACrash)
-{
-    std::vector<std::string> logged;
-    const ChildLog log = [&](std::string_view text) { logged.emplace_back(text); };
-    const std::string large(5'000'000, 'x');
-    EXPECT_EQ(in_child([&](const Progress&, const ChildLog& say) { return say("hello"), large; }, log, {}), large);
-    EXPECT_EQ(logged, std::vector<std::string>{"hello"});
-    try {
-        in_child([](const Progress&, const ChildLog&) -> std::string { throw InputError("no good"); }, log, {});
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "no good");
-    }
-    const auto crash = [](const Progress&, const ChildLog&) -> std::string {
-        std::raise(SIGKILL);
-        return "";
-    };
-    EXPECT_THROW(in_child(crash, log, {}), InputError);
-    const auto hog = [](const Progress&, const ChildLog&) { return std::string(size_t(20) << 30, 'x'); };
-    EXPECT_THROW(in_child(hog, log, {}), InputError);
-}
-
-TEST(ChildProcess, IsStoppedEvenIfItSaysNothing)
-{
-    const auto stop = std::make_shared<std::atomic<bool>>(true);
-    const auto sleep = [](const Progress&, const ChildLog&) { return ::sleep(100), std::string(); };
-    const auto start = std::chrono::steady_clock::now();
-    EXPECT_THROW(in_child(
-                     sleep, [](std::string_view) {}, Progress({}, stop)),
-                 Cancelled);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 /// Files cut short and with bytes changed: refused or read, but never the end of this program.

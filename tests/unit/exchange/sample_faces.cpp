@@ -4,6 +4,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -15,6 +16,7 @@
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <TopoDS.hxx>
 #include <gp.hxx>
+#include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 #include <stdexcept>
 
@@ -68,7 +70,35 @@ TopoDS_Face narrow(double width)
     return bounded(new Geom_Plane(gp_Pln()), polygon({{20, 0, 0}, {20 + width, 10, 0}, {20, 20, 0}}));
 }
 
+/// A plane face inside of its border, with holes of 2 mm in rows of ten from x on.
+TopoDS_Face perforated(const TopoDS_Wire& border, double x, int holes)
+{
+    BRepBuilderAPI_MakeFace face(gp_Pln(), border, true);
+    for (int k = 0; k < holes; ++k) {
+        const gp_Pnt middle(x + 5 + 9 * (k % 10), 10 + 20 * (k / 10), 0);
+        BRepBuilderAPI_MakeWire hole(BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(middle, gp::DZ()), 1)).Edge());
+        face.Add(TopoDS::Wire(hole.Wire().Reversed()));
+    }
+    return face.Face();
+}
+
 } // namespace
+
+void write_perforated_halves(const std::filesystem::path& brep, int holes, Between between, double width)
+{
+    const OcctSession session;
+    const double right = 100 + width;
+    BRepBuilderAPI_Sewing sewing(1e-6); // for them to have the edge in common that is one
+    sewing.Add(perforated(polygon({{0, 0, 0}, {100, 0, 0}, {100, 50, 0}, {100, 100, 0}, {0, 100, 0}}), 0, holes));
+    const TopoDS_Wire border =
+        between == Between::gap
+            ? polygon({{right, 0, 0}, {200, 0, 0}, {200, 100, 0}, {right, 100, 0}})
+            : polygon({{100, 0, 0}, {200, 0, 0}, {200, 100, 0}, {right, 100, 0}, {right, 50, 0}, {100, 50, 0}});
+    sewing.Add(perforated(border, 105, holes));
+    sewing.Perform();
+    if (!BRepTools::Write(sewing.SewedShape(), brep.c_str()))
+        throw std::runtime_error("no plate was written");
+}
 
 void write_two_squares(const std::filesystem::path& brep, ThirdFace third)
 {

@@ -14,6 +14,15 @@ constexpr double sliver_width = 1e-9; // mm
 /// Writes them as BREP.
 void write_two_squares(const std::filesystem::path& brep, ThirdFace third);
 
+/// Between the halves of a plate of 200 x 100 mm, at x = 100.
+enum class Between {
+    gap, ///< all along
+    slit ///< from the middle, y = 50, to the rim: one edge is common
+};
+
+/// Writes two faces with that many holes each, 30 at most, as BREP; the gap or slit is `width` mm wide.
+void write_perforated_halves(const std::filesystem::path& brep, int holes, Between between, double width);
+
 /// How a face of a cylinder about z, radius 10, comes to be.
 enum class Swept { line_up, line_down, circle_up, circle_down };
 
