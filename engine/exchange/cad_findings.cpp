@@ -1,5 +1,6 @@
 #include "engine/exchange/cad_findings.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -14,7 +15,8 @@
 namespace spia {
 namespace {
 
-constexpr size_t shown = 20; // of many faces or gaps
+constexpr size_t shown = 20, // of many faces, in words
+    most_places = 1000;      // of a finding
 
 template <class Name> std::string listed(const std::vector<Name>& faces)
 {
@@ -49,9 +51,10 @@ void report_gaps(const CadContent& cad, std::vector<Finding>& findings)
         return;
     const CadGap& widest = cad.gaps.front();
     Finding finding{Fault::gap, Severity::repaired, count, 0, "", "", {}, {}};
-    for (auto gap = cad.gaps.begin(); gap != narrow && finding.where.size() < shown; ++gap) {
+    for (auto gap = cad.gaps.begin(); gap != narrow && finding.where.size() < most_places; ++gap) {
         finding.where.push_back(nearest_vertex(cad.soup, gap->place));
         finding.place.push_back(gap->place);
+        finding.what.push_back(fmt::format("{:.3g} mm, CAD faces {} and {}", gap->width, gap->face[0], gap->face[1]));
     }
     finding.first = finding.where.front();
     finding.text = fmt::format("{} closed, the widest {:.3g} mm at {:.6g}, {:.6g}, {:.6g} between CAD faces {} and {}",
@@ -102,9 +105,10 @@ void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
         return;
     const CadSliver& widest = cad.slivers.front();
     Finding finding{Fault::gap, Severity::repaired, int(cad.slivers.size()), -1, "", "", {}, {}};
-    for (size_t k = 0; k < std::min(shown, cad.slivers.size()) && cad.soup.vertices() > 0; ++k) {
+    for (size_t k = 0; k < std::min(most_places, cad.slivers.size()) && cad.soup.vertices() > 0; ++k) {
         finding.where.push_back(nearest_vertex(cad.soup, cad.slivers[k].place));
         finding.place.push_back(cad.slivers[k].place);
+        finding.what.push_back(fmt::format("{:.3g} mm, CAD face {}", cad.slivers[k].width, cad.slivers[k].face));
     }
     finding.first = finding.where.empty() ? -1 : finding.where.front();
     finding.text = fmt::format(
@@ -123,10 +127,11 @@ void report_doubles(const CadContent& cad, std::vector<Finding>& findings)
     for (const auto& [face, on] : cad.doubled) {
         pairs.push_back(fmt::format("{} on {}", face, on));
         const auto t = std::find(cad.face.begin(), cad.face.end(), on);
-        if (t == cad.face.end() || finding.where.size() == shown)
+        if (t == cad.face.end() || finding.where.size() == most_places)
             continue;
         finding.where.push_back(int(t - cad.face.begin()));
         finding.place.push_back(middle_of(cad.soup, finding.where.back()));
+        finding.what.push_back(fmt::format("CAD face {} on {}", face, on));
     }
     finding.first = finding.where.empty() ? -1 : finding.where.front();
     finding.text = fmt::format(
@@ -145,7 +150,8 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
         const auto t = int(std::find(cad.face.begin(), cad.face.end(), face) - cad.face.begin());
         finding.where.push_back(t);
         finding.place.push_back(middle_of(cad.soup, t));
-        if (finding.where.size() == shown)
+        finding.what.push_back(fmt::format("CAD face {}", face));
+        if (finding.where.size() == most_places)
             break;
     }
     finding.first = finding.where.front();
@@ -169,18 +175,27 @@ std::string ranges(const std::set<int>& faces)
     return text;
 }
 
-/// The CAD faces of each piece of the mesh.
+/// The CAD faces of each piece of the mesh, the largest by area first.
 std::vector<std::set<int>> pieces(const CadContent& cad, const PartFile& part)
 {
     DisjointSets joined(size_t(part.mesh.vertices()));
     for (int f = 0; f < part.mesh.triangles(); ++f)
         for (int k = 0; k < 3; ++k)
             joined.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
-    std::map<int, std::set<int>> found;
-    for (int f = 0; f < part.mesh.triangles(); ++f)
-        found[joined.root(part.mesh.triangle(0, f))].insert(cad.face[size_t(part.source_face[size_t(f)])]);
+    std::map<int, std::pair<double, std::set<int>>> found;
+    for (int f = 0; f < part.mesh.triangles(); ++f) {
+        auto& [area, faces] = found[joined.root(part.mesh.triangle(0, f))];
+        const Eigen::Vector3d a = part.mesh.position.col(part.mesh.triangle(0, f));
+        const Eigen::Vector3d ab = part.mesh.position.col(part.mesh.triangle(1, f)) - a;
+        area += ab.cross(part.mesh.position.col(part.mesh.triangle(2, f)) - a).norm();
+        faces.insert(cad.face[size_t(part.source_face[size_t(f)])]);
+    }
+    std::vector<std::pair<double, std::set<int>>> by_area;
+    for (auto& [root, piece] : found)
+        by_area.push_back(std::move(piece));
+    std::stable_sort(by_area.begin(), by_area.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::set<int>> result;
-    for (auto& [root, faces] : found)
+    for (auto& [area, faces] : by_area)
         result.push_back(std::move(faces));
     return result;
 }
@@ -218,6 +233,32 @@ void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Find
                         {}});
 }
 
+/// Pieces of a sheet are told by their CAD faces, which can be chosen; the doctor knows triangles only.
+void name_pieces(const CadContent& cad, PartFile& part)
+{
+    constexpr size_t most = 5; // pieces, in words
+    for (Finding& finding : part.doctor.findings) {
+        if (finding.fault != Fault::several_components || cad.solid)
+            continue;
+        const std::vector<std::set<int>> all = pieces(cad, part);
+        if (finding.severity == Severity::fatal) {
+            std::vector<std::string> choices;
+            for (const std::set<int>& faces : std::span(all).first(std::min(most, all.size())))
+                choices.push_back(ranges(faces));
+            finding.advice =
+                fmt::format("keep the largest (--keep-largest), or choose the CAD faces of one piece (--part): {}{}",
+                            fmt::join(choices, " or "), all.size() > most ? ", ..." : "");
+            continue;
+        }
+        std::set<int> left_out(cad.face.begin(), cad.face.end());
+        for (const std::set<int>& faces : all)
+            for (const int face : faces)
+                left_out.erase(face);
+        if (!left_out.empty())
+            finding.text += fmt::format("; that leaves out CAD faces {}", ranges(left_out));
+    }
+}
+
 } // namespace
 
 void report_cad(const CadContent& cad, PartFile& part)
@@ -235,6 +276,7 @@ void report_cad(const CadContent& cad, PartFile& part)
             fmt::format("the sewing tolerance is half the length of edges or more, the shortest {:.3g} mm: small faces "
                         "may have closed up{}",
                         cad.shortest_edge, cad.sewing_tolerance > cad.half_an_edge ? "" : ", and wider gaps are open"));
+    name_pieces(cad, part);
     std::vector<Finding> findings;
     report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);

@@ -185,9 +185,10 @@ void DeckBuilder::write_notes()
         note(fmt::format("element ids are used more than once (first: {})", *twice));
 }
 
-Deck DeckBuilder::finish(std::string format, const std::vector<std::string>& notes)
+Deck DeckBuilder::finish(std::string format, const DeckLines& lines)
 {
-    deck_.notes.insert(deck_.notes.begin(), notes.begin(), notes.end());
+    deck_.notes.insert(deck_.notes.begin(), lines.notes.begin(), lines.notes.end());
+    deck_.doubts.insert(deck_.doubts.begin(), lines.doubts.begin(), lines.doubts.end());
     close_scope();
     deck_.format = std::move(format);
     thickness_from_elements();
@@ -221,8 +222,9 @@ Deck DeckBuilder::finish(std::string format, const std::vector<std::string>& not
     }
     for (DeckSet& set : deck_.sets)
         set.name = readable(set.name);
-    for (std::string& text : deck_.notes)
-        text = readable(text);
+    for (std::vector<std::string>* list : {&deck_.notes, &deck_.doubts})
+        for (std::string& text : *list)
+            text = readable(text);
     if (deck_.corner.empty()) {
         std::string message = "there is no shell element with all its nodes in this deck";
         constexpr size_t most = 5;

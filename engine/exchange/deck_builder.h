@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/exchange/deck.h"
+#include "engine/exchange/deck_lines.h"
 
 namespace spia {
 
@@ -37,12 +38,17 @@ public:
     void add_set(std::string name, std::vector<int> shells); ///< by their numbers as they were added
 
     void note(std::string text) { deck_.notes.push_back(std::move(text)); }
+    void doubt(std::string text) ///< a note after which shells may be missing
+    {
+        deck_.doubts.push_back(text);
+        note(std::move(text));
+    }
     void count_skipped(std::string_view keyword) { count(skipped_, keyword); } ///< not read
     void count_other_elements(std::string_view type) { count(others_, type); } ///< no shell
 
     /// @throws InputError if a node is given twice at different places, or there is no shell
-    /// @param notes  of the lines, put before those of the builder
-    Deck finish(std::string format, const std::vector<std::string>& notes);
+    /// @param lines  read to their end; their notes are put before those of the builder
+    Deck finish(std::string format, const DeckLines& lines);
     void set_unit(LengthUnit unit) { deck_.unit = unit; }
 
 private:

@@ -77,12 +77,16 @@ void DeckLines::leave_file() { open_.back().rest = {}; }
 void DeckLines::add_folder(std::string_view name, bool relative)
 {
     constexpr size_t most = 100; // every file that is included is looked for in all of them
-    fs::path folder = relative ? open_.front().path.parent_path() / fs::path(name) : fs::path(name);
-    if (std::find(folders_.begin(), folders_.end(), folder) != folders_.end())
-        return;
-    if (folders_.size() == most)
-        fail(fmt::format("more than {} folders to look for included files", most));
-    folders_.push_back(std::move(folder));
+    std::vector<fs::path> meant = {open_.front().path.parent_path() / fs::path(name)}; // of an absolute name that name
+    if (!relative)
+        meant.insert(meant.begin(), fs::path(name));
+    for (fs::path& folder : meant) {
+        if (std::find(folders_.begin(), folders_.end(), folder) != folders_.end())
+            continue;
+        if (folders_.size() >= most)
+            fail(fmt::format("more than {} folders to look for included files", most));
+        folders_.push_back(std::move(folder));
+    }
 }
 
 void DeckLines::include(std::string_view name)
@@ -117,7 +121,9 @@ void DeckLines::include(std::string_view name)
             }
             return;
         }
+    const size_t told = notes.size();
     note(fmt::format("the included file {} is not there, and what it holds is missing", name.substr(0, 200)));
+    doubts.insert(doubts.end(), notes.begin() + long(told), notes.end());
 }
 
 void DeckLines::note(std::string text)

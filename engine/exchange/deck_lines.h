@@ -47,7 +47,8 @@ public:
     /// What is wrong from here on is said of this line: a reader that has to look ahead knows where it is.
     void speak_of(std::optional<Place> place) { spoken_of_ = std::move(place); }
 
-    std::vector<std::string> notes; ///< what was wrong with included files; the first ones
+    std::vector<std::string> notes;  ///< what was wrong with included files; the first ones
+    std::vector<std::string> doubts; ///< those of files that are not there
 
 private:
     struct File {

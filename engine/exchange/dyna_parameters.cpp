@@ -15,6 +15,12 @@ std::string small_letters(std::string_view text)
     return result;
 }
 
+/// Of a number; it may have a sign already.
+std::string negative(const std::string& value)
+{
+    return value.starts_with('-') ? value.substr(1) : "-" + (value.starts_with('+') ? value.substr(1) : value);
+}
+
 } // namespace
 
 /// @param name  after its type: "R thood" or "Rthood"
@@ -40,14 +46,15 @@ void DynaParameters::define_expression(std::string_view line, int width, bool lo
         set(trimmed(line.substr(0, cut)), value, local);
 }
 
-const std::string* DynaParameters::find(std::string_view field)
+std::optional<std::string> DynaParameters::find(std::string_view field)
 {
-    const std::string name = small_letters(trimmed(field.substr(1)));
+    const bool minus = field.starts_with('-');
+    const std::string name = small_letters(trimmed(field.substr(minus ? 2 : 1)));
     for (auto file = values_.rbegin(); file != values_.rend(); ++file)
         if (const auto found = file->find(name); found != file->end())
-            return &found->second;
-    undefined_.insert(std::string(field));
-    return nullptr;
+            return minus ? negative(found->second) : found->second;
+    undefined_.insert(std::string(field.substr(minus ? 1 : 0)));
+    return std::nullopt;
 }
 
 std::string DynaParameters::undefined() const

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -9,7 +10,7 @@
 
 namespace spia {
 
-/// What *PARAMETER gives a name; cards refer to it by "&name". What is local holds in its file and in those that it
+/// What *PARAMETER gives a name; cards refer to it by "&name", and by "-&name" to its negative. What is local holds in its file and in those that it
 /// includes, before what is global. [LS-DYNA Keyword User's Manual, volume I, *PARAMETER]
 class DynaParameters {
 public:
@@ -20,9 +21,9 @@ public:
     void enter_file() { values_.emplace_back(); } ///< one that is included
     void leave_file() { values_.pop_back(); }
 
-    static bool is_name(std::string_view field) { return field.starts_with('&'); }
-    /// The text that "&name" stands for; a null pointer if it is not defined, and then it is remembered.
-    const std::string* find(std::string_view field);
+    static bool is_name(std::string_view field) { return field.starts_with('&') || field.starts_with("-&"); }
+    /// The text that "&name" or "-&name" stands for; nothing if it is not defined, and then it is remembered.
+    std::optional<std::string> find(std::string_view field);
 
     std::string undefined() const; ///< "&a, &b": all that were asked for in vain; empty if none
 

@@ -8,10 +8,11 @@ std::string_view DynaValues::meant(std::string_view field)
 {
     if (!DynaParameters::is_name(field))
         return field;
-    const std::string* value = parameters.find(field);
+    std::optional<std::string> value = parameters.find(field);
     if (!value)
         lines_.fail(fmt::format("the parameter {} is not defined", field.substr(0, 40)));
-    return *value;
+    meant_ = std::move(*value);
+    return meant_;
 }
 
 std::optional<double> DynaValues::thickness(size_t i)
@@ -21,7 +22,7 @@ std::optional<double> DynaValues::thickness(size_t i)
         return 0;
     if (!DynaParameters::is_name(field))
         return lines_.number(field);
-    const std::string* value = parameters.find(field);
+    const std::optional<std::string> value = parameters.find(field);
     return value ? std::optional(lines_.number(*value)) : std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "engine/exchange/deck_fields.h"
@@ -31,9 +32,10 @@ public:
     DynaParameters parameters;
 
 private:
-    std::string_view meant(std::string_view field);
+    std::string_view meant(std::string_view field); ///< good until the next one
     DeckLines& lines_;
     DeckFields fields_;
+    std::string meant_; ///< what the parameter stands for that was asked for last
 };
 
 } // namespace spia

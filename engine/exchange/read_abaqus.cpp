@@ -49,7 +49,7 @@ public:
                 "{} instances are moved or turned in the assembly; their parts are taken as they were drawn", moved_));
         if (middle_nodes_ > 0)
             deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
-        return deck_.finish("Abaqus input", lines_.notes);
+        return deck_.finish("Abaqus input", lines_);
     }
 
 private:

@@ -215,7 +215,7 @@ private:
         if (const std::string names = values_.parameters.undefined(); !names.empty())
             deck_.note("thicknesses are missing because parameters are not defined: " + names);
         if (end_missing_)
-            deck_.note("the deck does not end with *END: if it was cut off, shells are missing");
+            deck_.doubt("the deck does not end with *END: if it was cut off, shells are missing");
         if (some_corners_ > 0)
             deck_.note(
                 fmt::format("{} shells have a thickness at some of their corners only: that of their section is taken",
@@ -227,7 +227,7 @@ private:
                 fmt::format("{} shells have a material direction or an offset; what is written for this deck does "
                             "not repeat them",
                             directed_));
-        return deck_.finish("LS-DYNA keyword", lines_.notes);
+        return deck_.finish("LS-DYNA keyword", lines_);
     }
 
     struct Shell {

@@ -61,7 +61,7 @@ public:
             const auto name = name_.find(tag);
             deck_.add_set(name != name_.end() ? name->second : fmt::format("{}", tag), std::move(shells));
         }
-        return deck_.finish(fmt::format("Gmsh {:.1f}", version_), lines_.notes);
+        return deck_.finish(fmt::format("Gmsh {:.1f}", version_), lines_);
     }
 
 private:

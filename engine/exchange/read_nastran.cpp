@@ -32,7 +32,7 @@ public:
         place_nodes();
         name_parts();
         thicken_shells();
-        return deck_.finish("Nastran bulk data", lines_.notes);
+        return deck_.finish("Nastran bulk data", lines_);
     }
 
 private:
@@ -117,7 +117,7 @@ private:
                 ++unknown_thickness_;
         }
         if (entry_.end_missing())
-            deck_.note("the deck does not end with ENDDATA: if it was cut off, shells are missing");
+            deck_.doubt("the deck does not end with ENDDATA: if it was cut off, shells are missing");
         if (unknown_thickness_ > 0)
             deck_.note(fmt::format(
                 "{} shells have a thickness at some corners only or as a share, and their property has none",

@@ -51,6 +51,7 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
     part.format = deck.format;
     part.unit = options.unit.value_or(deck.unit.value_or(LengthUnit::mm));
     part.notes = deck.notes;
+    part.doubts = deck.doubts;
     part.notes.insert(part.notes.end(), choice.notes.begin(), choice.notes.end());
     if (deck.unit && *deck.unit != part.unit)
         part.notes.push_back(fmt::format("the deck says that its lengths are in {}; they are taken as {}, as was asked",

@@ -82,6 +82,7 @@ struct PartFile {
     std::string format; ///< e.g. "STL (binary)"
     LengthUnit unit = LengthUnit::mm;
     std::vector<std::string> notes;          ///< what was left out, or deserves a word
+    std::vector<std::string> doubts = {};    ///< those of the notes after which some of the part may be missing
     std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part was cut open
     double seam_length = 0;                  ///< mm
     std::optional<double> thickness_mm = {}; ///< of the sheet: decks say it, in solids it is found

@@ -37,7 +37,7 @@ public:
         for (int p = 0; p < deck_.parts(); ++p)
             if (const auto found = material_.find(deck_.at(p).material_id.value_or(0)); found != material_.end())
                 deck_.at(p).material = found->second;
-        return deck_.finish("Radioss starter", lines_.notes);
+        return deck_.finish("Radioss starter", lines_);
     }
 
 private:

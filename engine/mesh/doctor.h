@@ -68,6 +68,7 @@ struct Finding {
     std::string advice;          ///< what to do about it; empty if nothing has to be done
     std::vector<int> where = {}; ///< as `first`, at most a thousand; empty if none can be named
     std::vector<Eigen::Vector3d> place = {}; ///< of `where`, as in the soup; also of what was taken out
+    std::vector<std::string> what = {};      ///< of `where`, e.g. how wide; empty if there is nothing to tell them apart
 };
 
 /// What the examination found. The numbers describe the mesh after the repairs; those without a value have no

@@ -64,7 +64,13 @@ std::string_view name(StartMethod start)
 Json findings_json(const DoctorReport& doctor)
 {
     Json list = Json::array();
-    for (const Finding& finding : doctor.findings)
+    for (const Finding& finding : doctor.findings) {
+        Json places = Json::array();
+        for (size_t k = 0; k < finding.place.size(); ++k) {
+            places.push_back({{"at_mm", {finding.place[k][0], finding.place[k][1], finding.place[k][2]}}});
+            if (k < finding.what.size())
+                places.back()["what"] = finding.what[k];
+        }
         list.push_back({{"fault", name(finding.fault)},
                         {"severity", finding.severity == Severity::note       ? "note"
                                      : finding.severity == Severity::repaired ? "repaired"
@@ -72,7 +78,9 @@ Json findings_json(const DoctorReport& doctor)
                         {"count", finding.count},
                         {"first", finding.first},
                         {"text", finding.text},
-                        {"advice", finding.advice}});
+                        {"advice", finding.advice},
+                        {"places", std::move(places)}});
+    }
     return list;
 }
 
@@ -409,8 +417,11 @@ std::vector<std::string> idle_process(const Session& session)
 std::vector<std::string> shortcomings(const Session& session)
 {
     std::vector<std::string> list;
+    if (session.part)
+        list = session.part->doubts;
     if (session.blank) {
-        list = unlikely_input(session.options.flatten);
+        for (std::string& line : unlikely_input(session.options.flatten))
+            list.push_back(std::move(line));
         for (std::string& line : idle_process(session))
             list.push_back(std::move(line));
         const FlattenResult& flat = *session.blank;

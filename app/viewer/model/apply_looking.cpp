@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/clear_sight.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -77,6 +78,7 @@ void ViewerModel::Apply::operator()(const ShowFault& action)
         Camera& camera = state.view.camera[size_t(view)];
         if (view == View::part || (state.view.linked && view != View::blank)) {
             camera.target = glm::dvec3(at[0], at[1], at[2]);
+            camera.turn = clear_sight(part->mesh, at, camera.turn);
             if (size > 0)
                 camera.height = std::min(camera.height, size);
         }

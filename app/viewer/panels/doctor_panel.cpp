@@ -16,6 +16,27 @@ template <class Edit> void read_with(Frame& frame, const Edit& edit)
     frame.actions.push(SetReading{reading});
 }
 
+/// Each place of a fault with what is known of it; a click shows it.
+void list_of_places(Frame& frame, int number, const Finding& finding)
+{
+    constexpr int rows = 6;
+    const int places = int(finding.what.size()), entry = frame.state.fault->entry;
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    ImGui::BeginChild("places", {0, (float(std::min(rows, places)) + 0.4f) * line}, true);
+    ImGuiListClipper clipper;
+    clipper.Begin(places, line);
+    while (clipper.Step())
+        for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
+            const std::string label = fmt::format("{}   {}##{}", k + 1, finding.what[size_t(k)], k);
+            if (ImGui::Selectable(label.c_str(), k == entry) && k != entry)
+                frame.actions.push(ShowFault{number, k});
+        }
+    int& listed = frame.ui.listed_place; // the list follows the buttons, and is scrolled by hand otherwise
+    if (std::exchange(listed, entry) != entry)
+        ImGui::SetScrollY(std::max(0.f, (float(entry) - rows / 2) * line));
+    ImGui::EndChild();
+}
+
 /// "Show", which stays pressed; for a fault in several places back and forth between them.
 void show_buttons(Frame& frame, int number, const Finding& finding)
 {
@@ -47,6 +68,8 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
     ImGui::SameLine(0, 4 * frame.ui.scale);
     if (small_button(frame, ">"))
         go(1);
+    if (!finding.what.empty())
+        list_of_places(frame, number, finding);
 }
 
 /// What this program can do about a fault itself.

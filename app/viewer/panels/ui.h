@@ -65,6 +65,7 @@ struct Ui {
     std::vector<KeyPress> keys;       ///< pressed since the last frame
     std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
     std::optional<Typed> typed;
+    int listed_place = -1; ///< of the fault that is shown: the list of its places was scrolled to it
     std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
 
     // the view the mouse is busy in

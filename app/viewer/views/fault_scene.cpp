@@ -68,7 +68,10 @@ void add_shown_fault(Scene& scene, const ViewerState& state)
          {std::pair(palette::casing, 17.f), std::pair(palette::probe, 14.f), std::pair(palette::casing, 8.f)})
         scene.points.push_back(dots(place, colour, size));
     const Finding& finding = part->doctor.findings[size_t(state.fault->finding)];
-    scene.labels.push_back({state.fault->place, std::string(name(finding.fault)), palette::text(state.view.dark)});
+    const auto entry = size_t(state.fault->entry);
+    const std::string what = entry < finding.what.size() ? ": " + finding.what[entry] : "";
+    scene.labels.push_back(
+        {state.fault->place, std::string(name(finding.fault)) + what, palette::text(state.view.dark)});
 }
 
 } // namespace spia::viewer

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <memory>
 #include <numbers>
@@ -232,12 +233,36 @@ TEST(CadSewing, ClosesTheGapsOfABrickWallAndTellsTheWidest)
     ASSERT_TRUE(told);
     EXPECT_EQ(told->severity, Severity::repaired);
     EXPECT_LT((part.mesh.position.col(told->first) - widest.place).norm(), 21);
+    ASSERT_EQ(told->place.size(), size_t(told->count));
+    ASSERT_EQ(told->what.size(), told->place.size());
+    EXPECT_EQ(told->what[0],
+              fmt::format("{:.3g} mm, CAD faces {} and {}", widest.width, widest.face[0], widest.face[1]));
 
     ReadOptions loose;
     loose.cad.sewing_tolerance = 0.01;
     EXPECT_GT(examine_part(folder / "wall.igs", loose).doctor.components, 1);
     loose.cad.sewing_tolerance = -1;
     EXPECT_THROW(examine_part(folder / "wall.igs", loose), InputError);
+}
+
+TEST(CadSewing, NamesPiecesByTheirFaces)
+{
+    const ScratchFolder folder;
+    write_iges(folder / "two.igs",
+               std::vector{rectangle(0, 10, 0, 10), rectangle(50, 80, 0, 10), rectangle(80, 90, 0, 10)});
+    const PartFile both = examine_part(folder / "two.igs");
+    const Finding* pieces = both.doctor.find(Fault::several_components);
+    ASSERT_TRUE(pieces);
+    EXPECT_EQ(pieces->severity, Severity::fatal);
+    EXPECT_NE(pieces->advice.find("(--part): 1-2 or 0"), std::string::npos) << pieces->advice;
+    ReadOptions largest;
+    largest.doctor.keep_largest = true;
+    const PartFile kept = read_part(folder / "two.igs", largest);
+    EXPECT_NEAR(area(kept.mesh), 400, 1e-9);
+    EXPECT_NE(kept.doctor.find(Fault::several_components)->text.find("leaves out CAD faces 0"), std::string::npos);
+    ReadOptions chosen;
+    chosen.parts = {"1-2"};
+    EXPECT_NEAR(area(read_part(folder / "two.igs", chosen).mesh), 400, 1e-9);
 }
 
 TEST(CadSewing, NeverClosesMoreThanHalfTheShortestEdge)

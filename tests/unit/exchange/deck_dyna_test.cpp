@@ -199,6 +199,21 @@ TEST_F(DynaIncludes, LocalParametersHoldInTheirFileAndThoseItIncludes)
     EXPECT_EQ(read("own.k").parts.at(0).thickness, 1.5) << "what is local comes first";
 }
 
+TEST(DynaDeck, AMinusBeforeAParameterTurnsItsSign)
+{
+    const auto second_node = [](const std::string& value, const std::string& field) {
+        return spia::read("*PARAMETER\nR x, " + value + "\n*NODE\n1,0,0,0\n2," + field +
+                          ",0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT_SHELL\n1,7,1,2,3,4\n")
+            .position.at(1)
+            .x();
+    };
+    EXPECT_EQ(second_node("1.5", "&x"), 1.5);
+    EXPECT_EQ(second_node("1.5", "-&x"), -1.5);
+    EXPECT_EQ(second_node("-1.5", "-&x"), 1.5);
+    EXPECT_EQ(second_node("+1.5", "-&x"), -1.5);
+    EXPECT_THROW(second_node("1.5", "-&y"), InputError);
+}
+
 TEST(DynaDeck, FieldsThatAreNotWrittenBackAreTold)
 {
     const std::string shell = four_nodes + "*ELEMENT_SHELL";
@@ -224,6 +239,18 @@ TEST_F(DynaIncludes, FoldersAreAddedAndBackslashesAreSlashes)
     put("main.k",
         "*INCLUDE_PATH\n" + (scratch / "lib").string() + "\n*INCLUDE\nnodes.k\n*ELEMENT_SHELL\n1,7,1,2,3,4\n");
     EXPECT_EQ(read("main.k").elements(), 1);
+    put("main.k", "*INCLUDE_PATH\nlib\n*INCLUDE\nnodes.k\n*ELEMENT_SHELL\n1,7,1,2,3,4\n*END\n");
+    EXPECT_EQ(read("main.k").elements(), 1) << "beside the deck, wherever the program was started";
+    EXPECT_TRUE(read("main.k").doubts.empty());
+}
+
+TEST_F(DynaIncludes, AFileThatIsMissingIsADoubtAboutThePart)
+{
+    put("main.k", four_nodes + "*INCLUDE\nlost.k\n*ELEMENT_SHELL\n1,7,1,2,3,4\n*END\n");
+    const Deck deck = read("main.k");
+    ASSERT_EQ(deck.doubts.size(), 1u);
+    EXPECT_NE(deck.doubts[0].find("lost.k is not there"), std::string::npos);
+    EXPECT_TRUE(has_note(deck, deck.doubts[0]));
 }
 
 TEST_F(DynaIncludes, CirclesAndTowersAreRefusedAndRepetitionsTakenOnce)
