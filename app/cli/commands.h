@@ -21,7 +21,8 @@ CadOptions cad_options(const CadArguments& arguments, const std::filesystem::pat
 /// Of the part's triangles.
 struct RemeshArguments {
     bool wanted = false;
-    std::optional<double> size, tolerance; ///< mm; not given: chosen from the part
+    std::optional<double> size, tolerance;             ///< mm; not given: chosen from the part
+    std::optional<double> least_angle_deg, edge_ratio; ///< targets for the triangles, remeshed or not
 };
 
 struct RunArguments {
@@ -33,8 +34,8 @@ struct RunArguments {
     std::vector<int> corners;
     std::vector<double> direction;
     std::string grid_method = "automatic", ends = "averaged", fit_parameters = "blank";
-    std::optional<double> tolerance;                 ///< mm, of the surface; not given: it runs through the grid
-    std::vector<int> degree = {3, 3};                ///< of the surface, along u and v
+    std::optional<double> tolerance;  ///< mm, of the surface; not given: it runs through the grid
+    std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's
@@ -120,6 +121,7 @@ int fit_material(const FitArguments& arguments);
 
 /// Not given unless it is wanted.
 std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments);
+MeshTargets mesh_targets(const RemeshArguments& arguments);
 
 /// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.
 /// @throws InputError unless it is above 0

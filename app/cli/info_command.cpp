@@ -60,6 +60,7 @@ int info(const InfoArguments& arguments)
         options.skin = skin_by_name(arguments.skin);
     options.seam = seam_options(arguments.seam);
     options.remesh = remesh_options(arguments.remesh);
+    options.targets = mesh_targets(arguments.remesh);
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

@@ -39,8 +39,9 @@ void add_cad(CLI::App* command, spia::cli::CadArguments& cad)
                      "of a CAD file: gaps between faces up to this are closed, 0: none (default: found from the gaps)")
         ->type_name("MM");
     command
-        ->add_option("--deflection", cad.deflection,
-                     "of a CAD file: distance between triangles and faces (default: 1/2000 of the diagonal)")
+        ->add_option(
+            "--deflection", cad.deflection,
+            "of a CAD file: distance between triangles and faces (default: 1/2000 of the diagonal of a box around the faces and their control points)")
         ->type_name("MM");
     command
         ->add_option("--angle", cad.angle_deg,
@@ -80,6 +81,14 @@ void add_remesh(CLI::App* command, spia::cli::RemeshArguments& remesh)
                      "largest distance of both meshes anywhere (default: 1/1000 of the part's diagonal)")
         ->type_name("MM")
         ->needs(wanted);
+    command
+        ->add_option("--min-angle", remesh.least_angle_deg,
+                     "a target: triangles with smaller angles are a shortcoming, the worst is named")
+        ->type_name("DEG");
+    command
+        ->add_option("--max-edge-ratio", remesh.edge_ratio,
+                     "a target likewise, for the longest edge of a triangle over its shortest")
+        ->type_name("RATIO");
 }
 
 enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
@@ -193,9 +202,10 @@ int main(int count, char** values)
         ->check(CLI::IsMember({"averaged", "clamped", "natural"}))
         ->capture_default_str();
     run_command
-        ->add_option("--fit-parameters", run.fit_parameters,
-                     "within a tolerance: those of the blank, or corrected, which follows the part with fewer knots but gives up "
-                     "the places in the blank")
+        ->add_option(
+            "--fit-parameters", run.fit_parameters,
+            "within a tolerance: those of the blank, or corrected, which follows the part with fewer knots but gives up "
+            "the places in the blank")
         ->check(CLI::IsMember({"blank", "corrected"}))
         ->capture_default_str();
     run_command->add_option("--max-control-points", run.max_control_points, "of the surface within a tolerance")
@@ -408,6 +418,11 @@ int main(int count, char** values)
         ->capture_default_str();
     fit_command->add_option("--density", fit.density, "kg/m3")->check(CLI::Range(1.0, 9e4))->capture_default_str();
 
+    // The parser takes an empty word for an option that was not given, as of a variable that a script did not set.
+    for (int i = 1; i < count; ++i)
+        if (const std::string_view word = values[i]; word.empty() || (word.starts_with("--") && word.ends_with('=')))
+            return failed(bad_input, word.empty() ? fmt::format("the word after '{}' is empty", values[i - 1])
+                                                  : fmt::format("nothing stands behind '{}'", word));
     try {
         app.parse(count, values);
     } catch (const CLI::ParseError& error) {

@@ -1,5 +1,7 @@
 #include "app/cli/commands.h"
 
+#include <numbers>
+
 namespace spia::cli {
 
 std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments)
@@ -10,6 +12,15 @@ std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments)
     options.size = arguments.size;
     options.tolerance = arguments.tolerance;
     return options;
+}
+
+MeshTargets mesh_targets(const RemeshArguments& arguments)
+{
+    MeshTargets targets;
+    if (arguments.least_angle_deg)
+        targets.least_angle = *arguments.least_angle_deg * std::numbers::pi / 180;
+    targets.edge_ratio = arguments.edge_ratio;
+    return targets;
 }
 
 } // namespace spia::cli

@@ -52,6 +52,7 @@ SessionOptions options(const RunArguments& arguments)
         result.read.skin = skin_by_name(arguments.skin);
     result.read.seam = seam_options(arguments.seam);
     result.read.remesh = remesh_options(arguments.remesh);
+    result.read.targets = mesh_targets(arguments.remesh);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     if (arguments.thickness) // else that of the deck, once it is read
         result.flatten.thickness = *arguments.thickness;

@@ -60,6 +60,7 @@ PartFile part_of(const UnfoldArguments& arguments)
         read.skin = skin_by_name(arguments.skin);
     read.seam = seam_options(arguments.seam);
     read.remesh = remesh_options(arguments.remesh);
+    read.targets = mesh_targets(arguments.remesh);
     JobDisplay display{"read"};
     return read_part(arguments.part, read, display.progress());
 }
@@ -419,10 +420,13 @@ int unfold(const UnfoldArguments& arguments)
         print_summary(surface->session);
     for (const auto& file : files)
         say("wrote     {}\n", file.string());
-    auto poorer = spia::shortcomings(run, bounding_diagonal(part.mesh), findings);
+    auto poorer = part.doubts;
+    for (std::string& text : spia::shortcomings(run, bounding_diagonal(part.mesh), findings))
+        poorer.push_back(std::move(text));
     if (surface)
         for (std::string& text : spia::shortcomings(surface->session))
-            poorer.push_back(std::move(text));
+            if (std::find(poorer.begin(), poorer.end(), text) == poorer.end()) // both doubt the part
+                poorer.push_back(std::move(text));
     for (const std::string& text : poorer)
         say("WARNING   {}\n", text);
     if (!run.failure.empty())

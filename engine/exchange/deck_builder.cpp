@@ -63,7 +63,7 @@ void DeckBuilder::add_shell(int part, std::int64_t id, std::span<const std::int6
         {usable_id(id, "element"), {corners[0], corners[1], corners[2], triangle ? 0 : corners[3]}, part, triangle});
     if (!thickness_.empty())
         thickness_.push_back(0);
-    if (thickness > 0)
+    if (thickness != 0)
         set_thickness(shell_.size() - 1, thickness);
 }
 
@@ -135,6 +135,32 @@ void DeckBuilder::count(std::map<std::string, int, std::less<>>& counts, std::st
         ++counts[counts.size() < most ? std::string(name) : "others"];
 }
 
+void DeckBuilder::drop_absurd_thicknesses()
+{
+    constexpr double thickest = 1e5; // in any unit; beyond it a cube or a mean of it is no number any more
+    const auto makes_sense = [](double t) { return t == 0 || (t > 0 && t <= thickest); };
+    int told = 0;
+    for (DeckPart& part : deck_.parts) {
+        if (!part.thickness || makes_sense(*part.thickness))
+            continue;
+        if (told++ < 20)
+            note(fmt::format("part {} {}: a thickness of {:.4g} makes no sense and is not taken", part.id.value_or(0),
+                             part.name, *part.thickness));
+        part.thickness.reset();
+    }
+    int dropped = 0;
+    size_t first = 0;
+    for (size_t e = 0; e < thickness_.size(); ++e)
+        if (!makes_sense(thickness_[e])) {
+            first = dropped++ == 0 ? e : first;
+            thickness_[e] = 0;
+        }
+    if (dropped > 0)
+        note(fmt::format(
+            "{} shells have a thickness of their own that makes no sense and is not taken (first: element {})", dropped,
+            shell_[first].id));
+}
+
 void DeckBuilder::thickness_from_elements()
 {
     if (thickness_.empty())
@@ -191,6 +217,7 @@ Deck DeckBuilder::finish(std::string format, const DeckLines& lines)
     deck_.doubts.insert(deck_.doubts.begin(), lines.doubts.begin(), lines.doubts.end());
     close_scope();
     deck_.format = std::move(format);
+    drop_absurd_thicknesses();
     thickness_from_elements();
     std::vector<int> number(shell_.size(), -1);
     for (size_t e = 0; e < shell_.size(); ++e) {

@@ -59,6 +59,7 @@ private:
         bool triangle;
     };
     static void count(std::map<std::string, int, std::less<>>& counts, std::string_view name);
+    void drop_absurd_thicknesses();
     void thickness_from_elements();
     void write_notes();
 

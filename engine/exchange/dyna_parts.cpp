@@ -114,12 +114,12 @@ void DynaParts::section(std::string_view line)
 std::optional<double> DynaParts::mean_thickness()
 {
     const auto first = values_.thickness(0);
-    if (!first || !(*first > 0))
+    if (!first || *first == 0)
         return std::nullopt;
     std::array<double, 4> thick = {};
     for (size_t k = 0; k < 4; ++k) {
         const auto t = values_.thickness(k);
-        thick[k] = t && *t > 0 ? *t : *first;
+        thick[k] = t && *t != 0 ? *t : *first;
     }
     return mean(thick);
 }

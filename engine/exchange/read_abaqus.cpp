@@ -202,7 +202,7 @@ private:
     void section()
     {
         Section& section = sections_.back();
-        if (fields_[0].empty() || (section.thickness > 0 && !section.layers))
+        if (fields_[0].empty() || (section.thickness != 0 && !section.layers))
             return;
         const double layer = lines_.number(fields_[0]);
         section.thickness += section.layers && section.mirrored ? 2 * layer : layer;
@@ -272,7 +272,7 @@ private:
             deck_.note(fmt::format("the thickness of the section for {} is given by its nodes or a distribution, which "
                                    "are not read: it has none",
                                    section.set));
-        else if (section.thickness > 0)
+        else if (section.thickness != 0)
             deck_.at(part).thickness = section.thickness;
         deck_.at(part).material = section.material;
     }

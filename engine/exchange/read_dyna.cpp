@@ -160,7 +160,7 @@ private:
         for (size_t k = 0; k < 4; ++k)
             thick[k] = values_.thickness(k).value_or(0);
         const auto given = std::span(thick).first(triangle ? 3 : 4);
-        const auto zeros = std::count_if(given.begin(), given.end(), [](double t) { return !(t > 0); });
+        const auto zeros = std::count_if(given.begin(), given.end(), [](double t) { return t == 0; });
         some_corners_ += zeros > 0 && zeros < std::ssize(given);
         deck_.add_shell(deck_.part(shell_.part), shell_.id, shell_.corner, zeros == 0 ? mean(given) : 0);
         thickness_next_ = false;

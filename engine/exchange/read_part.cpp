@@ -218,11 +218,11 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
 /// Healthy parts alone can be remeshed.
 PartFile remeshed_where_asked(const fs::path& path, const ReadOptions& options, const Progress& progress)
 {
-    if (!options.remesh)
-        return examine_file(path, options, progress);
-    PartFile part = examine_file(path, options, progress.part(0, 0.4));
-    if (part.doctor.healthy())
+    PartFile part = examine_file(path, options, progress.part(0, options.remesh ? 0.4 : 1));
+    if (part.doctor.healthy() && options.remesh)
         remesh_part(part, *options.remesh, progress.part(0.4, 1));
+    if (part.doctor.healthy())
+        check_targets(options.targets, part);
     return part;
 }
 

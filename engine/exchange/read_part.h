@@ -9,6 +9,7 @@
 #include "engine/exchange/cad_tree.h"
 #include "engine/exchange/deck.h"
 #include "engine/exchange/length_unit.h"
+#include "engine/exchange/mesh_targets.h"
 #include "engine/exchange/remesh_part.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
@@ -30,7 +31,8 @@ struct ReadOptions {
     std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
                                    ///< flat enough (has_both_skins()) are taken as hollow bodies, not as solids
     std::optional<RemeshOptions> remesh =
-        {}; ///< not given: the triangles stay as they are; a part that is refused has none
+        {};                   ///< not given: the triangles stay as they are; a part that is refused has none
+    MeshTargets targets = {}; ///< checked after that; not given: none
 };
 
 /// What a part from a solver deck is called there. Its faces are the shells that were chosen, its vertices their
@@ -81,8 +83,9 @@ struct PartFile {
     int file_faces = 0;
     std::string format; ///< e.g. "STL (binary)"
     LengthUnit unit = LengthUnit::mm;
-    std::vector<std::string> notes;          ///< what was left out, or deserves a word
-    std::vector<std::string> doubts = {};    ///< those of the notes after which some of the part may be missing
+    std::vector<std::string> notes; ///< what was left out, or deserves a word
+    std::vector<std::string> doubts =
+        {}; ///< those of the notes after which some of the part may be missing, or its mesh is not as was asked for
     std::vector<std::vector<int>> seam = {}; ///< rows of vertices of the file along which the part was cut open
     double seam_length = 0;                  ///< mm
     std::optional<double> thickness_mm = {}; ///< of the sheet: decks say it, in solids it is found

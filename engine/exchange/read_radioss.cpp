@@ -32,7 +32,7 @@ public:
             }
         }
         for (const auto& [part, property] : property_of_)
-            if (const auto found = thickness_.find(property); found != thickness_.end() && found->second > 0)
+            if (const auto found = thickness_.find(property); found != thickness_.end() && found->second != 0)
                 deck_.at(part).thickness = found->second;
         for (int p = 0; p < deck_.parts(); ++p)
             if (const auto found = material_.find(deck_.at(p).material_id.value_or(0)); found != material_.end())

@@ -21,6 +21,17 @@ double least_angle(const Eigen::Matrix3d& triangle)
     return least;
 }
 
+double edge_ratio(const Eigen::Matrix3d& triangle)
+{
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double length = (triangle.col((k + 1) % 3) - triangle.col(k)).norm();
+        shortest = std::min(shortest, length);
+        longest = std::max(longest, length);
+    }
+    return longest / shortest;
+}
+
 TriangleQuality triangle_quality(const TriMesh& mesh)
 {
     TriangleQuality result;
@@ -36,13 +47,7 @@ TriangleQuality triangle_quality(const TriMesh& mesh)
             result.least_angle = angle.back();
             result.face = f;
         }
-        double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-        for (int k = 0; k < 3; ++k) {
-            const double length = (triangle.col((k + 1) % 3) - triangle.col(k)).norm();
-            shortest = std::min(shortest, length);
-            longest = std::max(longest, length);
-        }
-        result.edge_ratio = std::max(result.edge_ratio, longest / shortest);
+        result.edge_ratio = std::max(result.edge_ratio, edge_ratio(triangle));
     }
     const auto at_1_percent = angle.begin() + long(angle.size() / 100);
     std::nth_element(angle.begin(), at_1_percent, angle.end());

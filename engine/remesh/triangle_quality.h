@@ -18,4 +18,7 @@ TriangleQuality triangle_quality(const TriMesh& mesh);
 /// Radians; 0 for a triangle that has no area. Columns: its corners.
 double least_angle(const Eigen::Matrix3d& triangle);
 
+/// Of the longest to the shortest edge; infinite or not a number if that has no length. Columns: its corners.
+double edge_ratio(const Eigen::Matrix3d& triangle);
+
 } // namespace spia

@@ -66,4 +66,15 @@ expect 0 "remeshed from 18 to" "$spia" info --remesh --remesh-size 8 --part Lid 
 expect 2 "requires --remesh" "$spia" info --remesh-size 8 --part Lid "$deck"
 expect 2 "the size of remeshing is 0.001 mm" "$spia" run --remesh --remesh-size 0.001 --part Lid --out "$out/r" "$deck"
 expect 0 "remeshed from" "$spia" unfold --remesh --auto "$(dirname "$0")/../../assets/parts/lipped-channel.obj"
+expect 0 "9 triangles have\|18 triangles have" "$spia" info --min-angle 50 --part Lid "$deck"
+expect 1 "WARNING .*18 triangles have edges whose lengths differ by more than 1.2 times, the most" \
+    "$spia" run --max-edge-ratio 1.2 --part Lid --out "$out/t" --formats csv --strict "$deck"
+expect 0 "can be unfolded" "$spia" info --min-angle 30 --max-edge-ratio 2 --part Lid "$deck"
+! grep -q "triangles have" "$out/log" || fail "targets that are met"
+expect 2 "between 0 and 60" "$spia" info --min-angle 60 --part Lid "$deck"
+expect 2 "the word after '--part' is empty" "$spia" info "$deck" --part ""
+expect 2 "nothing stands behind '--part='" "$spia" info "$deck" --part=
+sed 's/^\*NODE$/*INCLUDE, INPUT=lost.inp\n&/' "$deck" > "$out/lost.inp.deck.inp"
+expect 1 "WARNING .*lost.inp is not there" "$spia" run "$out/lost.inp.deck.inp" --part Lid --out "$out/l" --formats csv --strict
+expect 0 "WARNING .*lost.inp is not there" "$spia" run "$out/lost.inp.deck.inp" --part Lid --out "$out/l" --formats csv
 echo "decks: all as expected"

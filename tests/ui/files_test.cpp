@@ -90,6 +90,31 @@ TEST_F(Scripts, MendAPartOfTwoPieces)
     run("faults.json");
 }
 
+/// Two sheets of 60 x 60 mm, bent a little, 3 x 3 quads each.
+std::string deck_of_two_parts()
+{
+    std::string text = "*NODE\n";
+    for (int part = 0; part < 2; ++part)
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j)
+                text += fmt::format("{}, {}, {}, {}\n", 100 * part + 4 * i + j + 1, 500 * part + 20 * i, 20 * j, i * i);
+    for (int part = 0; part < 2; ++part) {
+        text += fmt::format("*ELEMENT, TYPE=S4R, ELSET={}\n", part == 0 ? "Lid" : "Base");
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                const int n = 100 * part + 4 * i + j + 1;
+                text += fmt::format("{}, {}, {}, {}, {}\n", 100 * part + 3 * i + j + 1, n, n + 4, n + 5, n + 1);
+            }
+    }
+    return text + "*SHELL SECTION, ELSET=Lid, MATERIAL=DC04\n0.8, 5\n*SHELL SECTION, ELSET=Base, MATERIAL=DC01\n1.5\n";
+}
+
+TEST_F(Scripts, ImportAPartOfADeckRemeshItAndReadAnother)
+{
+    std::ofstream(folder / "two-parts.inp") << deck_of_two_parts();
+    run("importing.json");
+}
+
 TEST_F(Scripts, UnfoldStepByStep)
 {
     run("unfolding.json");
