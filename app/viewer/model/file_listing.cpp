@@ -78,7 +78,11 @@ int proposed_item(const FileItems& items)
             (best < 0 || item.area > items.item[size_t(best)].area))
             best = i;
     }
-    return choosable > 1 ? best : -1;
+    // A skin of which each face is a body of its own: sewn they are one sheet.
+    const auto single_face = [](const FileItem& item) { return item.kind != "sheet body" || item.faces <= 1; };
+    const bool loose = best >= 0 && items.item[size_t(best)].kind == "sheet body" &&
+                       std::all_of(items.item.begin(), items.item.end(), single_face);
+    return choosable > 1 && !loose ? best : -1;
 }
 
 std::vector<char> with_what_they_hold(const FileItems& items, std::vector<char> chosen)

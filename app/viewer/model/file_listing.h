@@ -27,7 +27,8 @@ ListedFile look_into(const std::filesystem::path& file, const Progress& progress
 /// Whether files with this ending (CAD, decks) hold more than faces, and are worth looking into before they are opened.
 bool has_choices(const std::filesystem::path& file);
 
-/// The item to begin with: a part is one sheet, so of several the largest that holds no others; -1: the whole file.
+/// The item to begin with: a part is one sheet, so of several the largest that holds no others; -1: the whole file, also if each face is a
+/// sheet body of its own.
 int proposed_item(const FileItems& items);
 
 /// What reads the chosen items: their choices, without those that lie in another chosen one; none: the whole file.

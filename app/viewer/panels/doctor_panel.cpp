@@ -22,7 +22,9 @@ void list_of_places(Frame& frame, int number, const Finding& finding)
     constexpr int rows = 6;
     const int places = int(finding.what.size()), entry = frame.state.fault->entry;
     const float line = ImGui::GetTextLineHeightWithSpacing();
-    ImGui::BeginChild("places", {0, (float(std::min(rows, places)) + 0.4f) * line}, true);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float shown = float(std::min(rows, places)) * line - style.ItemSpacing.y;
+    ImGui::BeginChild("places", {0, shown + 2 * (style.WindowPadding.y + style.ChildBorderSize)}, true);
     ImGuiListClipper clipper;
     clipper.Begin(places, line);
     while (clipper.Step())
@@ -225,7 +227,7 @@ void file_notes(Frame& frame, const PartFile& part)
     const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
     for (const std::string& note : part.notes) {
         const std::string text = as_sentence(in_viewer_words(note));
-        constexpr size_t most = 180; // letters: a deck can have many keywords that are not read
+        constexpr size_t most = 300; // letters: a deck can have many keywords that are not read
         const size_t end = text.size() > most ? text.rfind(' ', most) : text.npos;
         const std::string shown = end == text.npos ? text : text.substr(0, end) + " ...";
         if (unit)

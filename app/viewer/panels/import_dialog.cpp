@@ -368,6 +368,21 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
     return sewing && deflection ? std::optional(reading) : std::nullopt;
 }
 
+/// How much is chosen, and how to choose more.
+void choice_line(const Frame& frame, const FileItems& items)
+{
+    const ImportChoices& choices = frame.ui.importing;
+    size_t chosen = choices.others.size();
+    std::string names;
+    for (size_t i = 0; i < choices.chosen.size(); ++i)
+        if (choices.chosen[i] != 0 && ++chosen <= 3)
+            names += (names.empty() ? "" : ", ") + item_words(items, items.item[i]);
+    muted(frame, chosen == 0 ? fmt::format("All {} of the file will be read. Click an item, or the picture, to choose",
+                                           is_cad_file(items) ? "faces" : "shells")
+                             : fmt::format("{} chosen{}{}{}. Ctrl and click for more", chosen,
+                                           names.empty() ? "" : ": ", names, chosen > 3 ? ", ..." : ""));
+}
+
 /// What the file left to say, in one line; all of it under the mouse.
 void notes_line(const Frame& frame, const FileItems& items)
 {
@@ -429,11 +444,12 @@ void import_dialog(Frame& frame)
         if (choices.about != listed)
             begin_choices(frame, listed);
         summary_line(frame, *listed);
-        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 330 * s);
+        const float s = frame.ui.scale, height = std::min(380 * s, ImGui::GetIO().DisplaySize.y - 350 * s);
         const float wide = ImGui::GetContentRegionAvail().x, list = std::floor(0.38f * wide);
         item_list(frame, *listed, {list, height});
         ImGui::SameLine();
         preview(frame, *listed, {ImGui::GetContentRegionAvail().x, height});
+        choice_line(frame, listed->items);
         notes_line(frame, listed->items);
         reading = reading_fields(frame, listed->items);
     } else

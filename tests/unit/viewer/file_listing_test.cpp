@@ -176,6 +176,13 @@ TEST(FileItems, WhatLiesInAChosenItemIsNotNamedTwice)
     EXPECT_THAT(choices_of(items, {1, 1, 0, 1}), ElementsAre("assembly:0", "body:2"));
     EXPECT_THAT(with_what_they_hold(items, {1, 0, 0, 0}), ElementsAre(1, 1, 1, 0));
     EXPECT_EQ(proposed_item(items), 3) << "the largest that holds no others";
+    for (FileItem& item : items.item) {
+        item.kind = "sheet body";
+        item.faces = 1;
+    }
+    EXPECT_EQ(proposed_item(items), -1) << "loose faces, which belong together";
+    items.item[1].faces = 2;
+    EXPECT_EQ(proposed_item(items), 3);
     items.item.resize(1);
     EXPECT_EQ(proposed_item(items), -1) << "there is no choice";
 }
