@@ -211,6 +211,10 @@ int main(int count, char** values)
     run_command->add_option("--max-control-points", run.max_control_points, "of the surface within a tolerance")
         ->check(CLI::Range(16, 4'000'000))
         ->capture_default_str();
+    run_command->add_flag(
+        "--fill-holes", run.fill_holes,
+        "the surface covers the holes of the part; else IGES and STEP have it trimmed by them (files for "
+        "isogeometric analysis cannot)");
     run_command
         ->add_option(
             "--formats", run.formats,

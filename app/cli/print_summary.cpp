@@ -84,6 +84,10 @@ void print_summary(const Session& session)
     say("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
         session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
         std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
+    if (const TrimResult& trim = session.surface->trim; !trim.loop.empty())
+        say("holes     {}, of IGES and STEP files, within {:.2g} mm of {} vertices\n",
+            counted(int(trim.loop.size()), "trimming curve", "trimming curves"), trim.distance,
+            trim.loop.size() == 1 ? "its" : "their");
     if (const auto& fit = session.surface->fit)
         say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * deviation.within()),

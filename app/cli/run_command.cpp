@@ -85,6 +85,7 @@ SessionOptions options(const RunArguments& arguments)
     if (arguments.fit_parameters == "corrected")
         result.fit_parameters = FitParameters::corrected;
     result.max_control_points = arguments.max_control_points;
+    result.fill_holes = arguments.fill_holes;
     return result;
 }
 

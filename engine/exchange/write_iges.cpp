@@ -5,6 +5,7 @@
 #include <TColStd_HArray2OfReal.hxx>
 #include <TColgp_HArray2OfXYZ.hxx>
 
+#include "engine/exchange/iges_trims.h"
 #include "engine/exchange/occt_iges.h"
 #include "engine/exchange/occt_surface.h"
 
@@ -59,13 +60,18 @@ double largest_coordinate(std::span<const NurbsSurface> surfaces)
 } // namespace
 
 void write_iges(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name,
-                LengthUnit unit)
+                LengthUnit unit, std::span<const std::vector<TrimLoop>> holes)
 {
     write_cad_file(path, surfaces, [&] {
         const auto entities = [&] {
             std::vector<Handle(IGESData_IGESEntity)> list;
-            for (const NurbsSurface& surface : surfaces)
-                list.push_back(entity_128(surface, unit));
+            for (size_t i = 0; i < surfaces.size(); ++i) {
+                const Handle(IGESGeom_BSplineSurface) plain = entity_128(surfaces[i], unit);
+                if (i < holes.size() && !holes[i].empty())
+                    list.push_back(entity_144(surfaces[i], plain, holes[i], unit));
+                else
+                    list.push_back(plain);
+            }
             return list;
         };
         return iges_text(entities, largest_coordinate(surfaces), path.filename().string(), part_name, unit);

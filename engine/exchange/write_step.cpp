@@ -1,6 +1,5 @@
 #include "engine/exchange/write_step.h"
 
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRep_Builder.hxx>
 #include <StepShape_AdvancedFace.hxx>
@@ -11,23 +10,21 @@
 #include "engine/core/error.h"
 #include "engine/exchange/occt_step.h"
 #include "engine/exchange/occt_surface.h"
+#include "engine/exchange/trimmed_face.h"
 
 namespace spia {
 namespace {
 
-TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces)
+TopoDS_Shape open_shell(std::span<const NurbsSurface> surfaces, std::span<const std::vector<TrimLoop>> holes)
 {
     TopoDS_Shell shell;
     BRep_Builder builder;
     builder.MakeShell(shell);
     BRepBuilderAPI_Sewing sewing(step_resolution);
     for (size_t i = 0; i < surfaces.size(); ++i) {
-        BRepBuilderAPI_MakeFace face(to_occt(surfaces[i]), step_resolution);
-        if (!face.IsDone())
-            throw ExchangeError(
-                fmt::format("OpenCASCADE makes no face of surface {}; check it for collapsed borders", i));
-        builder.Add(shell, face.Face());
-        sewing.Add(face.Face());
+        const TopoDS_Face face = trimmed_face(surfaces[i], i < holes.size() ? holes[i] : std::vector<TrimLoop>());
+        builder.Add(shell, face);
+        sewing.Add(face);
     }
     if (surfaces.size() == 1)
         return shell;
@@ -51,10 +48,10 @@ void require_faces(const StepData_StepModel& model, size_t wanted)
 } // namespace
 
 void write_step(const std::filesystem::path& path, std::span<const NurbsSurface> surfaces, const std::string& part_name,
-                LengthUnit unit)
+                LengthUnit unit, std::span<const std::vector<TrimLoop>> holes)
 {
     write_cad_file(path, surfaces, [&] {
-        return step_text([&] { return open_shell(surfaces); }, STEPControl_ShellBasedSurfaceModel,
+        return step_text([&] { return open_shell(surfaces, holes); }, STEPControl_ShellBasedSurfaceModel,
                          [&](const StepData_StepModel& model) { require_faces(model, surfaces.size()); },
                          path.filename().string(), part_name, unit);
     });

@@ -475,6 +475,12 @@ std::vector<std::string> shortcomings(const Session& session)
                 "remeshing a smaller tolerance",
                 fit.tolerance, session.surface->deviation.max()));
     }
+    if (session.surface)
+        for (const HoleLeftFilled& hole : session.surface->trim.left_filled)
+            list.push_back(
+                fmt::format("the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other "
+                            "corners may part them",
+                            session.part->source_vertex[size_t(hole.vertex)], hole.why));
     return list;
 }
 

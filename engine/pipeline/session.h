@@ -14,6 +14,7 @@
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/interpolate.h"
+#include "engine/nurbs/trim.h"
 #include "engine/unfold/unfold_script.h"
 
 namespace spia {
@@ -44,6 +45,7 @@ struct SessionOptions {
     std::optional<double> tolerance;
     FitParameters fit_parameters = FitParameters::blank; ///< where a tolerance is given
     int max_control_points = FitOptions{}.max_control_points;
+    bool fill_holes = false; ///< the surface covers the holes of the part; else CAD files have it trimmed by them
 };
 
 /// A planar grid and the sides it was made from.
@@ -59,6 +61,7 @@ struct SurfaceStage {
     InterpolateResult result;
     Deviation deviation;
     std::optional<FitReport> fit; ///< where a tolerance was given
+    TrimResult trim;              ///< by the holes of the part; empty if they are to be filled
 };
 
 /// All there is to know about one part: what was asked for and the results so far. Results are finished and const;

@@ -167,8 +167,7 @@ void make_surface(Session& session, const Progress& progress)
         stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
         options.data_u = stage.result.u;
         options.data_v = stage.result.v;
-        stage.deviation =
-            deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
+        stage.deviation = deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
     }
     if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is shown
         const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
@@ -178,6 +177,8 @@ void make_surface(Session& session, const Progress& progress)
         stage.deviation.at_vertex = std::move(at_vertex);
     }
     stage.deviation.beyond.clear(); // needed no longer, and may be long
+    if (!session.options.fill_holes)
+        stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface);
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 

@@ -12,7 +12,8 @@ double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
 Json statistics_json(const DeviationStatistics& s, bool with_tolerance)
 {
-    Json json = {{"max_mm", s.max}, {"rms_mm", s.rms}, {"p95_mm", s.p95}, {"at_mm", {s.where[0], s.where[1], s.where[2]}}};
+    Json json = {
+        {"max_mm", s.max}, {"rms_mm", s.rms}, {"p95_mm", s.p95}, {"at_mm", {s.where[0], s.where[1], s.where[2]}}};
     if (with_tolerance)
         json["share_within_tolerance"] = s.within;
     return json;
@@ -51,6 +52,14 @@ Json fit_json(const FitReport& fit, const PartFile& part)
     return json;
 }
 
+Json holes_json(const TrimResult& trim, const PartFile& part)
+{
+    Json filled = Json::array();
+    for (const HoleLeftFilled& hole : trim.left_filled)
+        filled.push_back({{"vertex", part.source_vertex[size_t(hole.vertex)]}, {"why", hole.why}});
+    return {{"trimmed", trim.loop.size()}, {"distance_mm", trim.distance}, {"left_filled", std::move(filled)}};
+}
+
 } // namespace
 
 nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& part)
@@ -74,6 +83,7 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
                    {"max_away_from_sharp_edges_deg", degrees(d.normal.max_smooth)},
                    {"share_turned", d.normal.turned},
                    {"at_mm", {d.normal.where[0], d.normal.where[1], d.normal.where[2]}}}}};
+    json["holes"] = holes_json(stage.trim, part);
     if (!stage.fit)
         json["between_data"] = statistics_json(d.between_data, false);
     else {

@@ -1,0 +1,106 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "engine/exchange/read_part.h"
+#include "engine/exchange/write_iges.h"
+#include "engine/exchange/write_step.h"
+#include "engine/mesh/topology.h"
+#include "engine/nurbs/evaluate.h"
+#include "tests/unit/exchange/sample_surface.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A polygon in (u, v), clockwise.
+TrimLoop polygon(int corners, const Eigen::Vector2d& middle, double radius_u, double radius_v)
+{
+    PlaneCurve curve{1, {0, 0}, Eigen::Matrix2Xd(2, corners + 1)};
+    for (int i = 0; i <= corners; ++i) {
+        const double angle = -2 * pi * (i % corners) / corners;
+        curve.control.col(i) << middle.x() + radius_u * std::cos(angle), middle.y() + radius_v * std::sin(angle);
+        if (i > 0)
+            curve.knots.push_back(double(i) / corners);
+    }
+    curve.knots.push_back(1);
+    return {curve};
+}
+
+/// Half of an ellipse by each of two cubics, clockwise; within 0.03 % of it.
+TrimLoop ellipse(const Eigen::Vector2d& middle, double radius_u, double radius_v)
+{
+    TrimLoop loop;
+    const double k = 4. / 3 * (std::sqrt(2.) - 1); // of a quarter of a circle [Goldapp 1991]
+    for (const double side : {1., -1.}) {
+        PlaneCurve curve{3, {0, 0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1, 1}, Eigen::Matrix2Xd(2, 7)};
+        curve.control << 1, 1, k, 0, -k, -1, -1, 0, -k, -1, -1, -1, -k, 0;
+        curve.control.row(0) *= side * radius_u;
+        curve.control.row(1) *= side * radius_v;
+        curve.control.colwise() += middle;
+        loop.push_back(curve);
+    }
+    return loop;
+}
+
+struct Written {
+    double area;
+    int loops, faces;
+};
+
+Written read_back(const std::filesystem::path& file)
+{
+    ReadOptions fine;
+    fine.cad.deflection = 4e-3;
+    const PartFile part = read_part(file, fine);
+    return {area(part.mesh), part.doctor.boundary_loops.value_or(0), part.cad->faces};
+}
+
+} // namespace
+
+TEST(TrimmedFiles, OtherReadersFindTheHoles)
+{
+    const ScratchFolder folder;
+    const std::vector<NurbsSurface> surface = {samples::curved_surface(80, true)};
+    write_step(folder / "whole.step", surface);
+    const double whole = read_back(folder / "whole.step").area;
+    const std::vector<std::vector<TrimLoop>> holes = {
+        {polygon(4, {0.3, 0.4}, 0.1, 0.1), ellipse({0.7, 0.6}, 0.2, 0.1)}};
+    // |S_u x S_v| is not even over the surface: a fine sum is the reference.
+    const auto inside = [](double u, double v) {
+        return std::abs(u - 0.3) + std::abs(v - 0.4) < 0.1 || std::hypot((u - 0.7) / 0.2, (v - 0.6) / 0.1) < 1;
+    };
+    double cut = 0;
+    constexpr int n = 1000;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            if (const double u = (i + 0.5) / n, v = (j + 0.5) / n; inside(u, v)) {
+                const SurfacePoint at = evaluate(surface[0], u, v);
+                cut += at.S_u.cross(at.S_v).norm() / n / n;
+            }
+    ASSERT_GT(cut, 0.03 * whole);
+    write_step(folder / "cut.step", surface, "part", LengthUnit::inch, holes);
+    write_iges(folder / "cut.igs", surface, "part", LengthUnit::inch, holes);
+    for (const char* file : {"cut.step", "cut.igs"}) {
+        const Written back = read_back(folder / file);
+        EXPECT_EQ(back.faces, 1) << file;
+        EXPECT_EQ(back.loops, 3) << file;
+        EXPECT_NEAR(back.area, whole - cut, 2e-4 * whole) << file;
+    }
+}
+
+TEST(TrimmedFiles, WithoutHolesAreAsBefore)
+{
+    const ScratchFolder folder;
+    const std::vector<NurbsSurface> surface = {samples::curved_surface(80, true)};
+    const std::vector<std::vector<TrimLoop>> none = {{}};
+    write_iges(folder / "plain.igs", surface);
+    write_iges(folder / "none.igs", surface, "part", LengthUnit::mm, none);
+    EXPECT_EQ(content_of(folder / "none.igs").find("     144"), std::string::npos);
+    EXPECT_EQ(read_back(folder / "none.igs").loops, 1);
+}
+
+} // namespace spia
