@@ -85,12 +85,12 @@ void replace_mesh(PartFile& part, const SkinMesh& skin)
         soup.position.push_back(skin.mesh.position.col(v));
     for (int f = 0; f < skin.mesh.triangles(); ++f)
         soup.add_polygon(std::array{skin.mesh.triangle(0, f), skin.mesh.triangle(1, f), skin.mesh.triangle(2, f)});
-    DoctorOptions as_it_is;
-    as_it_is.sliver_angle_deg = 0; // those of the whole solid were noted
-    Examination examination = examine(soup, as_it_is);
+    Examination examination = examine(soup, {});
     const auto vertex_in_file = [&](int v) { return part.source_vertex[size_t(skin.source_vertex[size_t(v)])]; };
     const auto face_in_file = [&](int f) { return part.source_face[size_t(skin.source_face[size_t(f)])]; };
-    std::erase_if(part.doctor.findings, of_the_surface);
+    std::erase_if(part.doctor.findings, [](const Finding& finding) {
+        return of_the_surface(finding) || finding.fault == Fault::sliver; // of the other skin and the faces across, too
+    });
     for (Finding& finding : examination.report.findings) {
         const bool vertices = counts_vertices(finding.fault);
         for (int& i : finding.where)

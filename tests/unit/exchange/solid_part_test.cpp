@@ -74,6 +74,14 @@ protected:
 
 } // namespace
 
+TEST_F(SolidPart, SliversAcrossTheThicknessAreNotThoseOfTheSkin)
+{
+    const TriMesh foil = shapes::thickened(sheet().mesh, -0.02 * sheet().normal); // its rim: 3 mm long, 0.02 mm wide
+    const PartFile part = read_part(write("foil.obj", foil));
+    ASSERT_TRUE(part.solid);
+    EXPECT_EQ(part.doctor.find(Fault::sliver), nullptr);
+}
+
 TEST_F(SolidPart, IsGivenByOneSurfaceWithItsThickness)
 {
     TriMesh lower = sheet().mesh, middle = lower;
