@@ -5,15 +5,19 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepGProp.hxx>
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Interface_Static.hxx>
 #include <TopoDS.hxx>
 #include <gp.hxx>
 #include <gp_Circ.hxx>
@@ -83,6 +87,21 @@ TopoDS_Face perforated(const TopoDS_Wire& border, double x, int holes)
 }
 
 } // namespace
+
+double area_by_curves(const std::filesystem::path& iges, int mode)
+{
+    const OcctSession session;
+    const char* setting = "read.surfacecurve.mode";
+    const int before = Interface_Static::IVal(setting);
+    Interface_Static::SetIVal(setting, mode);
+    IGESControl_Reader reader;
+    reader.ReadFile(iges.c_str());
+    reader.TransferRoots();
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(reader.OneShape(), properties, 1e-6);
+    Interface_Static::SetIVal(setting, before);
+    return properties.Mass();
+}
 
 void write_perforated_halves(const std::filesystem::path& brep, int holes, Between between, double width)
 {

@@ -14,6 +14,10 @@ constexpr double sliver_width = 1e-9; // mm
 /// Writes them as BREP.
 void write_two_squares(const std::filesystem::path& brep, ThirdFace third);
 
+/// mm2, as OpenCASCADE makes the faces of an IGES file when it is told to use curves of one kind only.
+/// @param mode  -2: those in the parameters of surfaces, -3: those in space
+double area_by_curves(const std::filesystem::path& iges, int mode);
+
 /// Between the halves of a plate of 200 x 100 mm, at x = 100.
 enum class Between {
     gap, ///< all along

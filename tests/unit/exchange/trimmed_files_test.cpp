@@ -8,6 +8,7 @@
 #include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
+#include "tests/unit/exchange/sample_faces.h"
 #include "tests/unit/exchange/sample_surface.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -90,6 +91,8 @@ TEST(TrimmedFiles, OtherReadersFindTheHoles)
         EXPECT_EQ(back.loops, 3) << file;
         EXPECT_NEAR(back.area, whole - cut, 2e-4 * whole) << file;
     }
+    for (const int curves_of : {-2, -3}) // the plane of parameters, and space
+        EXPECT_NEAR(area_by_curves(folder / "cut.igs", curves_of), whole - cut, 2e-4 * whole) << curves_of;
 }
 
 TEST(TrimmedFiles, WithoutHolesAreAsBefore)
