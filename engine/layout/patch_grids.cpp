@@ -29,6 +29,23 @@ std::vector<int> cells_of_strips(const Layout& layout, const Chords& chords, int
     return result;
 }
 
+/// The polygon with straight sides bent outwards by next to nothing: rows of points on a line have no triangles.
+PatchPolygon bulged(PatchPolygon polygon)
+{
+    constexpr double height = 1e-7; // over the length of the side
+    const int n = int(polygon.point.cols());
+    const Eigen::Matrix2Xd flat = polygon.point;
+    for (size_t k = 0; k < 4; ++k) {
+        const int first = polygon.corner[k], count = (polygon.corner[(k + 1) % 4] - first + n) % n;
+        const Eigen::Vector2d chord = flat.col((first + count) % n) - flat.col(first);
+        for (int i = 1; i < count; ++i) {
+            const double s = double(i) / count;
+            polygon.point.col((first + i) % n) += height * 4 * s * (1 - s) * Eigen::Vector2d(chord.y(), -chord.x());
+        }
+    }
+    return polygon;
+}
+
 } // namespace
 
 std::vector<std::unique_ptr<const PatchGrid>> patch_grids(const Layout& layout, const Chords& chords,
@@ -39,7 +56,7 @@ std::vector<std::unique_ptr<const PatchGrid>> patch_grids(const Layout& layout, 
     for (size_t p = 0; p < layout.patch.size(); ++p) {
         progress.checkpoint(double(p) / double(layout.patch.size()), fmt::format("grid of patch {}", p + 1));
         const LayoutPatch& patch = layout.patch[p];
-        const PatchPolygon polygon = polygon_of(layout, patch, 16);
+        const PatchPolygon polygon = bulged(polygon_of(layout, patch, 16));
         const PlanarMesh mesh = mesh_polygon(polygon.point);
         const Eigen::Vector2d where = polygon.point.rowwise().mean();
         const auto fail = [&](const std::string& why) {

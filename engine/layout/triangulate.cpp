@@ -10,6 +10,9 @@ namespace spia {
 
 namespace {
 
+/// A line that leaves the border at less would run along it but for rounding, and leave no room for cells.
+constexpr double least_angle = 4 * std::numbers::pi / 180;
+
 /// What a line may not meet. Its ends are vertices of the graph, or -1.
 struct Wall {
     Eigen::Vector2d a, b;
@@ -53,8 +56,8 @@ double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
     return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
 
-/// Long lines are dear, and those that leave the border at a flat angle.
-double cost(const PlaneGraph& graph, int from, int to)
+/// Radians, the least between the line and the border at both ends, up to a right angle.
+double angle_to_border(const PlaneGraph& graph, int from, int to)
 {
     double least = std::numbers::pi / 2;
     for (const auto& [v, w] : {std::pair(from, to), std::pair(to, from)})
@@ -62,7 +65,7 @@ double cost(const PlaneGraph& graph, int from, int to)
             const Eigen::Vector2d at = graph.vertex[size_t(v)], d = graph.vertex[size_t(w)] - at;
             least = std::min({least, angle_between(d, border->before - at), angle_between(d, border->after - at)});
         }
-    return (graph.vertex[size_t(to)] - graph.vertex[size_t(from)]).norm() / std::max(0.05, std::sin(least));
+    return least;
 }
 
 bool leaves_into_sheet(const PlaneGraph& graph, int v, int to)
@@ -80,7 +83,8 @@ void triangulate(PlaneGraph& graph)
     for (int i = 0; i < n; ++i)
         for (int j = i + 1; j < n; ++j)
             if (leaves_into_sheet(graph, i, j) && leaves_into_sheet(graph, j, i))
-                lines.push_back({i, j, cost(graph, i, j)});
+                if (const double angle = angle_to_border(graph, i, j); angle > least_angle) // long ones and flat ones are dear
+                    lines.push_back({i, j, (graph.vertex[size_t(j)] - graph.vertex[size_t(i)]).norm() / std::sin(angle)});
     std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.cost < b.cost; });
     const std::vector<Wall> fixed = walls_of(graph);
     std::vector<Wall> taken;
