@@ -36,6 +36,7 @@ struct RunArguments {
     std::optional<double> tolerance;                 ///< mm, of the surface; not given: it runs through the grid
     std::vector<int> degree = {3, 3};                ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;
+    std::string patches = "one";                     ///< one, auto, or a file of cuts
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's
     std::vector<std::string> glb_nodes = {"part", "blank", "quad_mesh", "surface", "control_net"};

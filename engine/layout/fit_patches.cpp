@@ -84,6 +84,17 @@ public:
         std::vector<MeshPoint> result(size_t(planar.nodes()));
         parallel_for(planar.nodes(),
                      [&](int n) { result[size_t(n)] = lift_.locator.nearest(planar.position.col(n).head<2>()); });
+        for (size_t k = 0; k < 4; ++k) { // sides are the same places for both neighbours
+            const CurveUse use = layout_.patch[size_t(p)][k];
+            const std::vector<double>& along = k % 2 == 0 ? u : v;
+            const bool against = use.reversed != (k >= 2);
+            for (size_t i = 0; i < along.size(); ++i) {
+                const int at = int(i), m = planar.columns, n = planar.rows;
+                const int node = k == 0 ? planar.node(at, 0) : k == 1 ? planar.node(m, at) : k == 2 ? planar.node(at, n) : planar.node(0, at);
+                result[size_t(node)] = lift_.locator.nearest(
+                    points_on(layout_.curve[size_t(use.curve)], {against ? 1 - along[i] : along[i]}).col(0));
+            }
+        }
         return result;
     }
 
@@ -256,10 +267,29 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
     result.layout = layout;
     result.surface_to_mesh = best->surface_to_mesh;
     result.mesh_to_surface = best->mesh_to_surface;
+    result.at_vertex = best->at_vertex;
     result.patch_deviation = best->patch_max;
     result.reached = best->max() <= options.tolerance;
     require_watertight(result.patches);
     return result;
+}
+
+PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout, const PatchesFitOptions& options,
+                         const Progress& progress)
+{
+    progress.checkpoint(0, "dividing the blank into patches");
+    if (!layout.split) {
+        const Layout plain = make_layout(part, blank, layout);
+        if (plain.split)
+            return fit_patches(part, blank, plain, options, progress);
+        try {
+            return fit_patches(part, blank, plain, options, progress);
+        } catch (const InputError&) { // the other layout says what is wrong if it cannot do it either
+        }
+    }
+    LayoutOptions divided = layout;
+    divided.split = true;
+    return fit_patches(part, blank, make_layout(part, blank, divided), options, progress);
 }
 
 } // namespace spia

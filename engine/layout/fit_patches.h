@@ -19,6 +19,7 @@ struct PatchesFit {
     Layout layout;                               ///< patch by patch
     DeviationStatistics surface_to_mesh;         ///< samples of all patches to the nearest place of the part
     DeviationStatistics mesh_to_surface;         ///< vertices, edge and face middles of the part to the nearest place of the patches
+    Eigen::VectorXd at_vertex;                   ///< mm, per vertex of the part; positive where the patches run on its outer side
     std::vector<double> patch_deviation;         ///< mm, per patch the largest of both ways
     bool reached = false;                        ///< the tolerance, at all samples
     int rounds = 0;
@@ -33,5 +34,10 @@ struct PatchesFit {
 /// @throws InputError if the options are out of range or a patch has no grid without folds
 PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& layout, const PatchesFitOptions& options = {},
                        const Progress& progress = {});
+
+/// Layout and fit: where a patch of the plain layout has no grid without folds, every face is divided instead.
+/// @throws InputError as make_layout() and fit_patches()
+PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout = {},
+                         const PatchesFitOptions& options = {}, const Progress& progress = {});
 
 } // namespace spia

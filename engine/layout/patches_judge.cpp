@@ -10,6 +10,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/layout/plane_lines.h"
+#include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/project.h"
 #include "engine/nurbs/tessellate.h"
@@ -69,7 +70,7 @@ std::vector<double> shares(const std::vector<double>& t)
 } // namespace
 
 PatchesJudge::PatchesJudge(const TriMesh& part, const Blank& blank, const Layout& layout, double tolerance)
-    : tolerance_(tolerance), search_(part), samples_(sample_mesh(part, part.triangles()))
+    : tolerance_(tolerance), search_(part), vertex_normal_(vertex_normals(part)), samples_(sample_mesh(part, part.triangles()))
 {
     TriMesh flat = part;
     flat.position.topRows(2) = blank.position;
@@ -140,6 +141,7 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
     progress.checkpoint(0.5, "measuring from the part to the patches");
     const int count = int(plane_.cols());
     std::vector<double> back(static_cast<size_t>(count));
+    result.at_vertex.resize(vertex_normal_.cols());
     std::vector<SurfaceFoot> own(static_cast<size_t>(count));
     parallel_for(count, [&](int i) {
         const Eigen::Vector3d point = samples_.position.col(i);
@@ -149,6 +151,10 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
             if (int(p) != patch_[size_t(i)] && in_box(box_[p], plane_.col(i)))
                 least = std::min(least, projection[p].nearest(point).distance);
         back[size_t(i)] = least;
+        if (i < int(vertex_normal_.cols())) {
+            const bool outside = (own[size_t(i)].position - point).dot(vertex_normal_.col(i)) >= 0;
+            result.at_vertex[i] = outside ? least : -least;
+        }
     });
     for (int i = 0; i < count; ++i) {
         const size_t p = size_t(patch_[size_t(i)]);

@@ -12,6 +12,7 @@ namespace spia {
 /// How far patches are from the part, and where.
 struct PatchesJudgement {
     DeviationStatistics surface_to_mesh, mesh_to_surface;
+    Eigen::VectorXd at_vertex;                         ///< mm, see Deviation
     std::vector<double> patch_max;                     ///< mm, per patch, both ways
     std::vector<std::vector<BeyondTolerance>> missing; ///< per patch: what is beyond the tolerance
 
@@ -30,6 +31,7 @@ public:
 private:
     double tolerance_;
     ClosestPointSearch search_;
+    Eigen::Matrix3Xd vertex_normal_;
     MeshSamples samples_;          ///< of the part
     Eigen::Matrix2Xd plane_;       ///< of the same on the blank
     std::vector<int> patch_;       ///< per sample
