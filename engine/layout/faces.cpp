@@ -212,6 +212,35 @@ std::vector<Face> faces_of(const PlaneGraph& graph)
     return faces;
 }
 
+void join_arcs(PlaneGraph& graph, std::vector<Face>& faces)
+{
+    std::vector<int> curves_at(graph.vertex.size(), 0);
+    for (const LayoutCurve& curve : graph.curve)
+        for (const int v : curve.vertex)
+            ++curves_at[size_t(v)];
+    for (Face& face : faces)
+        for (size_t k = 0; k < face.size() && face.size() > 2;) {
+            const size_t before = (k + face.size() - 1) % face.size();
+            LayoutCurve &first = graph.curve[size_t(face[before].curve)], &second = graph.curve[size_t(face[k].curve)];
+            if (curves_at[size_t(start_of(graph, face[k]))] > 2 || !first.on_border() || !second.on_border() ||
+                std::abs(corner_angle(graph, face, k) - pi) > pi / 6) {
+                ++k;
+                continue;
+            }
+            const auto join = [](auto& one, const auto& other) {
+                auto both = one;
+                both.resize(one.rows(), one.cols() + other.cols() - 1);
+                both << one, other.rightCols(other.cols() - 1);
+                one = std::move(both);
+            };
+            join(first.plane, second.plane);
+            join(first.part, second.part);
+            first.vertex[1] = second.vertex[1];
+            face.erase(face.begin() + long(k));
+        }
+    keep_used_curves(graph, faces);
+}
+
 bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_angle)
 {
     std::map<int, std::vector<int>> sides_of; // per inner curve its faces
@@ -259,7 +288,7 @@ bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_an
 void divide_faces(PlaneGraph& graph, std::vector<Face>& faces)
 {
     const PlaneGraph old = std::move(graph);
-    graph = {old.vertex, old.border, {}};
+    graph = {old.vertex, old.border, {}, {}};
     std::vector<int> first_half;
     for (int c = 0; c < int(old.curve.size()); ++c)
         first_half.push_back(halve(old, c, graph));

@@ -116,8 +116,11 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         faces = faces_of(graph);
     const bool ready = !faces.empty() && all_four_sided(faces);
     if (!ready) {
+        if (options.corners.empty() && options.cuts.empty())
+            add_rings(graph);
         triangulate(graph);
         faces = faces_of(graph);
+        join_arcs(graph, faces);
     }
     const bool paired = ready || pair_triangles(graph, faces, options.worst_angle_deg * std::numbers::pi / 180);
     const bool split = options.split || !paired;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
@@ -71,6 +72,8 @@ double angle_to_border(const PlaneGraph& graph, int from, int to)
 bool leaves_into_sheet(const PlaneGraph& graph, int v, int to)
 {
     const auto& border = graph.border[size_t(v)];
+    if (size_t(v) < graph.closed.size() && graph.closed[size_t(v)])
+        return false;
     return !border || leads_inside(border->before, graph.vertex[size_t(v)], border->after, graph.vertex[size_t(to)]);
 }
 
@@ -79,10 +82,13 @@ bool leaves_into_sheet(const PlaneGraph& graph, int v, int to)
 void triangulate(PlaneGraph& graph)
 {
     std::vector<Line> lines;
+    std::set<std::array<int, 2>> beside; // a line along an arc would leave a face of two sides
+    for (const LayoutCurve& curve : graph.curve)
+        beside.insert({std::min(curve.vertex[0], curve.vertex[1]), std::max(curve.vertex[0], curve.vertex[1])});
     const int n = int(graph.vertex.size());
     for (int i = 0; i < n; ++i)
         for (int j = i + 1; j < n; ++j)
-            if (leaves_into_sheet(graph, i, j) && leaves_into_sheet(graph, j, i))
+            if (!beside.contains({i, j}) && leaves_into_sheet(graph, i, j) && leaves_into_sheet(graph, j, i))
                 if (const double angle = angle_to_border(graph, i, j); angle > least_angle) // long ones and flat ones are dear
                     lines.push_back({i, j, (graph.vertex[size_t(j)] - graph.vertex[size_t(i)]).norm() / std::sin(angle)});
     std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.cost < b.cost; });
