@@ -9,6 +9,7 @@
 #include "engine/core/parallel.h"
 #include "engine/layout/patches_judge.h"
 #include "engine/mesh/locate.h"
+#include "engine/nurbs/certificate.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_patch.h"
 #include "engine/nurbs/missing_knots.h"
@@ -278,18 +279,29 @@ PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOp
                          const Progress& progress)
 {
     progress.checkpoint(0, "dividing the blank into patches");
+    std::optional<PatchesFit> plain;
     if (!layout.split) {
-        const Layout plain = make_layout(part, blank, layout);
-        if (plain.split)
-            return fit_patches(part, blank, plain, options, progress);
+        const Layout made = make_layout(part, blank, layout);
         try {
-            return fit_patches(part, blank, plain, options, progress);
-        } catch (const InputError&) { // the other layout says what is wrong if it cannot do it either
+            plain = fit_patches(part, blank, made, options, progress.part(0, 0.5));
+        } catch (const InputError&) {
+            if (made.split)
+                throw;
         }
+        if (plain && (made.split || (plain->reached && certify(plain->patches).suited())))
+            return std::move(*plain);
     }
     LayoutOptions divided = layout;
     divided.split = true;
-    return fit_patches(part, blank, make_layout(part, blank, divided), options, progress);
+    try { // better corners; worth it only where they help
+        PatchesFit other = fit_patches(part, blank, make_layout(part, blank, divided), options, progress.part(0.5, 1));
+        if (!plain || (certify(other.patches).suited() && other.reached >= plain->reached))
+            return other;
+    } catch (const InputError&) {
+        if (!plain)
+            throw;
+    }
+    return std::move(*plain);
 }
 
 } // namespace spia

@@ -35,7 +35,8 @@ struct PatchesFit {
 PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& layout, const PatchesFitOptions& options = {},
                        const Progress& progress = {});
 
-/// Layout and fit: where a patch of the plain layout has no grid without folds, every face is divided instead.
+/// Layout and fit: where a patch of the plain layout has no grid without folds, is not proved to be free of them or stays beyond the tolerance,
+/// every face is divided instead, if that is better.
 /// @throws InputError as make_layout() and fit_patches()
 PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout = {},
                          const PatchesFitOptions& options = {}, const Progress& progress = {});

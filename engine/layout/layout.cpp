@@ -122,7 +122,16 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         faces = faces_of(graph);
         join_arcs(graph, faces);
     }
-    const bool paired = ready || pair_triangles(graph, faces, options.worst_angle_deg * std::numbers::pi / 180);
+    bool paired = ready;
+    for (double angle = options.worst_angle_deg; !options.split && !paired && angle > 3; angle /= 2) {
+        PlaneGraph pairs = graph; // flatter corners rather than four times as many patches
+        std::vector<Face> of_pairs = faces;
+        paired = pair_triangles(pairs, of_pairs, angle * std::numbers::pi / 180);
+        if (paired) {
+            graph = std::move(pairs);
+            faces = std::move(of_pairs);
+        }
+    }
     const bool split = options.split || !paired;
     if (split)
         divide_faces(graph, faces);

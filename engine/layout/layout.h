@@ -45,7 +45,8 @@ struct LayoutOptions {
     /// Vertices of the part on its border that are corners of patches, beside the ends of cuts: then no others are. Empty: chosen.
     std::vector<int> corners = {};
     double corner_deg = 50;            ///< turn of the border from which on a vertex is a corner of patches
-    double worst_angle_deg = 15;       ///< corners of two triangles that become one patch are between this and its complement to 180
+    double worst_angle_deg = 15;       ///< corners of two triangles that become one patch are between this and its
+                                           ///< complement to 180; half of it and a quarter are tried, too
     bool split = false;                ///< divide every face, even where triangles pair
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 };

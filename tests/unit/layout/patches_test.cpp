@@ -5,15 +5,17 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
-#include "engine/core/parallel.h"
+#include "engine/core/error.h"
 #include "engine/exchange/read_surfaces.h"
 #include "engine/exchange/write_step.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/evaluate.h"
+#include "tests/support/developable.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/layout/step_shell.h"
 
@@ -123,7 +125,7 @@ TEST_P(Plates, ArePatchesThatFillTheSheetAndShareTheirSides)
 
     PatchesFitOptions options;
     options.tolerance = 0.05;
-    const PatchesFit fit = fit_patches(part, blank, layout, options);
+    const PatchesFit fit = blank_patches(part, blank, {}, options);
     EXPECT_TRUE(fit.reached) << fit.deviation_max();
     double of_patches = 0, border = 0;
     for (const NurbsSurface& patch : fit.patches.patch)
@@ -132,9 +134,80 @@ TEST_P(Plates, ArePatchesThatFillTheSheetAndShareTheirSides)
         border += curve.on_border() ? length(curve) : 0;
     EXPECT_NEAR(of_patches, area(part), options.tolerance * border);
     std::printf("holes %d: %zu patches (split %d), %zu interfaces, deviation %.4g, area %.3f of %.3f, rounds %d\n", GetParam(),
-                fit.patches.patch.size(), layout.split, fit.patches.interfaces.size(), fit.deviation_max(), of_patches, area(part),
+                fit.patches.patch.size(), fit.layout.split, fit.patches.interfaces.size(), fit.deviation_max(), of_patches, area(part),
                 fit.rounds);
     expect_joined(fit, 1 + GetParam());
+}
+
+TEST(Patches, OfACylinderWithARoundHoleLieOnIt)
+{
+    const shapes::QuarterCylinder shape{50, 80, 5000};
+    const double width = shape.radius * pi / 2;
+    const TriMesh flat = shapes::plate({width, shape.length, {{{width / 2, shape.length / 2}, 12}}, 6000});
+    TriMesh part = flat; // rolled up
+    for (int v = 0; v < part.vertices(); ++v) {
+        const double angle = flat.position(0, v) / shape.radius;
+        part.position.col(v) << -shape.radius * std::cos(angle), flat.position(1, v), shape.radius * std::sin(angle);
+    }
+    PatchesFitOptions options;
+    options.tolerance = 0.05;
+    const PatchesFit fit = blank_patches(part, Blank{flat.position.topRows(2)}, {}, options);
+    EXPECT_TRUE(fit.reached) << fit.deviation_max();
+    double farthest = 0; // from the cylinder itself, which the triangles are near
+    for (const NurbsSurface& patch : fit.patches.patch)
+        for (int i = 0; i <= 50; ++i)
+            for (int j = 0; j <= 50; ++j) {
+                const Eigen::Vector3d p = evaluate(patch, i / 50., j / 50.).position;
+                farthest = std::max(farthest, std::abs(std::hypot(p.x(), p.z()) - shape.radius));
+            }
+    EXPECT_LT(farthest, 0.1); // tolerance and sagitta of the triangles, 2 mm long: 0.01 mm
+    expect_joined(fit, 2);
+    double angle = 0;
+    for (const InterfaceCertificate& joint : certify(fit.patches).interfaces)
+        angle = std::max(angle, joint.greatest_angle);
+    std::printf("cylinder: %zu patches, deviation %.4g, from the cylinder %.4g, angle %.3g degrees\n", fit.patches.patch.size(),
+                fit.deviation_max(), farthest, angle * 180 / pi);
+    EXPECT_LT(angle * 180 / pi, 5);
+}
+
+TEST(Patches, AreTwoWhereACutDividesASheet)
+{
+    const TriMesh part = shapes::saddle();
+    const Blank blank{part.position.topRows(2)}; // its projection: one-to-one is all that counts here
+    const auto nearest = [&](double x, double y) {
+        Eigen::Index v;
+        (blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
+        return int(v);
+    };
+    const Eigen::Vector2d low = blank.position.rowwise().minCoeff(), high = blank.position.rowwise().maxCoeff();
+    LayoutOptions options;
+    options.cuts = {{nearest(0, low.y()), nearest(0, high.y())}};
+    options.corners = {nearest(low.x(), low.y()), nearest(high.x(), low.y()), nearest(high.x(), high.y()), nearest(low.x(), high.y())};
+    PatchesFitOptions fitting;
+    fitting.tolerance = 0.05;
+    const PatchesFit fit = blank_patches(part, blank, options, fitting);
+    EXPECT_EQ(fit.patches.patch.size(), 2u);
+    EXPECT_EQ(fit.patches.interfaces.size(), 1u);
+    EXPECT_TRUE(fit.reached);
+    expect_joined(fit, 1);
+    options.cuts = {{options.corners[0], nearest(0, 0)}};
+    EXPECT_THROW(make_layout(part, blank, options), InputError); // ends within the sheet
+    options.cuts = {{options.corners[0], options.corners[2]}, {options.corners[1], options.corners[3]}};
+    EXPECT_THROW(make_layout(part, blank, options), InputError); // cross each other
+}
+
+TEST(Patches, AreTheSameOnOneThreadAndOnTwo)
+{
+    const TriMesh part = shapes::plate(plate_with(2));
+    const Blank blank{part.position.topRows(2)};
+    const auto control = [&](int threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
+        return blank_patches(part, blank).patches.patch;
+    };
+    const auto one = control(1), two = control(2);
+    ASSERT_EQ(one.size(), two.size());
+    for (size_t p = 0; p < one.size(); ++p)
+        EXPECT_TRUE((one[p].control.array() == two[p].control.array()).all());
 }
 
 } // namespace spia
