@@ -186,7 +186,7 @@ PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOpt
         for (size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++)
             sheet += 0.5 * (blank.position(0, loop[j]) * blank.position(1, loop[i]) -
                             blank.position(0, loop[i]) * blank.position(1, loop[j]));
-    const double spacing = 1.2 * std::sqrt(sheet / std::max<double>(1, double(loops.size()) - 1));
+    const double spacing = options.spacing * std::sqrt(sheet / std::max<double>(1, double(loops.size()) - 1));
     std::vector<LoopPlaces> chosen;
     for (size_t l = 0; l < loops.size(); ++l)
         chosen.push_back({loops[l], places_of(loops[l], blank.position, l != outer, options.corner_deg * pi / 180, spacing, forced,

@@ -284,23 +284,32 @@ PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOp
         const Layout made = make_layout(part, blank, layout);
         try {
             plain = fit_patches(part, blank, made, options, progress.part(0, 0.5));
-        } catch (const InputError&) {
-            if (made.split)
-                throw;
+        } catch (const InputError&) { // what is wrong is said by the divided layout, if that fails too
         }
         if (plain && (made.split || (plain->reached && certify(plain->patches).suited())))
             return std::move(*plain);
     }
-    LayoutOptions divided = layout;
-    divided.split = true;
-    try { // better corners; worth it only where they help
-        PatchesFit other = fit_patches(part, blank, make_layout(part, blank, divided), options, progress.part(0.5, 1));
-        if (!plain || (certify(other.patches).suited() && other.reached >= plain->reached))
-            return other;
-    } catch (const InputError&) {
-        if (!plain)
-            throw;
+    // Better corners, worth it only where they help. Other vertices on the border where a face has a corner without room for cells.
+    std::optional<InputError> first;
+    for (const auto& [corner, closer] : {std::pair(1., 1.), std::pair(1., 0.5), std::pair(1.5, 0.5), std::pair(0.7, 0.5), std::pair(1.5, 0.25)}) {
+        LayoutOptions divided = layout;
+        divided.split = true;
+        divided.corner_deg *= corner;
+        divided.spacing *= closer;
+        try {
+            PatchesFit other = fit_patches(part, blank, make_layout(part, blank, divided), options, progress.part(0.5, 1));
+            if (!plain || (certify(other.patches).suited() && other.reached >= plain->reached))
+                return other;
+            break;
+        } catch (const InputError& error) {
+            if (plain)
+                break;
+            if (!first)
+                first = error;
+        }
     }
+    if (!plain)
+        throw *first;
     return std::move(*plain);
 }
 

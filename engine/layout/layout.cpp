@@ -133,6 +133,8 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         }
     }
     const bool split = options.split || !paired;
+    if (split && !paired) // as far as they go: four patches of a pair instead of six
+        pair_triangles(graph, faces, options.worst_angle_deg * std::numbers::pi / 180);
     if (split)
         divide_faces(graph, faces);
     Layout layout = layout_of(graph, faces);

@@ -47,6 +47,7 @@ struct LayoutOptions {
     double corner_deg = 50;            ///< turn of the border from which on a vertex is a corner of patches
     double worst_angle_deg = 15;       ///< corners of two triangles that become one patch are between this and its
                                            ///< complement to 180; half of it and a quarter are tried, too
+    double spacing = 1.2;              ///< of vertices along the outline, over the mean distance of holes
     bool split = false;                ///< divide every face, even where triangles pair
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 };
