@@ -73,22 +73,29 @@ void print_summary(const Session& session)
         say("skins     major strain up to {:.3f} outside, {:.3f} inside\n", flat.skins->outer.strain_major.maxCoeff(),
             flat.skins->inner.strain_major.maxCoeff());
     print_limits(*session.limits, *session.part);
-    if (!session.grid)
-        return;
-    const GridResult& grid = session.grid->result;
-    say("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns, grid.planar.rows,
-        name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
+    if (session.grid) {
+        const GridResult& grid = session.grid->result;
+        say("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
+            grid.planar.rows, name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
+    }
     if (!session.surface)
         return;
     const Deviation& deviation = session.surface->deviation;
-    say("surface   {} x {} control points, deviation max {:.4g} mm, rms {:.4g} mm\n",
-        session.surface->result.surface.count_u, session.surface->result.surface.count_v, deviation.max(),
-        std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
+    const NurbsSurface& surface = session.surface->result.surface;
+    const auto& patches = session.surface->patches;
+    say("surface   {}, deviation max {:.4g} mm, rms {:.4g} mm\n",
+        patches ? fmt::format("{} patches with {} control points", patches->patches.patch.size(),
+                              shared_controls(patches->patches).count)
+                : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
+        deviation.max(), std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
     if (const TrimResult& trim = session.surface->trim; !trim.loop.empty())
         say("holes     {}, of IGES and STEP files, within {:.2g} mm of {} vertices\n",
             counted(int(trim.loop.size()), "trimming curve", "trimming curves"), trim.distance,
             trim.loop.size() == 1 ? "its" : "their");
-    if (const auto& fit = session.surface->fit)
+    if (const auto& fit = session.surface->fit; fit && patches)
+        say("          {} {:.4g} mm in {} rounds, {} interfaces\n", fit->reached ? "within" : "NOT within",
+            fit->tolerance, fit->rounds, patches->patches.interfaces.size());
+    else if (fit)
         say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * deviation.within()),
             fit->knots_u, fit->knots_v, fit->rounds);

@@ -11,6 +11,7 @@
 #include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
@@ -82,6 +83,15 @@ SessionOptions options(const RunArguments& arguments)
     result.interpolate.degree_u = arguments.degree.front();
     result.interpolate.degree_v = arguments.degree.back();
     result.tolerance = arguments.tolerance;
+    result.patches = patch_layout(arguments.patches);
+    if (result.patches && arguments.degree.front() != arguments.degree.back())
+        throw InputError("patches of a layout have one degree along u and v; give --degree one number");
+    if (result.patches && arguments.fit_parameters == "corrected")
+        throw InputError("patches of a layout keep the places of the blank; leave --fit-parameters corrected away");
+    if (result.patches && arguments.ends != "averaged")
+        throw InputError("patches of a layout have averaged knots at their ends; leave --ends away");
+    if (result.patches && (!arguments.corners.empty() || !arguments.grid.empty()))
+        throw InputError("--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
     if (arguments.fit_parameters == "corrected")
         result.fit_parameters = FitParameters::corrected;
     result.max_control_points = arguments.max_control_points;

@@ -36,6 +36,27 @@ std::vector<MeshPoint> places_of_data(const Session& session)
     return places;
 }
 
+/// From the vertices to the places where the data of the patches lie, and on to the patches.
+std::vector<PatchField> fields_of_patches(const Session& session)
+{
+    const PatchesFit& fit = *session.surface->patches;
+    const SheetFields& sheet = session.blank->node;
+    const auto on_patches = [&](const char* name, const char* unit, const Eigen::VectorXd& at_vertices) {
+        PatchField field{name, unit, {}};
+        for (size_t p = 0; p < fit.patches.patch.size(); ++p) {
+            Eigen::VectorXd nodes = Eigen::VectorXd::Zero(Eigen::Index(fit.place[p].size()));
+            for (size_t n = 0; n < fit.place[p].size(); ++n)
+                for (int k = 0; k < 3; ++k)
+                    nodes[Eigen::Index(n)] += fit.place[p][n].barycentric[k] *
+                                              at_vertices[session.part->mesh.triangle(k, fit.place[p][n].face)];
+            field.value.push_back(fit_field(fit.patches.patch[p], fit.u[p], fit.v[p], nodes));
+        }
+        share_borders(fit.patches, field);
+        return field;
+    };
+    return {on_patches(field_names[0], "mm", sheet.thickness), on_patches(field_names[1], "1", sheet.strain_equivalent)};
+}
+
 } // namespace
 
 const std::vector<std::string>& iga_formats()
@@ -62,10 +83,17 @@ std::vector<std::string> iga_file_names(const std::string& format, const std::st
     return names;
 }
 
-MultiPatch surface_patches(const Session& session) { return {{session.surface->result.surface}, {}}; }
+MultiPatch surface_patches(const Session& session)
+{
+    if (const auto& patches = session.surface->patches)
+        return patches->patches;
+    return {{session.surface->result.surface}, {}};
+}
 
 std::vector<PatchField> surface_fields(const Session& session)
 {
+    if (session.surface->patches)
+        return fields_of_patches(session);
     const InterpolateResult& fitted = session.surface->result;
     const SheetFields& sheet = session.blank->node;
     const std::vector<MeshPoint> places = places_of_data(session);

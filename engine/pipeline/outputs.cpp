@@ -68,6 +68,23 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     return {file_stem(session, options) + "." + format};
 }
 
+/// All patches in triangles.
+Tessellation tessellation_of(const MultiPatch& patches)
+{
+    Tessellation whole;
+    for (const NurbsSurface& patch : patches.patch) {
+        const Tessellation piece = tessellate(patch, 3);
+        const Eigen::Index vertices = whole.mesh.position.cols(), faces = whole.mesh.triangle.cols();
+        whole.mesh.position.conservativeResize(3, vertices + piece.mesh.position.cols());
+        whole.mesh.position.rightCols(piece.mesh.position.cols()) = piece.mesh.position;
+        whole.normal.conservativeResize(3, vertices + piece.normal.cols());
+        whole.normal.rightCols(piece.normal.cols()) = piece.normal;
+        whole.mesh.triangle.conservativeResize(3, faces + piece.mesh.triangle.cols());
+        whole.mesh.triangle.rightCols(piece.mesh.triangle.cols()) = piece.mesh.triangle.array() + int(vertices);
+    }
+    return whole;
+}
+
 } // namespace
 
 void require_file_name(const std::string& name)
@@ -162,7 +179,11 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
         scene.quad_mesh = &session.lifted->lifted;
     Tessellation tessellation;
     const NurbsSurface* surface = nullptr;
-    if (session.surface) {
+    if (session.surface && session.surface->patches) {
+        tessellation = tessellation_of(session.surface->patches->patches);
+        scene.surface = &tessellation.mesh;
+        scene.surface_normal = &tessellation.normal;
+    } else if (session.surface) {
         surface = &session.surface->result.surface;
         tessellation = tessellate(*surface, 3);
         scene.surface = &tessellation.mesh;

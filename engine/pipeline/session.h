@@ -10,6 +10,7 @@
 #include "engine/coons/lift.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
+#include "engine/layout/fit_patches.h"
 #include "engine/limits/limits.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/fit.h"
@@ -43,6 +44,9 @@ struct SessionOptions {
     /// mm, two-sided, of the surface. Not given: it runs through the nodes of the grid, and is as far from the part between
     /// them as it is.
     std::optional<double> tolerance;
+    /// Not given: one patch over the filled blank. Else a layout of patches around the holes, within the tolerance or 1/1000 of the
+    /// part's diagonal; cuts and corners are vertices of the file. The session then has neither grid nor lifted one.
+    std::optional<LayoutOptions> patches;
     FitParameters fit_parameters = FitParameters::blank; ///< where a tolerance is given
     int max_control_points = FitOptions{}.max_control_points;
     bool fill_holes = false; ///< the surface covers the holes of the part; else CAD files have it trimmed by them
@@ -58,7 +62,8 @@ struct GridStage {
 std::string_view name(const std::optional<BlankOfSteps>& steps);
 
 struct SurfaceStage {
-    InterpolateResult result;
+    InterpolateResult result; ///< empty where there are patches
+    std::shared_ptr<const PatchesFit> patches; ///< of a layout; null: one patch
     Deviation deviation;
     std::optional<FitReport> fit; ///< where a tolerance was given
     TrimResult trim;              ///< by the holes of the part; empty if they are to be filled

@@ -182,6 +182,59 @@ void make_surface(Session& session, const Progress& progress)
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
+int vertex_in_mesh(const PartFile& part, int in_file)
+{
+    const std::vector<int> copies = vertices_called(part, in_file);
+    if (copies.empty())
+        throw InputError(fmt::format(
+            "vertex {} of the cuts is not one of the part; vertices count from 0 in the file's order", in_file));
+    return copies.front();
+}
+
+/// Patches around the holes take the place of grid, lift and fit.
+void make_patches(Session& session, const Progress& progress)
+{
+    const PartFile& part = *session.part;
+    if (session.blank->flipped_triangles > 0)
+        throw InputError(
+            "the blank has triangles that are turned over: it cannot be divided into patches; remesh the part (--remesh), or "
+            "take one patch (--patches one)");
+    LayoutOptions layout = *session.options.patches;
+    layout.file_number = part.source_vertex;
+    for (int& v : layout.corners)
+        v = vertex_in_mesh(part, v);
+    for (LayoutCut& cut : layout.cuts)
+        for (int& v : cut)
+            v = vertex_in_mesh(part, v);
+    PatchesFitOptions options;
+    options.tolerance = session.options.tolerance.value_or(1e-3 * bounding_diagonal(part.mesh));
+    options.degree = session.options.interpolate.degree_u;
+    options.max_control_points = session.options.max_control_points;
+    auto fitted =
+        std::make_shared<PatchesFit>(blank_patches(part.mesh, session.blank->blank, layout, options, progress));
+    SurfaceStage stage;
+    stage.deviation.surface_to_mesh = fitted->surface_to_mesh;
+    stage.deviation.mesh_to_surface = fitted->mesh_to_surface;
+    stage.deviation.at_vertex = fitted->at_vertex;
+    stage.fit.emplace();
+    stage.fit->tolerance = options.tolerance;
+    stage.fit->reached = fitted->reached;
+    stage.fit->rounds = fitted->rounds;
+    if (!fitted->reached) {
+        FitShortfall& why = stage.fit->shortfall;
+        const bool out = fitted->surface_to_mesh.max >= fitted->mesh_to_surface.max;
+        why.where = out ? fitted->surface_to_mesh.where : fitted->mesh_to_surface.where;
+        why.reason = FitShortfall::Reason::data;
+        why.text = fmt::format(
+            "the patches stay up to {:.3g} mm from the part, more than the tolerance of {:.3g} mm, near ({:.6g}, "
+            "{:.6g}, {:.6g}): a sharp edge or corner within a patch, or too few control points "
+            "(--max-control-points); cut along the edge (--patches FILE) or allow more",
+            fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z());
+    }
+    stage.patches = std::move(fitted);
+    session.surface = std::make_shared<SurfaceStage>(std::move(stage));
+}
+
 void require(bool there, const char* what)
 {
     if (!there)
@@ -275,15 +328,19 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
         break;
     case Stage::grid:
         require(session.blank != nullptr, "solve for the blank");
-        grid(session, progress);
+        if (!session.options.patches)
+            grid(session, progress);
         break;
     case Stage::lift:
+        if (session.options.patches)
+            break;
         require(session.grid != nullptr, "make a grid");
         lift_grid(session, progress);
         break;
     case Stage::fit:
-        require(session.lifted != nullptr, "lift the grid");
-        make_surface(session, progress);
+        require(session.options.patches ? session.blank != nullptr : session.lifted != nullptr,
+                session.options.patches ? "solve for the blank" : "lift the grid");
+        session.options.patches ? make_patches(session, progress) : make_surface(session, progress);
         break;
     }
     session.seconds[stage] = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/nurbs/certificate.h"
+
 namespace spia {
 namespace {
 
@@ -60,6 +62,36 @@ Json holes_json(const TrimResult& trim, const PartFile& part)
     return {{"trimmed", trim.loop.size()}, {"distance_mm", trim.distance}, {"left_filled", std::move(filled)}};
 }
 
+/// Of a layout: its patches one by one, and how smoothly they join.
+Json patches_json(const PatchesFit& fit)
+{
+    int controls = 0;
+    Json list = Json::array();
+    for (size_t p = 0; p < fit.patches.patch.size(); ++p) {
+        const NurbsSurface& patch = fit.patches.patch[p];
+        controls += int(patch.control.cols());
+        list.push_back({{"control_points_u", patch.count_u},
+                        {"control_points_v", patch.count_v},
+                        {"degree_u", patch.degree_u},
+                        {"degree_v", patch.degree_v},
+                        {"deviation_max_mm", fit.patch_deviation[p]}});
+    }
+    double greatest = 0, sum = 0;
+    const Certificate certificate = certify(fit.patches);
+    for (const InterfaceCertificate& joint : certificate.interfaces) {
+        greatest = std::max(greatest, joint.greatest_angle);
+        sum += joint.mean_angle;
+    }
+    const size_t joints = certificate.interfaces.size();
+    return {{"patches", list},
+            {"faces_divided", fit.layout.split},
+            {"interfaces", joints},
+            {"interface_angle_max_deg", degrees(greatest)},
+            {"interface_angle_mean_deg", joints > 0 ? degrees(sum) / double(joints) : 0},
+            {"control_points", controls},
+            {"shared_control_points", shared_controls(fit.patches).count}};
+}
+
 } // namespace
 
 nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& part)
@@ -67,23 +99,26 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
     const Deviation& d = stage.deviation;
     const bool with_tolerance = stage.fit.has_value();
     const NurbsSurface& surface = stage.result.surface;
-    Json json = {{"control_points_u", surface.count_u},
-                 {"control_points_v", surface.count_v},
-                 {"degree_u", surface.degree_u},
-                 {"degree_v", surface.degree_v},
-                 {"deviation_max_mm", d.max()},
-                 {"deviation_rms_mm", std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms)},
-                 {"deviation_p95_mm", std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95)},
-                 {"surface_to_mesh", statistics_json(d.surface_to_mesh, with_tolerance)},
-                 {"mesh_to_surface", statistics_json(d.mesh_to_surface, with_tolerance)},
-                 {"normal_deviation",
-                  {{"mean_deg", degrees(d.normal.mean)},
-                   {"p95_deg", degrees(d.normal.p95)},
-                   {"max_deg", degrees(d.normal.max)},
-                   {"max_away_from_sharp_edges_deg", degrees(d.normal.max_smooth)},
-                   {"share_turned", d.normal.turned},
-                   {"at_mm", {d.normal.where[0], d.normal.where[1], d.normal.where[2]}}}}};
-    json["holes"] = holes_json(stage.trim, part);
+    Json json;
+    if (stage.patches)
+        json = patches_json(*stage.patches);
+    else
+        json = {{"control_points_u", surface.count_u},
+                {"control_points_v", surface.count_v},
+                {"degree_u", surface.degree_u},
+                {"degree_v", surface.degree_v}};
+    json["deviation_max_mm"] = d.max();
+    json["deviation_rms_mm"] = std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms);
+    json["deviation_p95_mm"] = std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95);
+    json["surface_to_mesh"] = statistics_json(d.surface_to_mesh, with_tolerance);
+    json["mesh_to_surface"] = statistics_json(d.mesh_to_surface, with_tolerance);
+    if (!stage.patches) {
+        json["holes"] = holes_json(stage.trim, part);
+        json["normal_deviation"] = {
+            {"mean_deg", degrees(d.normal.mean)}, {"p95_deg", degrees(d.normal.p95)},
+            {"max_deg", degrees(d.normal.max)},   {"max_away_from_sharp_edges_deg", degrees(d.normal.max_smooth)},
+            {"share_turned", d.normal.turned},    {"at_mm", {d.normal.where[0], d.normal.where[1], d.normal.where[2]}}};
+    }
     if (!stage.fit)
         json["between_data"] = statistics_json(d.between_data, false);
     else {

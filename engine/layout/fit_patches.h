@@ -1,0 +1,45 @@
+#pragma once
+#include "engine/layout/patch_grids.h"
+#include "engine/nurbs/fit.h"
+#include "engine/nurbs/multi_patch.h"
+
+namespace spia {
+
+struct PatchesFitOptions {
+    double tolerance = 0.1;           ///< mm, two-sided
+    int degree = 3;                   ///< 2 to 5, of all patches along u and v
+    int max_control_points = 200'000; ///< of all patches
+    int most_rounds = 16;
+    PatchGridOptions grid = {};
+};
+
+/// How far patches and part are from each other, and how the fit went.
+struct PatchesFit {
+    MultiPatch patches;                  ///< watertight: shared sides are the same to the last bit
+    Layout layout;                       ///< patch by patch
+    DeviationStatistics surface_to_mesh; ///< samples of all patches to the nearest place of the part
+    DeviationStatistics
+        mesh_to_surface;       ///< vertices, edge and face middles of the part to the nearest place of the patches
+    Eigen::VectorXd at_vertex; ///< mm, per vertex of the part; positive where the patches run on its outer side
+    std::vector<double> patch_deviation; ///< mm, per patch the largest of both ways
+    bool reached = false;                ///< the tolerance, at all samples
+    int rounds = 0;
+    std::vector<std::vector<double>> u, v;     ///< per patch the parameters of the data
+    std::vector<std::vector<MeshPoint>> place; ///< per patch where on the part the data lie, u fastest
+
+    double deviation_max() const { return std::max(surface_to_mesh.max, mesh_to_surface.max); }
+};
+
+/// Lifts the patches of a layout to the part and fits them within a tolerance: first every curve, once, then the patches that hold
+/// their four curves. Knots are added to whole strips (Chords), so that refinement stays conforming.
+/// @throws InputError if the options are out of range or a patch has no grid without folds
+PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& layout,
+                       const PatchesFitOptions& options = {}, const Progress& progress = {});
+
+/// Layout and fit: where a patch of the plain layout has no grid without folds, is not proved to be free of them or stays beyond the tolerance,
+/// every face is divided instead, if that is better.
+/// @throws InputError as make_layout() and fit_patches()
+PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout = {},
+                         const PatchesFitOptions& options = {}, const Progress& progress = {});
+
+} // namespace spia

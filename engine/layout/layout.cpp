@@ -1,0 +1,148 @@
+#include "engine/layout/layout.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "engine/coons/boundary.h"
+#include "engine/core/error.h"
+#include "engine/layout/plane_graph.h"
+#include "engine/layout/plane_lines.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+
+namespace {
+
+/// The cuts as curves of the graph, divided where another one ends.
+void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& options)
+{
+    const auto number = [&](int v) { return options.file_number.empty() ? v : options.file_number[size_t(v)]; };
+    std::vector<int> ends;
+    for (const LayoutCut& cut : options.cuts) {
+        if (cut.size() < 2)
+            throw InputError("a cut needs two vertices or more");
+        for (const int v : cut)
+            if (v < 0 || v >= blank.position.cols())
+                throw InputError(fmt::format("a cut names vertex {}, which the part does not have", v));
+        ends.push_back(cut.front());
+        ends.push_back(cut.back());
+    }
+    const auto vertex_of = [&](int v, bool may_add) {
+        const Eigen::Vector2d place = blank.position.col(v);
+        const auto found = std::find(graph.vertex.begin(), graph.vertex.end(), place);
+        if (found != graph.vertex.end())
+            return int(found - graph.vertex.begin());
+        if (!may_add)
+            throw InputError(
+                fmt::format("a cut ends at vertex {}, which is neither on the border nor on another cut; take it "
+                            "on to one of these",
+                            number(v)));
+        graph.vertex.push_back(place);
+        graph.border.push_back(std::nullopt);
+        return int(graph.vertex.size()) - 1;
+    };
+    for (const LayoutCut& cut : options.cuts) // inner vertices of cuts at which others end
+        for (size_t i = 1; i + 1 < cut.size(); ++i)
+            if (std::find(ends.begin(), ends.end(), cut[i]) != ends.end())
+                vertex_of(cut[i], true);
+    for (const LayoutCut& cut : options.cuts) {
+        std::vector<int> run = {cut.front()};
+        for (size_t i = 1; i < cut.size(); ++i) {
+            run.push_back(cut[i]);
+            if (i + 1 < cut.size() && std::find(ends.begin(), ends.end(), cut[i]) == ends.end())
+                continue;
+            LayoutCurve curve;
+            curve.vertex = {vertex_of(run.front(), false), vertex_of(run.back(), false)};
+            curve.plane = blank.position(Eigen::all, run);
+            for (const LayoutCurve& other : graph.curve)
+                for (Eigen::Index a = 0; a + 1 < curve.plane.cols(); ++a)
+                    for (Eigen::Index b = 0; b + 1 < other.plane.cols(); ++b) {
+                        const Eigen::Vector2d p = curve.plane.col(a), q = curve.plane.col(a + 1),
+                                              r = other.plane.col(b), s = other.plane.col(b + 1);
+                        if (p != r && p != s && q != r && q != s && segments_meet(p, q, r, s))
+                            throw InputError(
+                                fmt::format("the cut between the vertices {} and {} crosses the border or another cut; "
+                                            "end it there, or give more vertices of the way around",
+                                            number(run[size_t(a)]), number(run[size_t(a) + 1])));
+                    }
+            for (const bool at_end : {false, true}) {
+                const int v = curve.vertex[at_end ? 1 : 0];
+                const Eigen::Vector2d next = at_end ? curve.plane.col(curve.plane.cols() - 2) : curve.plane.col(1);
+                if (const auto& border = graph.border[size_t(v)];
+                    border && !leads_inside(border->before, graph.vertex[size_t(v)], border->after, next))
+                    throw InputError(fmt::format(
+                        "the cut between the vertices {} and {} leaves the sheet; give more vertices of the "
+                        "way around",
+                        number(run.front()), number(run.back())));
+            }
+            graph.curve.push_back(std::move(curve));
+            run = {cut[i]};
+        }
+    }
+}
+
+Layout layout_of(const PlaneGraph& graph, const std::vector<Face>& faces)
+{
+    Layout layout;
+    layout.vertex.resize(2, Eigen::Index(graph.vertex.size()));
+    for (size_t v = 0; v < graph.vertex.size(); ++v)
+        layout.vertex.col(Eigen::Index(v)) = graph.vertex[v];
+    layout.curve = graph.curve;
+    for (const Face& face : faces)
+        layout.patch.push_back({face[0], face[1], face[2], face[3]});
+    return layout;
+}
+
+bool all_four_sided(const std::vector<Face>& faces)
+{
+    return std::all_of(faces.begin(), faces.end(), [](const Face& face) { return face.size() == 4; });
+}
+
+} // namespace
+
+Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options)
+{
+    std::vector<int> forced = options.corners;
+    for (const LayoutCut& cut : options.cuts)
+        if (!cut.empty())
+            forced.insert(forced.end(), {cut.front(), cut.back()});
+    const bool whole = forced.empty() && !options.split && boundary_loops(part).size() == 1;
+    if (whole) {
+        const auto corner = propose_corners(blank, part);
+        forced.assign(corner.begin(), corner.end());
+    }
+    PlaneGraph graph = border_graph(part, blank, options, forced, whole || !options.corners.empty());
+    add_cuts(graph, blank, options);
+    std::vector<Face> faces;
+    if (boundary_loops(part).size() == 1 || !options.corners.empty())
+        faces = faces_of(graph);
+    const bool ready = !faces.empty() && all_four_sided(faces);
+    if (!ready) {
+        if (options.corners.empty() && options.cuts.empty())
+            add_rings(graph);
+        triangulate(graph);
+        faces = faces_of(graph);
+        join_arcs(graph, faces);
+    }
+    bool paired = ready;
+    for (double angle = options.worst_angle_deg; !options.split && !paired && angle > 3; angle /= 2) {
+        PlaneGraph pairs = graph; // flatter corners rather than four times as many patches
+        std::vector<Face> of_pairs = faces;
+        paired = pair_triangles(pairs, of_pairs, angle * std::numbers::pi / 180);
+        if (paired) {
+            graph = std::move(pairs);
+            faces = std::move(of_pairs);
+        }
+    }
+    const bool split = options.split || !paired;
+    if (split && !paired) // as far as they go: four patches of a pair instead of six
+        pair_triangles(graph, faces, options.worst_angle_deg * std::numbers::pi / 180);
+    if (split)
+        divide_faces(graph, faces);
+    Layout layout = layout_of(graph, faces);
+    layout.split = split;
+    return layout;
+}
+
+} // namespace spia

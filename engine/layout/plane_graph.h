@@ -1,0 +1,57 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/layout/layout.h"
+
+namespace spia {
+
+/// Where the border of the sheet passes a vertex: the points next to it, with the sheet on the left.
+struct BorderTurn {
+    Eigen::Vector2d before, after;
+};
+
+/// Vertices and curves between them that divide the blank into faces: first the border's arcs alone, then lines across the sheet.
+struct PlaneGraph {
+    std::vector<Eigen::Vector2d> vertex;
+    std::vector<std::optional<BorderTurn>> border; ///< per vertex; nothing within the sheet
+    std::vector<char> closed = {};                 ///< per vertex, where given: 1 where no more lines may begin
+    std::vector<LayoutCurve> curve = {};           ///< those on the border have the sheet on their left
+};
+
+/// A closed row of curves with a piece of the sheet on its left.
+using Face = std::vector<CurveUse>;
+
+/// The border with its vertices: corners, ends of cuts, and more where an arc turns far or is long beside the spacing of the holes.
+/// Cuts divide it already.
+/// @param forced  vertices of the part that become vertices of the layout; if not empty and `only_forced`, no others do
+PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOptions& options,
+                        const std::vector<int>& forced, bool only_forced);
+
+/// Draws a ring of four-sided faces around every hole that is small beside the distance to the rest of the border, so that patches grow
+/// from hole to hole step by step.
+void add_rings(PlaneGraph& graph);
+
+/// Joins vertices by straight lines until no more is possible.
+void triangulate(PlaneGraph& graph);
+
+/// The faces on the sheet. @throws InputError if a part of the border is joined to the rest by no line
+std::vector<Face> faces_of(const PlaneGraph& graph);
+
+/// The vertex at the beginning of a curve as it is used.
+int start_of(const PlaneGraph& graph, CurveUse use);
+
+/// Radians, the inner angle of a face between its curves k - 1 and k: 0 to 2 pi. Curves are looked at over a tenth of their length.
+double corner_angle(const PlaneGraph& graph, const Face& face, size_t k);
+
+/// Makes one of the two arcs of the border at every vertex from which no line goes and at which the border turns by less than a right angle's
+/// third: cells have no corner there.
+void join_arcs(PlaneGraph& graph, std::vector<Face>& faces);
+
+/// Pairs of triangles to faces of four sides; four-sided ones stay. False if a face is left over.
+bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_angle);
+
+/// Divides each face from a place in its middle to the middles of its sides. @throws InputError if none is seen from all of these
+void divide_faces(PlaneGraph& graph, std::vector<Face>& faces);
+
+} // namespace spia

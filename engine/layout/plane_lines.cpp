@@ -1,0 +1,37 @@
+#include "engine/layout/plane_lines.h"
+
+#include "engine/mesh/orient2d.h"
+
+namespace spia {
+
+bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                   const Eigen::Vector2d& d)
+{
+    for (int k = 0; k < 2; ++k)
+        if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k]))
+            return false;
+    return orient2d(a, b, c) * orient2d(a, b, d) <= 0 && orient2d(c, d, a) * orient2d(c, d, b) <= 0;
+}
+
+bool leads_inside(const Eigen::Vector2d& before, const Eigen::Vector2d& v, const Eigen::Vector2d& after,
+                  const Eigen::Vector2d& q)
+{
+    const bool left_of_first = orient2d(before, v, q) > 0, left_of_second = orient2d(v, after, q) > 0;
+    return orient2d(before, v, after) > 0 ? left_of_first && left_of_second : left_of_first || left_of_second;
+}
+
+bool inside_polygon(const Eigen::Matrix2Xd& polygon, const Eigen::Vector2d& point)
+{
+    bool inside = false;
+    for (Eigen::Index i = 0, j = polygon.cols() - 1; i < polygon.cols(); j = i++) {
+        const Eigen::Vector2d a = polygon.col(j), b = polygon.col(i);
+        if ((a.y() > point.y()) == (b.y() > point.y()))
+            continue;
+        const int side = orient2d(a, b, point);
+        if (b.y() > a.y() ? side > 0 : side < 0)
+            inside = !inside;
+    }
+    return inside;
+}
+
+} // namespace spia

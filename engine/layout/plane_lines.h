@@ -1,0 +1,18 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace spia {
+
+/// Whether two closed segments have a point in common. Exact (orient2d.h).
+bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                   const Eigen::Vector2d& d);
+
+/// Whether the direction from v to q runs into the inside of a corner whose border comes from `before` and goes on to `after` with the
+/// inside on its left; along the border itself is not inside. Exact.
+bool leads_inside(const Eigen::Vector2d& before, const Eigen::Vector2d& v, const Eigen::Vector2d& after,
+                  const Eigen::Vector2d& q);
+
+/// Whether a point is in a closed polygon, 2 by n (even-odd; on the border either).
+bool inside_polygon(const Eigen::Matrix2Xd& polygon, const Eigen::Vector2d& point);
+
+} // namespace spia
