@@ -6,7 +6,7 @@ in float vertex_value;
 out vec4 colour;
 
 uniform vec4 front, back; // plain colours of the outer and the inner side
-uniform bool lit;
+uniform bool lit, zebra;
 uniform float pixel; // pixels of the screen per pixel of the design
 uniform vec2 corner; // pixels, of the tile that is drawn in the picture
 
@@ -90,6 +90,17 @@ float light(vec3 normal)
     return 0.44 + 0.58 * key + 0.18 * soft;
 }
 
+/// Rows of lamps above and beside the sheet, mirrored in it, and as dark between them as they are wide: 0.22 or 1. The stripes are
+/// where the mirrored ray has one slope, so they are as smooth as the normals are: one derivative less than the surface.
+float lamps(vec3 normal)
+{
+    vec3 ray = reflect(vec3(0, 0, -1), normal); // straight ahead: the picture of a far camera
+    float along = 9.0 * atan(ray.x + ray.y, 1.0 + ray.z); // slanted: of walls along either axis
+    float wave = abs(fract(along) - 0.5) - 0.25, blur = max(0.7 * length(vec2(dFdx(along), dFdy(along))), 1e-6);
+    float stripe = blur > 0.45 ? 0.5 : clamp(0.5 + wave / (2.0 * blur), 0.0, 1.0);
+    return mix(0.22, 1.0, stripe);
+}
+
 void main()
 {
     vec3 flat_normal = normalize(cross(dFdx(place), dFdy(place)));
@@ -102,6 +113,9 @@ void main()
         if (!gl_FrontFacing && lit) // the inner side is darker and paler
             colour.rgb = mix(colour.rgb, vec3(dot(colour.rgb, vec3(0.3, 0.6, 0.1))), 0.25) * 0.72;
     }
+
+    if (zebra)
+        colour.rgb *= lamps(normal);
 
     uint mark = has_marks ? texelFetch(face_mark, gl_PrimitiveID).r : 0u;
     if ((mark & region) != 0u) {

@@ -99,7 +99,7 @@ void print_summary(const Session& session)
         say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * deviation.within()),
             fit->knots_u, fit->knots_v, fit->rounds);
-    const Certificate certificate = certify(surface_patches(session));
+    const Certificate& certificate = session.surface->certificate;
     double scaled = 1;
     for (const PatchCertificate& patch : certificate.patch)
         scaled = std::min(scaled, patch.least_scaled);

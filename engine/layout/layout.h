@@ -52,6 +52,8 @@ struct LayoutOptions {
     double spacing = 1.2;              ///< of vertices along the outline, over the mean distance of holes
     bool split = false;                ///< divide every face, even where triangles pair
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
+
+    friend bool operator==(const LayoutOptions&, const LayoutOptions&) = default;
 };
 
 /// Divides the blank into four-sided patches around its holes. Corners of outline and holes, and vertices between them where an

@@ -54,7 +54,8 @@ std::vector<PatchField> fields_of_patches(const Session& session)
         share_borders(fit.patches, field);
         return field;
     };
-    return {on_patches(field_names[0], "mm", sheet.thickness), on_patches(field_names[1], "1", sheet.strain_equivalent)};
+    return {on_patches(field_names[0], "mm", sheet.thickness),
+            on_patches(field_names[1], "1", sheet.strain_equivalent)};
 }
 
 } // namespace
@@ -83,13 +84,6 @@ std::vector<std::string> iga_file_names(const std::string& format, const std::st
     return names;
 }
 
-MultiPatch surface_patches(const Session& session)
-{
-    if (const auto& patches = session.surface->patches)
-        return patches->patches;
-    return {{session.surface->result.surface}, {}};
-}
-
 std::vector<PatchField> surface_fields(const Session& session)
 {
     if (session.surface->patches)
@@ -111,7 +105,7 @@ std::vector<std::filesystem::path> write_iga_files(const std::filesystem::path& 
     std::vector<std::filesystem::path> files;
     for (const std::string& file : iga_file_names(format, name))
         files.push_back(folder / file);
-    const MultiPatch patches = surface_patches(session);
+    const MultiPatch patches = surface_patches(*session.surface);
     if (format == "geopdes") {
         write_geopdes(files[0], patches, name, unit);
         return files;

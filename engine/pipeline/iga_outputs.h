@@ -17,9 +17,6 @@ bool is_iga_format(const std::string& format);
 /// and iga-k NAME-iga.k, which have no fields. @pre is_iga_format()
 std::vector<std::string> iga_file_names(const std::string& format, const std::string& name);
 
-/// The patches of the surface and how they join: one patch, open. @pre session.surface
-MultiPatch surface_patches(const Session& session);
-
 /// Thickness after forming and plastic strain on the patches, from their values at the nodes of the lifted grid. @pre session.surface
 std::vector<PatchField> surface_fields(const Session& session);
 

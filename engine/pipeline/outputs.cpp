@@ -214,9 +214,11 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
             files.push_back(folder / file);
         const fs::path path = files[first];
         if (format == "iges")
-            write_iges(path, surface_patches(session).patch, name, unit, std::span(&session.surface->trim.loop, 1));
+            write_iges(path, surface_patches(*session.surface).patch, name, unit,
+                       std::span(&session.surface->trim.loop, 1));
         else if (format == "step")
-            write_step(path, surface_patches(session).patch, name, unit, std::span(&session.surface->trim.loop, 1));
+            write_step(path, surface_patches(*session.surface).patch, name, unit,
+                       std::span(&session.surface->trim.loop, 1));
         else if (format == "glb")
             write_gltf(path, scene, options.glb);
         else if (format == "vtu") {

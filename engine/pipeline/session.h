@@ -12,6 +12,7 @@
 #include "engine/forming/flatten.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/limits/limits.h"
+#include "engine/nurbs/certificate.h"
 #include "engine/nurbs/deviation.h"
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/interpolate.h"
@@ -62,12 +63,16 @@ struct GridStage {
 std::string_view name(const std::optional<BlankOfSteps>& steps);
 
 struct SurfaceStage {
-    InterpolateResult result; ///< empty where there are patches
+    InterpolateResult result;                  ///< empty where there are patches
     std::shared_ptr<const PatchesFit> patches; ///< of a layout; null: one patch
     Deviation deviation;
     std::optional<FitReport> fit; ///< where a tolerance was given
     TrimResult trim;              ///< by the holes of the part; empty if they are to be filled
+    Certificate certificate;      ///< what analysis asks of it, patch by patch
 };
+
+/// The surface as patches: those of the layout, or the one.
+MultiPatch surface_patches(const SurfaceStage& stage);
 
 /// All there is to know about one part: what was asked for and the results so far. Results are finished and const;
 /// a copy is cheap, and an old copy is how one goes back.

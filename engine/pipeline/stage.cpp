@@ -179,6 +179,7 @@ void make_surface(Session& session, const Progress& progress)
     stage.deviation.beyond.clear(); // needed no longer, and may be long
     if (!session.options.fill_holes)
         stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface);
+    stage.certificate = certify(surface_patches(stage));
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
@@ -232,6 +233,7 @@ void make_patches(Session& session, const Progress& progress)
             fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z());
     }
     stage.patches = std::move(fitted);
+    stage.certificate = certify(stage.patches->patches);
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
@@ -258,6 +260,11 @@ std::string_view name(Stage stage)
 std::string_view name(const std::optional<BlankOfSteps>& steps)
 {
     return !steps ? "one step" : steps->polish ? "steps, polished" : "steps";
+}
+
+MultiPatch surface_patches(const SurfaceStage& stage)
+{
+    return stage.patches ? stage.patches->patches : MultiPatch{{stage.result.surface}, {}};
 }
 
 void require_possible(const Session& session)

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/nurbs/certificate.h"
-
 namespace spia {
 namespace {
 
@@ -63,7 +61,7 @@ Json holes_json(const TrimResult& trim, const PartFile& part)
 }
 
 /// Of a layout: its patches one by one, and how smoothly they join.
-Json patches_json(const PatchesFit& fit)
+Json patches_json(const PatchesFit& fit, const Certificate& certificate)
 {
     int controls = 0;
     Json list = Json::array();
@@ -77,7 +75,6 @@ Json patches_json(const PatchesFit& fit)
                         {"deviation_max_mm", fit.patch_deviation[p]}});
     }
     double greatest = 0, sum = 0;
-    const Certificate certificate = certify(fit.patches);
     for (const InterfaceCertificate& joint : certificate.interfaces) {
         greatest = std::max(greatest, joint.greatest_angle);
         sum += joint.mean_angle;
@@ -101,7 +98,7 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
     const NurbsSurface& surface = stage.result.surface;
     Json json;
     if (stage.patches)
-        json = patches_json(*stage.patches);
+        json = patches_json(*stage.patches, stage.certificate);
     else
         json = {{"control_points_u", surface.count_u},
                 {"control_points_v", surface.count_v},

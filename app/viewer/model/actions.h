@@ -106,6 +106,18 @@ struct SetFit {
     FitChoice fit;
 };
 
+/// "set_patches", of the surface: patches {cuts [[vertex of the file, ...], ...], corners [vertex of the file, ...]}, patches around the holes;
+/// null: one patch.
+struct SetPatches {
+    std::optional<LayoutOptions> patches = {};
+};
+/// "add_cut": patches meet along the picked vertices, whose ends are on the border of the part; with holes in the sheet or
+/// without.
+struct AddCut {};
+struct RemoveCut {
+    int cut = 0;
+}; ///< "remove_cut"
+
 /// "set_limits": curve ("automatic", "keeler_brazier", "points" of a table, "none"), table, n, margin, max_thinning,
 /// max_thickening, low_strain. A blank that is there is judged anew at once.
 struct SetLimits {
@@ -349,13 +361,14 @@ struct Quit {};            ///< "quit"
 using Action =
     std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
                  SetMaterial, FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
-                 SetFit, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep,
-                 SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
-                 SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection,
-                 ClearSelection, MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine,
-                 RemoveLine, PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection,
-                 ClearSection, SetDisplay, SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
-                 Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+                 SetFit, SetPatches, AddCut, RemoveCut, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps,
+                 SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep,
+                 SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex, UseVerticesAsCorners,
+                 GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion,
+                 RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices, SetProcess,
+                 SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
+                 SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo, OpenProject,
+                 SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -51,10 +51,15 @@ struct ViewerModel::Apply {
     void operator()(const SetDirection& action);
     /// Numbers in the file, chosen or proposed.
     std::array<int, 4> corners_now() const;
+    void require_one_patch() const; ///< @throws InputError if there are patches
     void operator()(const SetCorner& action);
     void operator()(const ProposeCorners&);
     void operator()(const SetGrid& action);
     void operator()(const SetFit& action);
+    void change_patches(std::string name, std::optional<LayoutOptions> patches);
+    void operator()(const SetPatches& action) { change_patches("Change the patches", action.patches); }
+    void operator()(const AddCut&);
+    void operator()(const RemoveCut& action);
     void operator()(const SetLimits& action);
 
     // --- unfolding step by step

@@ -231,6 +231,13 @@ std::array<int, 4> ViewerModel::Apply::corners_now() const
     return corners;
 }
 
+void ViewerModel::Apply::require_one_patch() const
+{
+    if (session.options.patches)
+        throw InputError(
+            "The surface is made of patches, which have corners of their own: choose \"One patch\" in the step NURBS surface first.");
+}
+
 void ViewerModel::Apply::operator()(const SetCorner& action)
 {
     model.dragging_ = false; // whatever comes: the next grid is a fine one
@@ -238,6 +245,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
         throw InputError("Unfold the part first; then its corners can be chosen.");
     if (action.corner < 0 || action.corner > 3)
         throw InputError(fmt::format("There is no corner {}; they count from 0 to 3.", action.corner));
+    require_one_patch();
     if (action.vertex < 0 || action.vertex >= part().mesh.vertices())
         throw InputError(fmt::format("The part has no vertex {}.", action.vertex));
     const std::vector<int>& outline = model.pickers_.outline(session);
@@ -264,6 +272,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
 
 void ViewerModel::Apply::operator()(const ProposeCorners&)
 {
+    require_one_patch();
     change("Propose corners");
     session.options.corners.reset();
     if (session.blank)
@@ -288,7 +297,7 @@ void ViewerModel::Apply::operator()(const SetFit& action)
     set_fit(options, action.fit);
     change("Change the surface");
     session.options = std::move(options);
-    if (session.lifted)
+    if (session.lifted || (session.blank && session.options.patches))
         model.run_to(Stage::fit, "Fitting the surface");
 }
 

@@ -106,6 +106,7 @@ void ViewerModel::Apply::operator()(const PickVertex& action)
 
 void ViewerModel::Apply::operator()(const UseVerticesAsCorners&)
 {
+    require_one_patch();
     const PartFile& file = part();
     std::array<int, 4> corners = corners_of(document.vertices, model.pickers_.outline(session), file.source_vertex);
     if (session.blank) { // begin where the automatic ones would: lowest to the left

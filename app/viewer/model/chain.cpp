@@ -68,6 +68,7 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
     case Stage::fit:
         made_with.interpolate = options.interpolate;
         set_fit(made_with, fit_choice(options));
+        made_with.patches = options.patches;
         break;
     }
 }
@@ -97,12 +98,16 @@ std::optional<Stage> first_stale(const Document& document)
         return Stage::read;
     if (!session.blank || !blank_holds(document))
         return Stage::solve;
+    if (wanted.patches) // which need no grid of the whole
+        return session.surface && wanted.patches == made.patches && fit_choice(wanted) == fit_choice(made)
+                   ? std::nullopt
+                   : std::optional(Stage::fit);
     if (!session.grid || wanted.corners != made.corners || !same(wanted.grid, made.grid))
         return Stage::grid;
     if (!session.lifted)
         return Stage::lift;
     if (!session.surface || fit_choice(wanted) != fit_choice(made) ||
-        wanted.interpolate.parameters != made.interpolate.parameters)
+        wanted.interpolate.parameters != made.interpolate.parameters || made.patches.has_value())
         return Stage::fit;
     return std::nullopt;
 }
@@ -165,16 +170,17 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
     return result;
 }
 
-std::string advice(Stage failed, bool of_steps)
+std::string advice(Stage failed, const SessionOptions& options)
 {
-    if (of_steps && failed == Stage::solve)
+    if (options.steps && failed == Stage::solve)
         return "Use the blank of the steps as it is, without polishing.";
     switch (failed) {
     case Stage::read: return "Look at the faults in the step Part, where some can be mended, or choose another file.";
     case Stage::solve: return "Look at the part's faces named above; a coarser or cleaner mesh often helps.";
     case Stage::grid: return "Drag the corners to the sharp turns of the blank, or choose the harmonic method.";
     case Stage::lift: return "Choose the automatic grid method.";
-    case Stage::fit: return "Choose a finer grid.";
+    case Stage::fit:
+        return options.patches ? "Cut there, or take one patch in the step NURBS surface." : "Choose a finer grid.";
     }
     return "";
 }

@@ -36,8 +36,8 @@ struct ChainResult {
 /// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.
 ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress);
 
-/// What to do about a stage that failed, in one sentence. @param of_steps the blank was to be that of the steps
-std::string advice(Stage failed, bool of_steps = false);
+/// What to do about a stage that failed, in one sentence. @param options  that it was to be made with
+std::string advice(Stage failed, const SessionOptions& options);
 
 /// What to do about a blank that solves a weaker system than wanted, in one sentence; empty for the strict one.
 std::string advice(const SolveReport& report);

@@ -6,8 +6,8 @@ namespace spia::viewer {
 
 FitChoice fit_choice(const SessionOptions& options)
 {
-    return {options.tolerance,         options.interpolate.degree_u, options.interpolate.degree_v,
-            options.interpolate.ends,  options.fit_parameters,       options.max_control_points};
+    return {options.tolerance,        options.interpolate.degree_u, options.interpolate.degree_v,
+            options.interpolate.ends, options.fit_parameters,       options.max_control_points};
 }
 
 void set_fit(SessionOptions& options, const FitChoice& choice)

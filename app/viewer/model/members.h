@@ -112,6 +112,15 @@ inline constexpr auto members_of<FitChoice> =
                member("parameters", &FitChoice::parameters),
                member("max_control_points", &FitChoice::max_control_points, Between{16, 4'000'000})};
 
+inline constexpr auto is_cut = [](const std::vector<LayoutCut>& cuts, const Place& place) {
+    is_path(cuts, place);
+    for (size_t i = 0; i < cuts.size(); ++i)
+        any_index(cuts[i], place.entry(i));
+};
+template <>
+inline constexpr auto members_of<LayoutOptions> =
+    std::tuple{member("cuts", &LayoutOptions::cuts, is_cut), member("corners", &LayoutOptions::corners, any_index)};
+
 inline constexpr auto has_length = [](const Eigen::Vector3d& direction, const Place& place) {
     if (!(direction.norm() > 0))
         place.fail("must have a length");
@@ -232,7 +241,7 @@ inline constexpr auto members_of<ViewSettings> =
                member("features", &ViewSettings::features),
                member("control_net", &ViewSettings::control_net),
                member("part_under_quads", &ViewSettings::part_under_quads),
-               member("surface_deviation", &ViewSettings::surface_deviation),
+               member("surface_look", &ViewSettings::surface_look),
                member("quad_quality", &ViewSettings::quad_quality),
                member("unfolded", &ViewSettings::unfolded, Between{0, 1e6}),
                member("step", &ViewSettings::step, any_index),

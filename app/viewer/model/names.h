@@ -45,6 +45,15 @@ inline constexpr std::array names_of<Tool>{Names<Tool>{Tool::look, "look"},
                                            Names<Tool>{Tool::line, "line"},
                                            Names<Tool>{Tool::corners, "corners"}};
 template <>
+inline constexpr std::array names_of<SurfaceLook>{
+    Names<SurfaceLook>{SurfaceLook::plain, "plain"},
+    Names<SurfaceLook>{SurfaceLook::deviation, "deviation"},
+    Names<SurfaceLook>{SurfaceLook::tolerance, "tolerance"},
+    Names<SurfaceLook>{SurfaceLook::patches, "patches"},
+    Names<SurfaceLook>{SurfaceLook::zebra, "zebra"},
+    Names<SurfaceLook>{SurfaceLook::mean_curvature, "mean_curvature"},
+    Names<SurfaceLook>{SurfaceLook::gaussian_curvature, "gaussian_curvature"}};
+template <>
 inline constexpr std::array names_of<Stage>{Names<Stage>{Stage::read, "read"}, Names<Stage>{Stage::solve, "solve"},
                                             Names<Stage>{Stage::grid, "grid"}, Names<Stage>{Stage::lift, "lift"},
                                             Names<Stage>{Stage::fit, "fit"}};

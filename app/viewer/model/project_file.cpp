@@ -41,6 +41,7 @@ struct StoredProject {
     GridOptions grid;
     bool natural_ends = false; ///< how older files have the ends
     std::optional<FitChoice> fit;
+    std::optional<LayoutOptions> patches;
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
     std::optional<Stage> ran;
     bool steps_ran = false;
@@ -145,6 +146,7 @@ inline constexpr auto members_of<StoredProject> =
                member("grid", &StoredProject::grid),
                member("natural_ends", &StoredProject::natural_ends),
                member("fit", &StoredProject::fit),
+               member("patches", &StoredProject::patches),
                member("parameters", &StoredProject::parameters),
                member("ran", &StoredProject::ran),
                member("steps_ran", &StoredProject::steps_ran),
@@ -211,6 +213,18 @@ void require_version(const Json& json, const fs::path& file)
                         file.string(), schema, schema_name, version));
 }
 
+/// Members that older projects of this version have otherwise.
+void translate_older(Json& json)
+{
+    const auto view = json.find("view");
+    if (view == json.end() || !view->is_object())
+        return;
+    if (const auto deviation = view->find("surface_deviation"); deviation != view->end() && deviation->is_boolean()) {
+        (*view)["surface_look"] = name_in_table(deviation->get<bool>() ? SurfaceLook::deviation : SurfaceLook::plain);
+        view->erase("surface_deviation");
+    }
+}
+
 void require_directions(const StoredProject& stored, const Place& place)
 {
     if (stored.direction && !(stored.direction->norm() > 0))
@@ -246,9 +260,10 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     session.options.flatten.skins = stored.skins;
     session.options.flatten.direction = stored.direction;
     session.options.grid = stored.grid;
-    set_fit(session.options, stored.fit.value_or(FitChoice{
-                                 .ends = stored.natural_ends ? CurveEnds::natural : CurveEnds::averaged_knots}));
+    set_fit(session.options, stored.fit.value_or(FitChoice{.ends = stored.natural_ends ? CurveEnds::natural
+                                                                                       : CurveEnds::averaged_knots}));
     session.options.interpolate.parameters = stored.parameters;
+    session.options.patches = stored.patches;
     document.edge_restraint = stored.edge_restraint;
     document.rolling = stored.rolling;
     document.limits = stored.limits;
@@ -289,6 +304,7 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.grid = session.options.grid;
     stored.natural_ends = session.options.interpolate.ends == CurveEnds::natural;
     stored.fit = fit_choice(session.options);
+    stored.patches = session.options.patches;
     stored.parameters = session.options.interpolate.parameters;
     stored.ran = last_stage(session);
     stored.steps_ran = steps_done(document) > 0;
@@ -308,8 +324,9 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
 
 Project open_project(const fs::path& file, const fs::path& materials)
 {
-    const Json json = read_json(file);
+    Json json = read_json(file);
     require_version(json, file);
+    translate_older(json);
     StoredProject stored;
     const std::string name = file.string();
     const Place place(name);

@@ -8,6 +8,7 @@
 #include "app/viewer/model/statistics.h"
 #include "app/viewer/model/svg_chart.h"
 #include "engine/exchange/text_encoding.h"
+#include "engine/pipeline/certificate_report.h"
 
 namespace spia::viewer {
 namespace {
@@ -140,6 +141,24 @@ std::string tiles(const Session& session, const Json& figures)
     return text + "</section>\n";
 }
 
+/// Of many patches in one line, by the worst of them.
+std::string fitness(const Certificate& certificate)
+{
+    double least = 1, angle = 0;
+    size_t at = 0;
+    for (size_t p = 0; p < certificate.patch.size(); ++p)
+        if (certificate.patch[p].least_scaled < least) {
+            least = certificate.patch[p].least_scaled;
+            at = p;
+        }
+    for (const InterfaceCertificate& joint : certificate.interfaces)
+        angle = std::max(angle, joint.greatest_angle);
+    const auto why_not = unsuited(certificate);
+    return fmt::format("{}; scaled Jacobian at least {} (patch {}); angle at joints up to {}\u00b0",
+                       why_not ? "not proved: " + *why_not : "proved to have no fold and no gap", significant(least),
+                       at + 1, significant(angle * 180 / std::numbers::pi));
+}
+
 std::string key_figures(const Session& session, const Json& figures)
 {
     const FlattenResult& flat = *session.blank;
@@ -169,35 +188,45 @@ std::string key_figures(const Session& session, const Json& figures)
                                              grid.planar.columns, grid.planar.rows, grid.quality.folded_cells,
                                              fixed(grid.quality.min_scaled_jacobian, 3)));
     } else {
-        rows += row("Quad grid", "not made");
+        rows += row("Quad grid", session.options.patches ? "none: patches have grids of their own" : "not made");
     }
     if (session.surface) {
         const Json& surface = figures["surface"];
         const Deviation& deviation = session.surface->deviation;
-        rows += row("NURBS surface", fmt::format("{} \u00d7 {} control points", surface["control_points_u"].get<int>(),
-                                                 surface["control_points_v"].get<int>()));
+        const auto& patches = session.surface->patches;
+        rows += row(
+            "NURBS surface",
+            patches ? fmt::format("{} patches, {} joints without a gap, {} control points, shared ones counted once",
+                                  patches->patches.patch.size(), patches->patches.interfaces.size(),
+                                  shared_controls(patches->patches).count)
+                    : fmt::format("{} \u00d7 {} control points", surface["control_points_u"].get<int>(),
+                                  surface["control_points_v"].get<int>()));
         rows += row("Surface deviation",
                     fmt::format("at most {} mm, 95 % below {} mm, RMS {} mm", significant(deviation.max()),
                                 significant(surface["deviation_p95_mm"].get<double>()),
                                 significant(surface["deviation_rms_mm"].get<double>())));
         const Json& certificate = figures["certificate"];
-        for (const Json& patch : certificate["patches"])
-            rows += row("Fitness for analysis",
-                        fmt::format("{}; scaled Jacobian at least {}, mean {}",
-                                    patch["refused"].is_null()
-                                        ? "proved to have no fold"
-                                        : "not proved: " + patch["refused"]["why"].get<std::string>(),
-                                    significant(patch["scaled_jacobian_min"].get<double>()),
-                                    significant(patch["scaled_jacobian_mean"].get<double>())));
+        if (patches)
+            rows += row("Fitness for analysis", fitness(session.surface->certificate));
+        else
+            for (const Json& patch : certificate["patches"])
+                rows += row("Fitness for analysis",
+                            fmt::format("{}; scaled Jacobian at least {}, mean {}",
+                                        patch["refused"].is_null()
+                                            ? "proved to have no fold"
+                                            : "not proved: " + patch["refused"]["why"].get<std::string>(),
+                                        significant(patch["scaled_jacobian_min"].get<double>()),
+                                        significant(patch["scaled_jacobian_mean"].get<double>())));
         if (const auto& fit = session.surface->fit)
             rows += row("Tolerance of the surface",
                         fmt::format("{} mm, {} in {} rounds; {} % of the area within it", significant(fit->tolerance),
                                     fit->reached ? "met" : "not met", fit->rounds, fixed(100 * deviation.within(), 2)));
         constexpr double degrees = 180 / std::numbers::pi;
-        rows += row("Normals of the surface",
-                    fmt::format("mean {}\u00b0, 95 % below {}\u00b0, away from sharp edges at most {}\u00b0",
-                                fixed(degrees * deviation.normal.mean, 2), fixed(degrees * deviation.normal.p95, 2),
-                                fixed(degrees * deviation.normal.max_smooth, 1)));
+        if (!patches)
+            rows += row("Normals of the surface",
+                        fmt::format("mean {}\u00b0, 95 % below {}\u00b0, away from sharp edges at most {}\u00b0",
+                                    fixed(degrees * deviation.normal.mean, 2), fixed(degrees * deviation.normal.p95, 2),
+                                    fixed(degrees * deviation.normal.max_smooth, 1)));
     } else {
         rows += row("NURBS surface", "not made");
     }

@@ -108,6 +108,7 @@ struct SceneLayer {
                   1};                    ///< of the outer side without a field; opacity below 1 is blended, drawn last
     Colour back{0.55f, 0.42f, 0.36f, 1}; ///< of the inner side without a field
     bool lit = true;                     ///< shaded; a flat blank is not
+    bool zebra = false;                  ///< the stripes of lamps in a row, over the plain colour
     bool edges = false;                  ///< draw every edge
     bool features = true;                ///< draw boundary and sharp edges
 };

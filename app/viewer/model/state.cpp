@@ -37,7 +37,16 @@ static LaterResults shown(const ViewerState& state, bool there)
     return session.blank && state.before.blank == session.blank ? state.before : LaterResults{};
 }
 
-LaterResults quads_shown(const ViewerState& state) { return shown(state, state.document.session.lifted != nullptr); }
+bool has_scale(SurfaceLook look)
+{
+    return look != SurfaceLook::plain && look != SurfaceLook::patches && look != SurfaceLook::zebra;
+}
+
+LaterResults quads_shown(const ViewerState& state)
+{
+    const Session& session = state.document.session;
+    return shown(state, session.lifted || (session.surface && session.surface->patches));
+}
 
 LaterResults surface_shown(const ViewerState& state) { return shown(state, state.document.session.surface != nullptr); }
 
@@ -52,7 +61,11 @@ bool is_old(const ViewerState& state, View view)
             return false;
         [[fallthrough]];
     case View::blank: return state.document.session.blank && *stale <= Stage::solve;
-    case View::quads: return quads_shown(state).lifted && *stale <= Stage::lift;
+    case View::quads: {
+        const LaterResults made = quads_shown(state);
+        const bool of_patches = made.surface && made.surface->patches;
+        return (made.lifted || of_patches) && *stale <= (of_patches ? Stage::fit : Stage::lift);
+    }
     case View::surface: return surface_shown(state).surface != nullptr;
     }
     return false;

@@ -21,6 +21,19 @@ enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, se
 std::string_view name(Tool tool);
 Tool tool_by_name(std::string_view name); ///< @throws InputError
 
+/// What the colours of the NURBS surface say.
+enum class SurfaceLook {
+    plain,
+    deviation,      ///< its distance from the part
+    tolerance,      ///< likewise, in three bands: within the tolerance, below and above it
+    patches,        ///< no two neighbours in the same colour
+    zebra,          ///< stripes as lamps would throw them: a kink where they break, a jump in curvature where they bend
+    mean_curvature, ///< 1/mm
+    gaussian_curvature, ///< 1/mm2
+};
+/// Whether it has a legend.
+bool has_scale(SurfaceLook look);
+
 /// How things are looked at: kept with the project, but no matter of undo.
 struct ViewSettings {
     std::array<Camera, 4> camera; ///< by View
@@ -36,7 +49,7 @@ struct ViewSettings {
     bool features = true;
     bool control_net = true;
     bool part_under_quads = true;
-    bool surface_deviation = true;
+    SurfaceLook surface_look = SurfaceLook::deviation;
     bool quad_quality = true;
     double unfolded = 0;         ///< 0: the part; k: after step k; between: on the way. See step_position()
     std::optional<int> step;     ///< the chosen one, from 0: its faces are marked

@@ -55,15 +55,11 @@ Json listing_json(const ViewerState& state)
 Json options_json(const Document& document)
 {
     const SessionOptions& options = document.session.options;
-    return {{"material", document.material},
-            {"thickness", options.flatten.thickness},
-            {"blank_from", name(options.steps)},
-            {"skins", options.flatten.skins},
-            {"seam", written(options.read.seam)},
-            {"direction", written(options.flatten.direction)},
-            {"corners", written(options.corners)},
-            {"grid", written(options.grid)},
-            {"fit", written(fit_choice(options))}};
+    return {{"material", document.material},       {"thickness", options.flatten.thickness},
+            {"blank_from", name(options.steps)},   {"skins", options.flatten.skins},
+            {"seam", written(options.read.seam)},  {"direction", written(options.flatten.direction)},
+            {"corners", written(options.corners)}, {"grid", written(options.grid)},
+            {"fit", written(fit_choice(options))}, {"patches", written(options.patches)}};
 }
 
 Json stages_json(const Session& session)

@@ -103,7 +103,7 @@ Margins ViewFitter::margins(const ViewerState& state, View view) const
                                                                             : 72;
     const bool stepwise = view == View::part && (step_shown(state) || step_position(state) > 0);
     const bool coloured = view == View::quads     ? state.view.quad_quality
-                          : view == View::surface ? state.view.surface_deviation
+                          : view == View::surface ? has_scale(state.view.surface_look)
                           : stepwise ? state.view.field_on_steps && available_in_steps(document.display.field)
                                      : document.display.field != Field::none;
     return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};

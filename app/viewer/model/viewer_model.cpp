@@ -326,18 +326,18 @@ void ViewerModel::say_failed(const ChainResult& result)
     const bool reading = *result.failed == Stage::read;
     state_.refused = result.refused;
     if (!state_.refused || !reading) {
-        say(Severity::error, fmt::format("{} {}", sentence(result.message),
-                                         reading ? "Choose another file."
-                                         : *result.failed == Stage::grid
-                                             ? grid_advice(result.session)
-                                             : advice(*result.failed, result.session.options.steps.has_value())));
+        say(Severity::error,
+            fmt::format("{} {}", sentence(result.message),
+                        reading                         ? "Choose another file."
+                        : *result.failed == Stage::grid ? grid_advice(result.session)
+                                                        : advice(*result.failed, result.session.options)));
         return;
     }
     const auto& findings = state_.refused->doctor.findings;
     const auto worst = std::find_if(findings.begin(), findings.end(),
                                     [](const Finding& f) { return f.severity == spia::Severity::fatal; });
     say(Severity::error, fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(),
-                                     worst->text, advice(*result.failed)));
+                                     worst->text, advice(*result.failed, result.session.options)));
     fitter_.fit(state_, View::part);
 }
 

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/viewer_words.h"
+
 namespace spia::viewer {
 
 void fit_editor(Frame& frame, FitChoice fit)
 {
     const float width = 150 * frame.ui.scale;
+    const bool patches = frame.state.document.session.options.patches.has_value();
     bool changed = false;
     bool limited = fit.tolerance.has_value();
     if (ImGui::Checkbox("Within a tolerance", &limited)) {
@@ -15,8 +18,11 @@ void fit_editor(Frame& frame, FitChoice fit)
         fit.tolerance = limited ? std::optional(usual) : std::nullopt;
         changed = true;
     }
-    tooltip("Least squares, with knots only where the surface is too far from the part; else it runs through the nodes of "
-            "the grid");
+    tooltip(
+        patches
+            ? "Else within 1/1000 of the part's diagonal"
+            : "Least squares, with knots only where the surface is too far from the part; else it runs through the nodes of "
+              "the grid");
     if (fit.tolerance) {
         ImGui::SetNextItemWidth(width);
         if (typed_numbers(frame, "mm##tolerance", &*fit.tolerance, 1, "%.4g")) {
@@ -26,12 +32,17 @@ void fit_editor(Frame& frame, FitChoice fit)
     }
     double degrees[] = {double(fit.degree_u), double(fit.degree_v)};
     ImGui::SetNextItemWidth(width);
-    if (typed_numbers(frame, "Degree u, v", degrees, 2, "%.0f")) {
+    if (typed_numbers(frame, patches ? "Degree" : "Degree u, v", degrees, patches ? 1 : 2, "%.0f")) {
         fit.degree_u = int(std::clamp(degrees[0], 2., 5.));
-        fit.degree_v = int(std::clamp(degrees[1], 2., 5.));
+        fit.degree_v = patches ? fit.degree_u : int(std::clamp(degrees[1], 2., 5.));
         if (fit.ends == CurveEnds::natural && (fit.degree_u != 3 || fit.degree_v != 3))
             fit.ends = CurveEnds::averaged_knots;
         changed = true;
+    }
+    if (patches) { // whose sides are fitted first: no other ends, no other parameters
+        if (changed)
+            frame.actions.push(SetFit{fit});
+        return;
     }
     static constexpr const char* names[] = {"averaged knots", "clamped", "natural (paper)"};
     int ends = int(fit.ends);
@@ -42,8 +53,9 @@ void fit_editor(Frame& frame, FitChoice fit)
             fit.degree_u = fit.degree_v = 3;
         changed = true;
     }
-    tooltip("Averaged knots and clamped ends (by estimated tangents) keep the full order up to the border; natural ends, as in "
-            "the paper, are cubic and lose two orders there");
+    tooltip(
+        "Averaged knots and clamped ends (by estimated tangents) keep the full order up to the border; natural ends, as in "
+        "the paper, are cubic and lose two orders there");
     if (fit.tolerance) {
         bool corrected = fit.parameters == FitParameters::corrected;
         if (ImGui::Checkbox("Correct parameters", &corrected)) {
@@ -61,13 +73,17 @@ void fit_figures(Frame& frame, const SurfaceStage& surface)
     if (!surface.fit)
         return;
     const Palette p = palette_of(frame.state.view.dark);
-    ImGui::PushStyleColor(ImGuiCol_Text,
-                          surface.fit->reached ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.warning);
-    figure(frame, "Within tolerance", fmt::format("{:.2f} % of the area", 100 * surface.deviation.within()));
+    ImGui::PushStyleColor(ImGuiCol_Text, surface.fit->reached ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.warning);
+    if (surface.patches)
+        figure(frame, "Tolerance",
+               fmt::format("{:.3g} mm: {}", surface.fit->tolerance, surface.fit->reached ? "met" : "not met"));
+    else
+        figure(frame, "Within tolerance", fmt::format("{:.2f} % of the area", 100 * surface.deviation.within()));
     ImGui::PopStyleColor();
-    figure(frame, "Knots inserted", fmt::format("{} + {}", surface.fit->knots_u, surface.fit->knots_v));
+    if (!surface.patches)
+        figure(frame, "Knots inserted", fmt::format("{} + {}", surface.fit->knots_u, surface.fit->knots_v));
     if (!surface.fit->reached)
-        coloured(p.warning, surface.fit->shortfall.text);
+        coloured(p.warning, as_sentence(in_viewer_words(surface.fit->shortfall.text)));
 }
 
 } // namespace spia::viewer

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/viewer/model/cut_order.h"
 #include "app/viewer/model/statistics.h"
 #include "app/viewer/model/vertex_picking.h"
+#include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/colours.h"
@@ -228,6 +230,32 @@ void vertex_distance(Frame& frame)
                        100 * (distance->on_part / *distance->on_blank - 1)));
 }
 
+/// Offered for picked vertices whose ends are on the border; where they make no cut it says why.
+void cut_through_vertices(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    const std::vector<int>& vertices = frame.state.document.vertices;
+    if (vertices.size() < 2 || !session.blank || (vertices.size() == 4 && !session.options.patches))
+        return;
+    const std::string& why = frame.ui.no_cut.of({session.part, session.blank, vertices}, [&]() -> std::string {
+        try {
+            cut_through(session.part->mesh, session.blank->blank.position, vertices, session.part->source_vertex);
+            return "";
+        } catch (const Error& error) {
+            return error.what();
+        }
+    });
+    ImGui::BeginDisabled(!why.empty());
+    if (ImGui::Button("Cut into patches here", {-1, 0}))
+        frame.actions.push(AddCut{});
+    ImGui::EndDisabled();
+    if (why.empty())
+        tooltip(
+            "The surface becomes patches, two of which meet along the straight lines between these vertices on the blank");
+    else
+        muted(frame, why);
+}
+
 /// Offered for four picked vertices; where they are no corners it says why.
 void vertices_as_corners(Frame& frame)
 {
@@ -302,6 +330,7 @@ void vertices_section(Frame& frame)
     ImGui::PopFont();
     vertex_distance(frame);
     vertices_as_corners(frame);
+    cut_through_vertices(frame);
     if (vertices.size() > 1 && small_button(frame, "Remove all"))
         frame.actions.push(SelectVertices{});
 }
@@ -326,7 +355,7 @@ void looks_section(Frame& frame)
     changed |= ImGui::Checkbox("Feature lines", &view.features);
     changed |= ImGui::Checkbox("Part under the quads", &view.part_under_quads);
     changed |= ImGui::Checkbox("Colour quads by quality", &view.quad_quality);
-    changed |= ImGui::Checkbox("Colour surface by deviation", &view.surface_deviation);
+    changed |= surface_look_combo(frame, view.surface_look);
     changed |= ImGui::Checkbox("Control net", &view.control_net);
     if (changed)
         frame.actions.push(SetViewSettings{view});

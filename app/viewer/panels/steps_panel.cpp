@@ -5,6 +5,7 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/fit_editor.h"
 #include "app/viewer/panels/step_parts.h"
+#include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -213,6 +214,10 @@ void grid_step(Frame& frame)
         muted(frame, "Comes after the blank.");
         return;
     }
+    if (session.options.patches) {
+        muted(frame, "Not needed: the surface is made of patches, which have grids of their own.");
+        return;
+    }
     ImGui::BeginDisabled(!session.options.corners);
     if (ImGui::Button("Propose corners"))
         frame.actions.push(ProposeCorners{});
@@ -291,22 +296,20 @@ void surface_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     step_heading(frame, 5, "NURBS surface", status(frame, Stage::fit, session.surface != nullptr));
-    if (!session.surface) {
+    if (!session.blank) {
         muted(frame, "Comes after the grid.");
         return;
     }
-    const SurfaceStage& surface = *session.surface;
+    patches_editor(frame);
+    if (!session.surface) {
+        muted(frame, session.options.patches ? "Comes after the blank." : "Comes after the grid.");
+        return;
+    }
     fit_editor(frame, fit_choice(session.options));
-    figure(frame, "Control points",
-           fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
-    figure(frame, "Deviation, max", fmt::format("{:.3g} mm", surface.deviation.max()));
-    figure(frame, "rms",
-           fmt::format("{:.3g} mm",
-                       std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
-    figure(frame, "95 % within",
-           fmt::format("{:.3g} mm",
-                       std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
-    fit_figures(frame, surface);
+    ViewSettings view = frame.state.view;
+    if (surface_look_combo(frame, view.surface_look))
+        frame.actions.push(SetViewSettings{view});
+    surface_figures(frame, *session.surface);
 }
 
 } // namespace

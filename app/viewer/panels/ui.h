@@ -65,7 +65,9 @@ struct Ui {
     std::vector<KeyPress> keys;       ///< pressed since the last frame
     std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
     std::optional<Typed> typed;
-    int listed_place = -1; ///< of the fault that is shown: the list of its places was scrolled to it
+    Memo<std::string, std::shared_ptr<const PartFile>, std::shared_ptr<const FlattenResult>, std::vector<int>>
+        no_cut;                      ///< why the picked vertices make no cut; empty: they do
+    int listed_place = -1;           ///< of the fault that is shown: the list of its places was scrolled to it
     std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
 
     // the view the mouse is busy in

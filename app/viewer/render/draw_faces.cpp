@@ -23,6 +23,7 @@ void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
     shader.set("front", layer.colour);
     shader.set("back", Colour{layer.back[0], layer.back[1], layer.back[2], layer.colour[3]});
     shader.set("lit", layer.lit);
+    shader.set("zebra", layer.zebra);
     shader.set("pixel", pass.look.content_scale);
     shader.set("corner", glm::vec2(pass.tile.corner));
     shader.set("map", unit_map);

@@ -11,7 +11,7 @@ bool same_look(const SceneLayer& a, const SceneLayer& b)
     const auto all = [](const SceneLayer& layer) {
         const ColourScale& s = layer.scale;
         return std::tie(layer.mesh, layer.field, layer.marks, s.map, s.least, s.greatest, s.bands, s.isolines, s.ticks,
-                        layer.colour, layer.back, layer.lit, layer.edges, layer.features);
+                        layer.colour, layer.back, layer.lit, layer.zebra, layer.edges, layer.features);
     };
     return all(a) == all(b);
 }

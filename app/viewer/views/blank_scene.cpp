@@ -2,6 +2,7 @@
 
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/patch_shapes.h"
 #include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
@@ -146,7 +147,11 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
     };
     add(cache.outline.of({flat.mesh, state.view.dark},
                          [&] { return outline_lines(flat.position, part.boundary, state.view.dark); }));
-    if (!live && session.grid) {
+    const bool patches = session.surface && session.surface->patches;
+    if (!live && patches)
+        add(cache.patch_lines.of({session.surface, state.view.dark},
+                                 [&] { return layout_lines(session.surface->patches->layout, state.view.dark); }));
+    else if (!live && session.grid) {
         const bool choosing = state.view.tool == Tool::corners;
         const StageShape& grid = cache.planar_grid.of(
             {session.grid, choosing}, [&] { return planar_grid_shape(session.grid->result.planar, choosing); });
@@ -174,7 +179,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
         for (const Eigen::Vector3d& place : shown.place)
             result.labels.push_back({place, "lies on itself", palette::text(state.view.dark)});
     }
-    if (const auto corner = corners(state, cache))
+    if (const auto corner = patches || session.options.patches ? std::nullopt : corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
     add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);
     return result;

@@ -19,10 +19,14 @@ inline constexpr Colour pilot{0.20f, 0.80f, 0.88f, 1};
 inline constexpr Colour folded{0.90f, 0.12f, 0.16f, 1};
 inline constexpr Colour fixed{0.97f, 0.78f, 0.10f, 1};      ///< faces that carry what a step moves
 inline constexpr Colour freed{0.20f, 0.72f, 0.32f, 1};      ///< faces that a step moves
-inline constexpr Colour chosen{0.26f, 0.55f, 0.96f, 1};    ///< what is read of a file
+inline constexpr Colour chosen{0.26f, 0.55f, 0.96f, 1};     ///< what is read of a file
 inline constexpr Colour target{0.30f, 0.58f, 0.95f, 0.28f}; ///< the face in space onto which it moves them
 inline constexpr Colour quads{0.80f, 0.83f, 0.86f, 1};
 inline constexpr Colour surface{0.60f, 0.72f, 0.84f, 1};
+/// Of patches: neighbours have different ones.
+inline constexpr std::array<Colour, 6> patches{Colour{0.55f, 0.69f, 0.84f, 1}, Colour{0.93f, 0.74f, 0.51f, 1},
+                                               Colour{0.60f, 0.80f, 0.61f, 1}, Colour{0.84f, 0.61f, 0.66f, 1},
+                                               Colour{0.74f, 0.68f, 0.86f, 1}, Colour{0.90f, 0.86f, 0.55f, 1}};
 inline constexpr Colour ghost{0.62f, 0.66f, 0.72f, 0.22f};
 
 constexpr Colour text(bool dark) { return dark ? Colour{0.93f, 0.94f, 0.96f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }

@@ -3,6 +3,7 @@
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
+#include "app/viewer/views/patch_shapes.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/views.h"
@@ -16,6 +17,8 @@ std::string what_is_missing(const Session& session)
         return "The quad mesh appears here once a part is open and solved.";
     if (!session.blank)
         return "Solve first; then the blank can be filled with a grid of quads.";
+    if (session.options.patches)
+        return "Make the patches to see their quads on the part.";
     if (!session.grid)
         return "Make the grid to see the quad mesh on the part.";
     if (const int folded = session.grid->result.quality.folded_cells; folded > 0)
@@ -46,6 +49,15 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
     Scene result;
     const Session& session = state.document.session;
     const LaterResults made = quads_shown(state);
+    if (session.part && made.surface && made.surface->patches) {
+        const StageShape& shape = cache.patch_mesh.of(
+            {made.surface}, [&] { return patch_mesh_shape(*made.surface->patches, session.part->mesh); });
+        result.layers = shape.layers;
+        result.lines = shape.lines;
+        result.box = shape.box;
+        add_part_outlines(result, state, cache);
+        return result;
+    }
     if (!session.part || !made.lifted) {
         result.empty = what_is_missing(session);
         return result;

@@ -162,7 +162,9 @@ struct SceneCache {
     Memo<StageShape, Grid, Lifted, bool> quads;
     Memo<GridFigures, Grid, Blank> grid_figures;
     Memo<LineList, Part> boundary_on_quads;
-    Memo<StageShape, Part, Grid, Surface, bool> surface;
+    Memo<StageShape, Part, Grid, Surface, SurfaceLook, double> surface;
+    Memo<StageShape, Surface> patch_mesh;
+    Memo<LineList, Surface, bool> patch_lines;
     Memo<StageShape, Surface, bool> control_net;
     Memo<StageShape, Part> refused;
 };

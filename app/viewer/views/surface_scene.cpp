@@ -4,6 +4,47 @@
 #include "app/viewer/views/views.h"
 
 namespace spia::viewer {
+namespace {
+
+/// That of the fit; a surface without one is held against what is usual.
+double shown_tolerance(const SurfaceStage& surface)
+{
+    constexpr double usual = 0.1; // mm
+    return surface.fit ? surface.fit->tolerance : usual;
+}
+
+SceneLegend legend_of(SurfaceLook look, const SurfaceStage& surface, const SceneLayer& layer, double size)
+{
+    SceneLegend legend;
+    legend.scale = layer.scale;
+    const Eigen::VectorXf& value = layer.field->value;
+    const auto finite = value.array().isNaN().select(0, value.array());
+    legend.below = value.size() > 0 && below(layer.scale, finite.minCoeff());
+    legend.above = value.size() > 0 && above(layer.scale, finite.maxCoeff());
+    switch (look) {
+    case SurfaceLook::mean_curvature:
+        legend.title = "Mean curvature";
+        legend.unit = "1/mm";
+        return legend;
+    case SurfaceLook::gaussian_curvature:
+        legend.title = "Gaussian curvature";
+        legend.unit = "1/mm\u00b2";
+        return legend;
+    case SurfaceLook::tolerance: legend.note = "middle: within tolerance"; [[fallthrough]];
+    default: break;
+    }
+    legend.title = "Deviation";
+    legend.unit = "mm";
+    if (look == SurfaceLook::deviation) {
+        FieldDisplay shown;
+        shown.field = Field::deviation;
+        const double largest = surface.deviation.surface_to_mesh.max;
+        legend.note = noise_note(shown, {-largest, largest}, size);
+    }
+    return legend;
+}
+
+} // namespace
 
 Scene surface_scene(const ViewerState& state, SceneCache& cache)
 {
@@ -11,15 +52,20 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
     const Session& session = state.document.session;
     const LaterResults made = surface_shown(state);
     if (!session.part || !made.surface) {
-        result.empty = !session.part    ? "The NURBS surface appears here at the end of the chain."
-                       : session.lifted ? "Fit the surface to see it with its control net."
-                                        : "The NURBS surface needs the quad mesh on the part first.";
+        result.empty = !session.part ? "The NURBS surface appears here at the end of the chain."
+                       : session.lifted || session.options.patches
+                           ? "Fit the surface to see it with its control net."
+                           : "The NURBS surface needs the quad mesh on the part first.";
         return result;
     }
-    const NurbsSurface& surface = made.surface->result.surface;
-    const bool by_deviation = state.view.surface_deviation;
-    const StageShape& shape = cache.surface.of({session.part, made.grid, made.surface, by_deviation}, [&] {
-        return surface_shape(surface, by_deviation ? made.grid->result.filled.get() : nullptr);
+    const SurfaceLook look = state.view.surface_look;
+    const double tolerance = shown_tolerance(*made.surface);
+    const MultiPatch surface = surface_patches(*made.surface);
+    const StageShape& shape = cache.surface.of({session.part, made.grid, made.surface, look, tolerance}, [&] {
+        if (made.surface->patches)
+            return surface_shape(surface, {session.part->mesh, session.part->mesh.triangles()}, look, tolerance);
+        const FilledMesh& filled = *made.grid->result.filled;
+        return surface_shape(surface, {filled.mesh, filled.part_triangles}, look, tolerance);
     });
     result.layers = shape.layers;
     for (SceneLayer& layer : result.layers) {
@@ -27,13 +73,8 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
         layer.features = state.view.features;
     }
     result.box = shape.box;
-    if (by_deviation) {
-        result.legend = {"Deviation", "mm", shape.layers.front().scale};
-        FieldDisplay shown;
-        shown.field = Field::deviation;
-        const double largest = made.surface->deviation.surface_to_mesh.max;
-        result.legend->note = noise_note(shown, {-largest, largest}, part_shape(state, cache).box.diagonal().norm());
-    }
+    if (has_scale(look))
+        result.legend = legend_of(look, *made.surface, result.layers.front(), shape.box.diagonal().norm());
     if (state.view.control_net) {
         const StageShape& net = cache.control_net.of({made.surface, state.view.dark},
                                                      [&] { return control_net_shape(surface, state.view.dark); });

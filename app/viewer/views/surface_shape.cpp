@@ -11,33 +11,125 @@
 #include "engine/exchange/export_scene.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/nurbs/basis.h"
+#include "engine/nurbs/evaluate.h"
 
 namespace spia::viewer {
 namespace {
 
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
 /// Samples per span: the surface looks smooth, and a net of many spans stays quick to draw.
-int samples(const NurbsSurface& surface)
+int samples(const MultiPatch& surface)
 {
     const auto spans = [](const std::vector<double>& knots, int degree) {
         return double(span_borders(knots, degree).size()) - 1;
     };
-    const double cells = spans(surface.knots_u, surface.degree_u) * spans(surface.knots_v, surface.degree_v);
+    double cells = 0;
+    for (const NurbsSurface& patch : surface.patch)
+        cells += spans(patch.knots_u, patch.degree_u) * spans(patch.knots_v, patch.degree_v);
     constexpr double most_triangles = 250000;
     constexpr int finest = 6;
     return std::clamp(int(std::sqrt(most_triangles / (2 * cells))), 1, finest);
 }
 
+/// Patches of one colour as one mesh.
+struct Drawn {
+    std::vector<Tessellation> patch;
+    std::vector<Eigen::VectorXd> value; ///< per patch, one per vertex; empty: no field
+
+    TriMesh mesh() const
+    {
+        Eigen::Index vertices = 0, triangles = 0;
+        for (const Tessellation& p : patch) {
+            vertices += p.mesh.vertices();
+            triangles += p.mesh.triangles();
+        }
+        TriMesh all{Eigen::Matrix3Xd(3, vertices), Eigen::Matrix3Xi(3, triangles)};
+        vertices = triangles = 0;
+        for (const Tessellation& p : patch) {
+            all.position.middleCols(vertices, p.mesh.vertices()) = p.mesh.position;
+            all.triangle.middleCols(triangles, p.mesh.triangles()) = p.mesh.triangle.array() + int(vertices);
+            vertices += p.mesh.vertices();
+            triangles += p.mesh.triangles();
+        }
+        return all;
+    }
+    Eigen::VectorXd values() const
+    {
+        Eigen::Index count = 0;
+        for (const Eigen::VectorXd& v : value)
+            count += v.size();
+        Eigen::VectorXd all(count);
+        count = 0;
+        for (const Eigen::VectorXd& v : value) {
+            all.segment(count, v.size()) = v;
+            count += v.size();
+        }
+        return all;
+    }
+};
+
+/// With the normals of the surface instead of those of its triangles.
+std::shared_ptr<SceneMesh> drawn_mesh(const TriMesh& mesh, const Drawn& group)
+{
+    auto result = std::make_shared<SceneMesh>(scene_mesh(mesh));
+    Eigen::Index at = 0;
+    for (const Tessellation& p : group.patch) {
+        result->normal.middleCols(at, p.normal.cols()) = p.normal.cast<float>();
+        at += p.normal.cols();
+    }
+    for (size_t i = 0; i < result->repeated.size(); ++i)
+        result->normal.col(at + Eigen::Index(i)) = result->normal.col(result->repeated[i]);
+    result->feature = boundary_edges(mesh); // a NURBS surface is smooth; what is sharp is only bent strongly
+    return result;
+}
+
+/// As far to either side as the largest value, or as nearly all of them: a curvature has peaks that would hide the rest.
+double reach(const Eigen::VectorXd& value, double share)
+{
+    std::vector<double> size;
+    for (const double v : value)
+        if (std::isfinite(v))
+            size.push_back(std::abs(v));
+    if (size.empty())
+        return 0;
+    const auto at = size.begin() + long(share * double(size.size() - 1));
+    std::nth_element(size.begin(), at, size.end());
+    return *at;
+}
+
+ColourScale scale_of(SurfaceLook look, const Eigen::VectorXd& value, double tolerance, double size)
+{
+    ColourScale scale{.map = ColourMap::diverging};
+    if (look == SurfaceLook::tolerance) { // one band of three lies within it
+        scale.greatest = float(3 * tolerance);
+        scale.least = -scale.greatest;
+        scale.bands = 3;
+        scale.ticks = 6;
+        return scale;
+    }
+    double largest = look == SurfaceLook::deviation ? std::max(reach(value, 1), least_range(Field::deviation, size))
+                                                    : reach(value, 0.98);
+    if (look != SurfaceLook::deviation) // a plane is bent by rounding
+        largest = std::max(largest, look == SurfaceLook::mean_curvature ? 1e-6 / size : 1e-6 / (size * size));
+    const RoundRange range = round_range(-largest, largest, 0, true);
+    scale.least = float(range.least);
+    scale.greatest = float(range.greatest);
+    scale.ticks = range.intervals;
+    return scale;
+}
+
 } // namespace
 
-Eigen::VectorXd surface_deviation(const Tessellation& surface, const FilledMesh& part)
+Eigen::VectorXd surface_deviation(const Tessellation& surface, const DrawnPart& part)
 {
     const ClosestPointSearch search(part.mesh);
     Eigen::VectorXd result(surface.mesh.vertices());
     parallel_for(surface.mesh.vertices(), [&](int v) {
         const Eigen::Vector3d point = surface.mesh.position.col(v);
         const ClosestPoint nearest = search.nearest(point);
-        if (part.is_fill(nearest.face)) {
-            result[v] = std::numeric_limits<double>::quiet_NaN();
+        if (nearest.face >= part.part_faces) {
+            result[v] = none;
             return;
         }
         const Eigen::Matrix3d corner = part.mesh.position(Eigen::all, part.mesh.triangle.col(nearest.face));
@@ -47,43 +139,102 @@ Eigen::VectorXd surface_deviation(const Tessellation& surface, const FilledMesh&
     return result;
 }
 
-StageShape surface_shape(const NurbsSurface& surface, const FilledMesh* part)
+Eigen::VectorXd surface_curvature(const NurbsSurface& surface, const Tessellation& tessellation, bool gaussian)
 {
-    const Tessellation tessellation = tessellate(surface, samples(surface));
-    auto mesh = std::make_shared<SceneMesh>(scene_mesh(tessellation.mesh));
-    mesh->feature = boundary_edges(tessellation.mesh); // a NURBS surface is smooth; what is sharp is only bent strongly
-    SceneLayer layer;
-    layer.mesh = mesh;
-    layer.colour = palette::surface;
-    if (part) {
-        const Eigen::VectorXd deviation = surface_deviation(tessellation, *part);
-        layer.field = scene_field(*mesh, deviation, false);
-        double largest = 0;
-        for (const double d : deviation)
-            if (std::isfinite(d))
-                largest = std::max(largest, std::abs(d));
-        const Eigen::Vector3d size =
-            part->mesh.position.rowwise().maxCoeff() - part->mesh.position.rowwise().minCoeff();
-        largest = std::max(largest, least_range(Field::deviation, size.norm()));
-        const RoundRange range = round_range(-largest, largest, 0, true);
-        layer.scale = {.map = ColourMap::diverging,
-                       .least = float(range.least),
-                       .greatest = float(range.greatest),
-                       .ticks = range.intervals};
+    Eigen::VectorXd result(tessellation.mesh.vertices());
+    parallel_for(tessellation.mesh.vertices(), [&](int v) {
+        const SurfacePoint s = evaluate(surface, tessellation.uv(0, v), tessellation.uv(1, v));
+        const Eigen::Vector3d n = s.normal();
+        const double E = s.S_u.squaredNorm(), F = s.S_u.dot(s.S_v), G = s.S_v.squaredNorm(), L = n.dot(s.S_uu),
+                     M = n.dot(s.S_uv), N = n.dot(s.S_vv), area = E * G - F * F;
+        result[v] = n.isZero() || !(area > 0) ? none
+                    : gaussian                ? (L * N - M * M) / area
+                                              : (E * N - 2 * F * M + G * L) / (2 * area);
+    });
+    return result;
+}
+
+std::vector<int> patch_colours(const MultiPatch& surface)
+{
+    const size_t count = surface.patch.size();
+    std::vector<std::vector<int>> beside(count);
+    for (const PatchInterface& joint : surface.interfaces) {
+        beside[size_t(joint.first.patch)].push_back(joint.second.patch);
+        beside[size_t(joint.second.patch)].push_back(joint.first.patch);
     }
+    std::vector<int> colour(count, -1);
+    for (size_t p = 0; p < count;
+         ++p) { // the first that is free; a side of a patch has one neighbour, so four are taken at most
+        std::array<bool, palette::patches.size()> taken{};
+        for (const int q : beside[p])
+            if (colour[size_t(q)] >= 0)
+                taken[size_t(colour[size_t(q)])] = true;
+        colour[p] = int(std::find(taken.begin(), taken.end(), false) - taken.begin()) % int(taken.size());
+    }
+    return colour;
+}
+
+StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, SurfaceLook look, double tolerance)
+{
+    const int fine = samples(surface);
+    const std::vector<int> colour =
+        look == SurfaceLook::patches ? patch_colours(surface) : std::vector<int>(surface.patch.size(), 0);
+    std::array<Drawn, palette::patches.size()> drawn;
+    for (size_t p = 0; p < surface.patch.size(); ++p) {
+        Tessellation patch = tessellate(surface.patch[p], fine);
+        Drawn& group = drawn[size_t(colour[p])];
+        if (look == SurfaceLook::deviation || look == SurfaceLook::tolerance)
+            group.value.push_back(surface_deviation(patch, part));
+        else if (has_scale(look))
+            group.value.push_back(surface_curvature(surface.patch[p], patch, look == SurfaceLook::gaussian_curvature));
+        group.patch.push_back(std::move(patch));
+    }
+    const double size = (part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff()).norm();
     StageShape shape;
-    shape.layers.push_back(std::move(layer));
-    shape.box = {tessellation.mesh.position.rowwise().minCoeff(), tessellation.mesh.position.rowwise().maxCoeff()};
+    for (size_t c = 0; c < drawn.size(); ++c) {
+        if (drawn[c].patch.empty())
+            continue;
+        const TriMesh mesh = drawn[c].mesh();
+        SceneLayer layer;
+        layer.mesh = drawn_mesh(mesh, drawn[c]);
+        layer.colour = look == SurfaceLook::patches ? palette::patches[c] : palette::surface;
+        layer.zebra = look == SurfaceLook::zebra;
+        if (has_scale(look)) {
+            const Eigen::VectorXd value = drawn[c].values();
+            layer.field = scene_field(*layer.mesh, value, false);
+            layer.scale = scale_of(look, value, tolerance, size);
+        }
+        shape.layers.push_back(std::move(layer));
+        shape.box.extend(Eigen::AlignedBox3d(mesh.position.rowwise().minCoeff(), mesh.position.rowwise().maxCoeff()));
+    }
     return shape;
 }
 
-StageShape control_net_shape(const NurbsSurface& surface, bool dark)
+StageShape control_net_shape(const MultiPatch& surface, bool dark)
 {
-    StageShape shape;
+    Eigen::Index controls = 0, edges = 0;
+    for (const NurbsSurface& patch : surface.patch) {
+        controls += patch.control.cols();
+        edges += net_lines(patch.count_u, patch.count_v).cols();
+    }
+    Eigen::Matrix3Xd control(3, controls);
+    Eigen::Matrix2Xi lines(2, edges);
+    controls = edges = 0;
+    int most = 1;
+    for (const NurbsSurface& patch : surface.patch) {
+        const Eigen::Matrix2Xi net = net_lines(patch.count_u, patch.count_v);
+        control.middleCols(controls, patch.control.cols()) = patch.control;
+        lines.middleCols(edges, net.cols()) = net.array() + int(controls);
+        controls += patch.control.cols();
+        edges += net.cols();
+        most = std::max({most, patch.count_u, patch.count_v});
+    }
     // The denser the net, the fainter: it is not to cover the surface. As on a drawing, what is hidden is fainter still.
+    StageShape shape;
     Colour colour = palette::net(dark);
-    colour[3] *= std::clamp(14.f / float(std::max(surface.count_u, surface.count_v)), 0.2f, 1.f);
-    const auto hidden = scene_lines(surface.control, net_lines(surface.count_u, surface.count_v));
+    most = std::max(most, int(std::sqrt(double(control.cols())))); // of many patches
+    colour[3] *= std::clamp(14.f / float(most), 0.2f, 1.f);
+    const auto hidden = scene_lines(control, lines);
     hidden->colour = colour;
     hidden->colour[3] *= 0.3f;
     hidden->on_top = true;
@@ -91,12 +242,12 @@ StageShape control_net_shape(const NurbsSurface& surface, bool dark)
     seen->colour = colour;
     seen->on_top = false;
     shape.lines = {seen, hidden};
-    const auto points = scene_points(surface.control);
+    const auto points = scene_points(control);
     points->colour = colour;
     points->size = 3;
     points->on_top = false;
     shape.points.push_back(points);
-    shape.box = {surface.control.rowwise().minCoeff(), surface.control.rowwise().maxCoeff()};
+    shape.box = {control.rowwise().minCoeff(), control.rowwise().maxCoeff()};
     return shape;
 }
 

@@ -1,19 +1,37 @@
 #pragma once
+#include <span>
+
+#include "app/viewer/model/state.h"
 #include "app/viewer/views/scene_cache.h"
-#include "engine/mesh/fill_holes.h"
+#include "engine/mesh/tri_mesh.h"
+#include "engine/nurbs/multi_patch.h"
 #include "engine/nurbs/tessellate.h"
 
 namespace spia::viewer {
 
+/// What a surface stands for.
+struct DrawnPart {
+    const TriMesh& mesh;
+    int part_faces = 0; ///< faces after these fill holes of the part: there is nothing to keep to
+};
+
 /// Distance of every vertex of the surface from the part, mm: positive where it lies on the outer side; not a number
-/// where a hole of the part was filled, for there is nothing to keep to.
-Eigen::VectorXd surface_deviation(const Tessellation& surface, const FilledMesh& part);
+/// where a hole of the part was filled.
+Eigen::VectorXd surface_deviation(const Tessellation& surface, const DrawnPart& part);
 
-/// The surface in triangles.
-/// @param part  what it stands for; null: it is not coloured
-StageShape surface_shape(const NurbsSurface& surface, const FilledMesh* part);
+/// Curvature at each vertex of the triangles: mean (1/mm, positive where the surface bends towards its normal) or Gaussian
+/// (1/mm2). Not a number where the surface has no normal.
+Eigen::VectorXd surface_curvature(const NurbsSurface& surface, const Tessellation& tessellation, bool gaussian);
 
-/// Lines and points of the control net.
-StageShape control_net_shape(const NurbsSurface& surface, bool dark);
+/// The surface in triangles, one layer, or one for each colour of patches.
+/// @param tolerance  mm, of SurfaceLook::tolerance
+StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, SurfaceLook look, double tolerance);
+
+/// Colours by number, 0 to 5, as few as it takes, so that no two patches that share a side have the same. (Where six do not
+/// suffice, which no map in the plane needs, neighbours may.)
+std::vector<int> patch_colours(const MultiPatch& surface);
+
+/// Lines and points of the control nets.
+StageShape control_net_shape(const MultiPatch& surface, bool dark);
 
 } // namespace spia::viewer

@@ -415,7 +415,7 @@ TEST(SurfaceDeviation, OfAPlaneBesideTheOtherIsTheirDistanceWithItsSignAndNothin
         Tessellation surface;
         surface.mesh = shapes::rectangle(120, 80, 24, 16);
         surface.mesh.position.row(2).setConstant(height);
-        const Eigen::VectorXd deviation = surface_deviation(surface, filled);
+        const Eigen::VectorXd deviation = surface_deviation(surface, {filled.mesh, filled.part_triangles});
         int on_part = 0, on_holes = 0;
         for (int v = 0; v < deviation.size(); ++v) {
             const Eigen::Vector2d place = surface.mesh.position.col(v).head<2>();

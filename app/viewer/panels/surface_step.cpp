@@ -1,0 +1,135 @@
+#include "app/viewer/panels/surface_step.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "app/viewer/panels/fit_editor.h"
+#include "engine/pipeline/certificate_report.h"
+
+namespace spia::viewer {
+namespace {
+
+std::string cut_name(const LayoutCut& cut)
+{
+    return fmt::format(
+        "Cut from vertex {} to {}{}", cut.front(), cut.back(),
+        cut.size() > 2 ? fmt::format(", bent {}", cut.size() == 3 ? "once" : fmt::format("{} times", cut.size() - 2))
+                       : "");
+}
+
+/// The patch that suffers most by a measure.
+template <class Measure> size_t worst(const Certificate& certificate, const Measure& measure)
+{
+    size_t found = 0;
+    for (size_t p = 1; p < certificate.patch.size(); ++p)
+        if (measure(certificate.patch[p]) > measure(certificate.patch[found]))
+            found = p;
+    return found;
+}
+
+std::string of_patch(const Certificate& certificate, size_t patch)
+{
+    return certificate.patch.size() > 1 ? fmt::format(" (patch {})", patch + 1) : "";
+}
+
+void certificate_figures(Frame& frame, const Certificate& certificate)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    const auto why_not = unsuited(certificate);
+    ImGui::PushStyleColor(ImGuiCol_Text, why_not ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    figure(frame, "For analysis", why_not ? "not proved" : "no fold: proved");
+    ImGui::PopStyleColor();
+    tooltip(why_not ? *why_not
+                    : "The normal never vanishes nor turns round: proved by the Bezier coefficients of every span");
+    if (certificate.patch.empty())
+        return;
+    const size_t sharp = worst(certificate, [](const PatchCertificate& c) { return -c.least_scaled; });
+    figure(frame, "Least scaled Jacobian",
+           fmt::format("{:.3f}", certificate.patch[sharp].least_scaled) + of_patch(certificate, sharp));
+    tooltip("The sine of the angle between the parameter lines: 1 is best, 0 where they become one");
+    const size_t flat = worst(certificate, [](const PatchCertificate& c) { return c.condition; });
+    figure(frame, "Condition, worst",
+           fmt::format("{:.3g}", certificate.patch[flat].condition) + of_patch(certificate, flat));
+    tooltip("1 where the surface is a square grid, large where its spans are long or slanted");
+    const size_t slim = worst(certificate, [](const PatchCertificate& c) { return c.aspect; });
+    figure(frame, "Span aspect, worst",
+           fmt::format("{:.3g}", certificate.patch[slim].aspect) + of_patch(certificate, slim));
+    if (certificate.interfaces.empty())
+        return;
+    figure(frame, "Joints of patches", fmt::format("{}", certificate.interfaces.size()));
+    ImGui::PushStyleColor(ImGuiCol_Text, certificate.leak.empty() ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.error);
+    figure(frame, "Gaps", certificate.leak.empty() ? "none, bit for bit" : "yes");
+    ImGui::PopStyleColor();
+    tooltip(certificate.leak.empty() ? "Patches share the knots and control points of their sides" : certificate.leak);
+    double angle = 0;
+    for (const InterfaceCertificate& joint : certificate.interfaces)
+        angle = std::max(angle, joint.greatest_angle);
+    figure(frame, "Angle at joints", fmt::format("up to {:.3g}\u00b0", angle * 180 / std::numbers::pi));
+    tooltip("Between the normals of two patches at their common side: 0 where they join smoothly");
+}
+
+} // namespace
+
+bool surface_look_combo(const Frame& frame, SurfaceLook& look)
+{
+    static constexpr const char* names[] = {"one colour",    "deviation",      "tolerance band",    "patches",
+                                            "zebra stripes", "mean curvature", "Gaussian curvature"};
+    int chosen = int(look);
+    ImGui::SetNextItemWidth(150 * frame.ui.scale);
+    const bool changed = ImGui::Combo("Colours", &chosen, names, IM_ARRAYSIZE(names));
+    tooltip(
+        "Of the NURBS surface. Zebra stripes break where it has a kink and bend sharply where its curvature jumps.");
+    look = SurfaceLook(chosen);
+    return changed;
+}
+
+void patches_editor(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    const auto& patches = session.options.patches;
+    static constexpr const char* names[] = {"one patch", "several patches"};
+    int chosen = patches ? 1 : 0;
+    ImGui::SetNextItemWidth(150 * frame.ui.scale);
+    if (ImGui::Combo("Made of", &chosen, names, 2) && (chosen == 1) != patches.has_value())
+        frame.actions.push(SetPatches{chosen == 1 ? std::optional(LayoutOptions{}) : std::nullopt});
+    tooltip(
+        "One patch goes over the holes, by which CAD files trim it. Patches leave them open, which analysis needs; they "
+        "join without a gap.");
+    if (!patches)
+        return;
+    for (size_t k = 0; k < patches->cuts.size(); ++k) {
+        ImGui::PushID(int(k));
+        if (small_button(frame, "x"))
+            frame.actions.push(RemoveCut{int(k)});
+        ImGui::PopID();
+        tooltip("Take this cut away");
+        ImGui::SameLine();
+        muted(frame, cut_name(patches->cuts[k]));
+    }
+    if (patches->cuts.empty())
+        muted(frame, "To cut by hand, pick two vertices of the border with the tool Vertex.");
+}
+
+void surface_figures(Frame& frame, const SurfaceStage& surface)
+{
+    if (const auto& patches = surface.patches) {
+        figure(frame, "Patches", fmt::format("{}", patches->patches.patch.size()));
+        figure(frame, "Control points", fmt::format("{}", shared_controls(patches->patches).count));
+        tooltip("Those of joints count once");
+    } else {
+        figure(frame, "Control points",
+               fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
+    }
+    figure(frame, "Deviation, max", fmt::format("{:.3g} mm", surface.deviation.max()));
+    figure(frame, "rms",
+           fmt::format("{:.3g} mm",
+                       std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
+    figure(frame, "95 % within",
+           fmt::format("{:.3g} mm",
+                       std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
+    fit_figures(frame, surface);
+    certificate_figures(frame, surface.certificate);
+}
+
+} // namespace spia::viewer
