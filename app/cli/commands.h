@@ -38,6 +38,7 @@ struct RunArguments {
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;
     bool fill_holes = false;
+    std::string deform;          ///< file of a deformation of the finished surface; empty: none
     std::string patches = "one"; ///< one, auto, or a file of cuts
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's

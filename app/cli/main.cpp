@@ -191,11 +191,17 @@ int main(int count, char** values)
         ->check(CLI::PositiveNumber)
         ->type_name("MM");
     run_command
-        ->add_option("--patches", run.patches,
-                     "one patch over the blank with its holes filled, auto: four-sided patches around the holes, which share their "
-                     "sides, or a file of cuts {\"cuts\": [[12, 40], ...], \"corners\": [...]}, vertices of the file")
+        ->add_option(
+            "--patches", run.patches,
+            "one patch over the blank with its holes filled, auto: four-sided patches around the holes, which share their "
+            "sides, or a file of cuts {\"cuts\": [[12, 40], ...], \"corners\": [...]}, vertices of the file")
         ->type_name("auto|one|FILE")
         ->capture_default_str();
+    run_command
+        ->add_option(
+            "--deform", run.deform,
+            "moves control points of the finished surface, or all of it by a lattice around it (JSON, spia.deformation/1)")
+        ->type_name("FILE");
     run_command->add_option("--degree", run.degree, "of the surface along u and v, 2 to 5; one number for both")
         ->delimiter(',')
         ->expected(1, 2)

@@ -99,7 +99,10 @@ void print_summary(const Session& session)
         say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * deviation.within()),
             fit->knots_u, fit->knots_v, fit->rounds);
-    const Certificate& certificate = session.surface->certificate;
+    const Certificate& certificate = surface_certificate(session);
+    if (session.deformed)
+        say("deformed  control points moved by up to {:.4g} mm; deviations are those of the surface before\n",
+            session.deformed->result.largest);
     double scaled = 1;
     for (const PatchCertificate& patch : certificate.patch)
         scaled = std::min(scaled, patch.least_scaled);

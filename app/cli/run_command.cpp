@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/deform_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/process_file.h"
@@ -91,7 +92,8 @@ SessionOptions options(const RunArguments& arguments)
     if (result.patches && arguments.ends != "averaged")
         throw InputError("patches of a layout have averaged knots at their ends; leave --ends away");
     if (result.patches && (!arguments.corners.empty() || !arguments.grid.empty()))
-        throw InputError("--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
+        throw InputError(
+            "--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
     if (arguments.fit_parameters == "corrected")
         result.fit_parameters = FitParameters::corrected;
     result.max_control_points = arguments.max_control_points;
@@ -124,12 +126,18 @@ int run(const RunArguments& arguments)
     session.options = options(arguments);
     const OutputOptions wanted = output_options(arguments);
     require_file_name(wanted.name); // before the work
-    std::exception_ptr error;       // of a stage after the solver: the blank is worth writing all the same
+    const auto deformation =
+        arguments.deform.empty() ? std::nullopt : std::optional(read_deformation(arguments.deform));
+    std::exception_ptr error; // of a stage after the solver: the blank is worth writing all the same
     std::optional<Failure> failure;
     for (const Stage stage : chain) {
         JobDisplay display{std::string(name(stage))};
         try {
             session = run_stage(stage, session, display.progress());
+            if (stage == Stage::fit && deformation) {
+                session.options.deformation = deformation_of(*deformation, fitted_patches(*session.surface));
+                session = deform_surface(std::move(session));
+            }
         } catch (const Cancelled&) {
             throw;
         } catch (const std::exception& reason) {

@@ -105,7 +105,7 @@ std::vector<std::filesystem::path> write_iga_files(const std::filesystem::path& 
     std::vector<std::filesystem::path> files;
     for (const std::string& file : iga_file_names(format, name))
         files.push_back(folder / file);
-    const MultiPatch patches = surface_patches(*session.surface);
+    const MultiPatch patches = surface_patches(session);
     if (format == "geopdes") {
         write_geopdes(files[0], patches, name, unit);
         return files;

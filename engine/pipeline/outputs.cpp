@@ -178,17 +178,14 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     if (session.lifted)
         scene.quad_mesh = &session.lifted->lifted;
     Tessellation tessellation;
-    const NurbsSurface* surface = nullptr;
-    if (session.surface && session.surface->patches) {
-        tessellation = tessellation_of(session.surface->patches->patches);
+    MultiPatch surface;
+    if (session.surface) {
+        surface = surface_patches(session);
+        tessellation = tessellation_of(surface);
         scene.surface = &tessellation.mesh;
         scene.surface_normal = &tessellation.normal;
-    } else if (session.surface) {
-        surface = &session.surface->result.surface;
-        tessellation = tessellate(*surface, 3);
-        scene.surface = &tessellation.mesh;
-        scene.surface_normal = &tessellation.normal;
-        scene.control_net = surface;
+        if (surface.patch.size() == 1)
+            scene.control_net = &surface.patch.front();
     }
 
     const std::string_view blank_from = spia::name(session.options.steps);
@@ -214,11 +211,9 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
             files.push_back(folder / file);
         const fs::path path = files[first];
         if (format == "iges")
-            write_iges(path, surface_patches(*session.surface).patch, name, unit,
-                       std::span(&session.surface->trim.loop, 1));
+            write_iges(path, surface_patches(session).patch, name, unit, std::span(&session.surface->trim.loop, 1));
         else if (format == "step")
-            write_step(path, surface_patches(*session.surface).patch, name, unit,
-                       std::span(&session.surface->trim.loop, 1));
+            write_step(path, surface_patches(session).patch, name, unit, std::span(&session.surface->trim.loop, 1));
         else if (format == "glb")
             write_gltf(path, scene, options.glb);
         else if (format == "vtu") {

@@ -481,6 +481,10 @@ std::vector<std::string> shortcomings(const Session& session)
                 fmt::format("the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other "
                             "corners may part them",
                             session.part->source_vertex[size_t(hole.vertex)], hole.why));
+    if (session.deformed && session.surface->certificate.suited() && !session.deformed->certificate.suited())
+        list.push_back(
+            fmt::format("the deformation spoils the surface, which had no fold before: {}; move its points less",
+                        unsuited(session.deformed->certificate).value_or("")));
     return list;
 }
 
@@ -512,10 +516,12 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["grid"] = grid_json(session);
     if (session.surface)
         json["surface"] = surface_json(*session.surface, *session.part);
+    if (session.deformed)
+        json["deformation"] = deformation_json(*session.options.deformation, session.deformed->result);
     if (failure)
         json["failure"] = {{"stage", name(failure->stage)}, {"message", failure->message}};
     if (session.surface)
-        json["certificate"] = certificate_json(session.surface->certificate);
+        json["certificate"] = certificate_json(surface_certificate(session));
     json["shortcomings"] = shortcomings(session);
     json["files"] = Json::array();
     for (const auto& file : files)

@@ -8,6 +8,7 @@
 
 #include "engine/coons/grid.h"
 #include "engine/coons/lift.h"
+#include "engine/deform/deform.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
 #include "engine/layout/fit_patches.h"
@@ -50,6 +51,7 @@ struct SessionOptions {
     std::optional<LayoutOptions> patches;
     FitParameters fit_parameters = FitParameters::blank; ///< where a tolerance is given
     int max_control_points = FitOptions{}.max_control_points;
+    std::optional<Deformation> deformation; ///< of the finished surface; not given: it stays as it was fitted
     bool fill_holes = false; ///< the surface covers the holes of the part; else CAD files have it trimmed by them
 };
 
@@ -71,8 +73,14 @@ struct SurfaceStage {
     Certificate certificate;      ///< what analysis asks of it, patch by patch
 };
 
-/// The surface as patches: those of the layout, or the one.
-MultiPatch surface_patches(const SurfaceStage& stage);
+/// The surface as patches, as it was fitted: those of the layout, or the one.
+MultiPatch fitted_patches(const SurfaceStage& stage);
+
+/// The surface after its deformation.
+struct DeformedSurface {
+    DeformResult result;
+    Certificate certificate; ///< of no patch if it was left out
+};
 
 /// All there is to know about one part: what was asked for and the results so far. Results are finished and const;
 /// a copy is cheap, and an old copy is how one goes back.
@@ -86,6 +94,7 @@ struct Session {
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;
     std::shared_ptr<const SurfaceStage> surface;
+    std::shared_ptr<const DeformedSurface> deformed; ///< the same, where a deformation is asked for
 
     std::map<Stage, double> seconds; ///< of each stage that has run
 };
@@ -97,6 +106,15 @@ void require_possible(const Session& session);
 /// Judges the solved sheet anew by the options' limits, on a copy of the session: quick, no other result changes.
 /// @throws InputError if the part is not solved; else what forming_limits() throws
 Session judge_limits(Session session);
+
+/// Applies the options' deformation to the fitted surface, on a copy of the session: quick, no other result changes.
+/// @param measure  false leaves out the certificate and DeformResult::off_lattice: for a drag
+/// @throws InputError if there is no surface; else what deform() throws
+Session deform_surface(Session session, bool measure = true);
+
+/// The surface that leaves the program: deformed, if that is asked for. @pre session.surface
+MultiPatch surface_patches(const Session& session);
+const Certificate& surface_certificate(const Session& session);
 
 /// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are dropped.
 /// @throws InputError  if an earlier stage has not run; else what the stage throws

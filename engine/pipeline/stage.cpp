@@ -179,7 +179,7 @@ void make_surface(Session& session, const Progress& progress)
     stage.deviation.beyond.clear(); // needed no longer, and may be long
     if (!session.options.fill_holes)
         stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface);
-    stage.certificate = certify(surface_patches(stage));
+    stage.certificate = certify(fitted_patches(stage));
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
@@ -262,9 +262,33 @@ std::string_view name(const std::optional<BlankOfSteps>& steps)
     return !steps ? "one step" : steps->polish ? "steps, polished" : "steps";
 }
 
-MultiPatch surface_patches(const SurfaceStage& stage)
+MultiPatch fitted_patches(const SurfaceStage& stage)
 {
     return stage.patches ? stage.patches->patches : MultiPatch{{stage.result.surface}, {}};
+}
+
+MultiPatch surface_patches(const Session& session)
+{
+    return session.deformed ? session.deformed->result.patches : fitted_patches(*session.surface);
+}
+
+const Certificate& surface_certificate(const Session& session)
+{
+    return session.deformed ? session.deformed->certificate : session.surface->certificate;
+}
+
+Session deform_surface(Session session, bool measure)
+{
+    require(session.surface != nullptr, "fit the surface");
+    session.deformed = nullptr;
+    if (session.options.deformation) {
+        DeformedSurface deformed;
+        deformed.result = deform(fitted_patches(*session.surface), *session.options.deformation, measure);
+        if (measure)
+            deformed.certificate = certify(deformed.result.patches);
+        session.deformed = std::make_shared<DeformedSurface>(std::move(deformed));
+    }
+    return session;
 }
 
 void require_possible(const Session& session)
@@ -310,8 +334,10 @@ Session judge_limits(Session session)
 Session run_stage(Stage stage, Session session, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
-    if (stage <= Stage::fit)
+    if (stage <= Stage::fit) {
         session.surface = nullptr;
+        session.deformed = nullptr;
+    }
     if (stage <= Stage::lift)
         session.lifted = nullptr;
     if (stage <= Stage::grid)
@@ -348,6 +374,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
         require(session.options.patches ? session.blank != nullptr : session.lifted != nullptr,
                 session.options.patches ? "solve for the blank" : "lift the grid");
         session.options.patches ? make_patches(session, progress) : make_surface(session, progress);
+        session = deform_surface(std::move(session));
         break;
     }
     session.seconds[stage] = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();

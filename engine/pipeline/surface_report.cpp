@@ -91,6 +91,20 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
 
 } // namespace
 
+nlohmann::ordered_json deformation_json(const Deformation& deformation, const DeformResult& result)
+{
+    Json json = {{"control_points_given", deformation.moves.size()}, {"lattice", nullptr}};
+    if (const auto& lattice = deformation.lattice) {
+        int moved = 0;
+        for (Eigen::Index p = 0; p < lattice->move.cols(); ++p)
+            moved += !lattice->move.col(p).isZero(0);
+        json["lattice"] = {{"count", lattice->count}, {"degree", lattice->degree}, {"points_moved", moved}};
+    }
+    json["largest_mm"] = result.largest;
+    json["off_lattice_mm"] = result.off_lattice;
+    return json;
+}
+
 nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& part)
 {
     const Deviation& d = stage.deviation;

@@ -9,4 +9,7 @@ namespace spia {
 /// @param part  whose numbers of the file name vertices
 nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& part);
 
+/// What was moved, and by how much.
+nlohmann::ordered_json deformation_json(const Deformation& deformation, const DeformResult& result);
+
 } // namespace spia

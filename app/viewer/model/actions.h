@@ -19,6 +19,8 @@
 /// between two frames. In a script an action is an object {"do": NAME, ...} with the members of its struct; NAME is given here.
 namespace spia::viewer {
 
+enum class PickMode { replace, add, remove };
+
 // --- the chain
 /// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), keep_largest (all
 /// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
@@ -118,6 +120,43 @@ struct RemoveCut {
     int cut = 0;
 }; ///< "remove_cut"
 
+// --- the shape of the surface
+/// "set_lattice": lattice {count [l, m, n], degree [p, q, r]} at rest around the surface; null: none.
+struct LatticeChoice {
+    std::array<int, 3> count = {4, 4, 4}, degree = {3, 3, 3};
+};
+struct SetLattice {
+    std::optional<LatticeChoice> lattice = {};
+};
+/// "pick_handle": of a kind ("control", "lattice") the one that the view of the surface shows nearest to a pixel.
+struct PickHandle {
+    HandleKind kind = HandleKind::control;
+    glm::dvec2 pixel{0};
+    glm::dvec2 size{0};
+    PickMode mode = PickMode::replace;
+    double reach = 12; ///< pixels
+};
+struct SelectHandles {
+    HandleKind kind = HandleKind::control;
+    std::vector<int> handles = {};
+    PickMode mode = PickMode::replace;
+}; ///< "select_handles": kind, handles (numbers, see model/handles.h), mode
+/// "move_handles": the picked ones of a kind by [x, y, z], mm; while dragging it is not judged what becomes of the surface
+struct MoveHandles {
+    HandleKind kind = HandleKind::control;
+    Eigen::Vector3d by{0, 0, 0};
+    bool dragging = false;
+};
+struct ResetHandles {
+    HandleKind kind = HandleKind::control;
+}; ///< "reset_handles": what was moved by this kind goes back
+struct OpenDeformation {
+    std::filesystem::path file;
+}; ///< "open_deformation" of the command line's form (spia.deformation/1)
+struct SaveDeformation {
+    std::filesystem::path file;
+}; ///< "save_deformation"
+
 /// "set_limits": curve ("automatic", "keeler_brazier", "points" of a table, "none"), table, n, margin, max_thinning,
 /// max_thickening, low_strain. A blank that is there is judged anew at once.
 struct SetLimits {
@@ -193,7 +232,6 @@ struct ShowStep {
 };
 
 // --- picking
-enum class PickMode { replace, add, remove };
 struct SelectFaces {
     std::vector<int> faces;
     PickMode mode = PickMode::replace;
@@ -361,8 +399,9 @@ struct Quit {};            ///< "quit"
 using Action =
     std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
                  SetMaterial, FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
-                 SetFit, SetPatches, AddCut, RemoveCut, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps,
-                 SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep,
+                 SetFit, SetPatches, AddCut, RemoveCut, SetLattice, PickHandle, SelectHandles, MoveHandles,
+                 ResetHandles, OpenDeformation, SaveDeformation, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps,
+                 OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep,
                  SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex, UseVerticesAsCorners,
                  GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion,
                  RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices, SetProcess,

@@ -62,6 +62,18 @@ struct ViewerModel::Apply {
     void operator()(const RemoveCut& action);
     void operator()(const SetLimits& action);
 
+    // --- the shape of the surface
+    void deform(std::string name, std::optional<Deformation> deformation, bool dragging = false);
+    std::vector<int>& picked_handles(HandleKind kind);
+    void pick_handles(HandleKind kind, std::vector<int> handles, PickMode mode);
+    void operator()(const SetLattice& action);
+    void operator()(const PickHandle& action);
+    void operator()(const SelectHandles& action);
+    void operator()(const MoveHandles& action);
+    void operator()(const ResetHandles& action);
+    void operator()(const OpenDeformation& action);
+    void operator()(const SaveDeformation& action);
+
     // --- unfolding step by step
     void require_idle() const;
     size_t step(int number) const;

@@ -113,6 +113,17 @@ glm::dvec3 pixel_of(const Camera& camera, const Eigen::Vector3d& place, glm::dve
     return {size.x / 2 + seen.x * pixels_per_mm, size.y / 2 - seen.y * pixels_per_mm, seen.z};
 }
 
+Eigen::Vector3d place_beside(const Camera& camera, const Eigen::Vector3d& place, glm::dvec2 pixels, glm::dvec2 size)
+{
+    double mm_per_pixel = camera.height / size.y;
+    if (camera.perspective) {
+        const glm::dvec3 seen = glm::conjugate(camera.turn) * (to_glm(place) - camera.target);
+        mm_per_pixel *= std::max(eye_distance(camera) - seen.z, 0.) / eye_distance(camera);
+    }
+    const glm::dvec3 way = camera.turn * glm::dvec3(pixels.x * mm_per_pixel, -pixels.y * mm_per_pixel, 0);
+    return place + Eigen::Vector3d(way.x, way.y, way.z);
+}
+
 Camera orbit(Camera camera, glm::dvec2 drag, glm::dvec2 size)
 {
     if (camera.flat)

@@ -36,6 +36,9 @@ Ray ray_through(const Camera& camera, const Eigen::AlignedBox3d& box, glm::dvec2
 /// beside or behind the eye has no pixel: all three are NaN.
 glm::dvec3 pixel_of(const Camera& camera, const Eigen::Vector3d& place, glm::dvec2 size);
 
+/// Where a place gets to that moves by so many pixels in the plane of the picture; in perspective as much as its depth asks for.
+Eigen::Vector3d place_beside(const Camera& camera, const Eigen::Vector3d& place, glm::dvec2 pixels, glm::dvec2 size);
+
 /// Turns by a drag from one pixel to another: left and right about the vertical of the picture, up and down about its horizontal. A
 /// flat camera pans instead.
 Camera orbit(Camera camera, glm::dvec2 drag, glm::dvec2 size);

@@ -138,6 +138,7 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
 {
     ChainResult result;
     result.session = std::move(session);
+    result.session.options.deformation.reset(); // of the surface that comes of it, not of the chain
     result.made_with = std::move(made_with);
     double whole = 0, done = 0;
     for (const Stage stage : chain)

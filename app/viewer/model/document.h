@@ -65,6 +65,7 @@ struct Document {
     std::string material = "mild_steel"; ///< a built-in grade, or the path of a material file
     std::vector<int> selected;           ///< faces of the part, ascending
     std::vector<int> vertices;           ///< picked ones of the part, ascending
+    std::vector<int> controls, lattice_points; ///< picked handles of the surface, ascending; see handles.h
     std::vector<FaceRegion> regions;
     std::vector<ProcessLine> lines;
     double edge_restraint = 0;              ///< of the outer edge, as a share of the lock force

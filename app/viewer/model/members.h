@@ -2,6 +2,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "app/viewer/model/actions.h"
 #include "app/viewer/model/fit_choice.h"
 #include "app/viewer/model/json_members.h"
 #include "app/viewer/model/report_options.h"
@@ -120,6 +121,16 @@ inline constexpr auto is_cut = [](const std::vector<LayoutCut>& cuts, const Plac
 template <>
 inline constexpr auto members_of<LayoutOptions> =
     std::tuple{member("cuts", &LayoutOptions::cuts, is_cut), member("corners", &LayoutOptions::corners, any_index)};
+
+inline constexpr Between lattice_points{2, 64}, lattice_degrees{1, 5};
+template <>
+inline constexpr auto members_of<LatticeChoice> = std::tuple{member("count", &LatticeChoice::count, lattice_points),
+                                                             member("degree", &LatticeChoice::degree, lattice_degrees)};
+template <>
+inline constexpr auto members_of<ControlMove> =
+    std::tuple{required("patch", &ControlMove::patch, any_index), required("i", &ControlMove::i, any_index),
+               required("j", &ControlMove::j, any_index),
+               required("by", &ControlMove::move, Between{-most_mm, most_mm})};
 
 inline constexpr auto has_length = [](const Eigen::Vector3d& direction, const Place& place) {
     if (!(direction.norm() > 0))
@@ -243,6 +254,7 @@ inline constexpr auto members_of<ViewSettings> =
                member("part_under_quads", &ViewSettings::part_under_quads),
                member("surface_look", &ViewSettings::surface_look),
                member("quad_quality", &ViewSettings::quad_quality),
+               member("handles", &ViewSettings::handles),
                member("unfolded", &ViewSettings::unfolded, Between{0, 1e6}),
                member("step", &ViewSettings::step, any_index),
                member("field_on_steps", &ViewSettings::field_on_steps)};

@@ -43,7 +43,11 @@ inline constexpr std::array names_of<Tool>{Names<Tool>{Tool::look, "look"},
                                            Names<Tool>{Tool::vertex, "vertex"},
                                            Names<Tool>{Tool::outline, "outline"},
                                            Names<Tool>{Tool::line, "line"},
+                                           Names<Tool>{Tool::shape, "shape"},
                                            Names<Tool>{Tool::corners, "corners"}};
+template <>
+inline constexpr std::array names_of<HandleKind>{Names<HandleKind>{HandleKind::control, "control"},
+                                                 Names<HandleKind>{HandleKind::lattice, "lattice"}};
 template <>
 inline constexpr std::array names_of<SurfaceLook>{
     Names<SurfaceLook>{SurfaceLook::plain, "plain"},

@@ -42,6 +42,8 @@ struct StoredProject {
     bool natural_ends = false; ///< how older files have the ends
     std::optional<FitChoice> fit;
     std::optional<LayoutOptions> patches;
+    std::vector<ControlMove> moved_controls;
+    std::optional<Lattice> lattice;
     InterpolateOptions::Parameters parameters = InterpolateOptions::Parameters::chord;
     std::optional<Stage> ran;
     bool steps_ran = false;
@@ -60,6 +62,20 @@ struct StoredProject {
 constexpr Between anywhere_in_space{-most_mm, most_mm};
 
 } // namespace
+
+inline constexpr auto is_sound = [](const std::optional<Lattice>& lattice, const Place& place) {
+    try {
+        if (lattice)
+            require_sound(*lattice);
+    } catch (const InputError& error) {
+        place.fail(fmt::format("is no lattice: {}", error.what()));
+    }
+};
+template <>
+inline constexpr auto members_of<Lattice> =
+    std::tuple{required("origin", &Lattice::origin, anywhere_in_space), required("edge", &Lattice::edge),
+               required("count", &Lattice::count, lattice_points),
+               required("degree", &Lattice::degree, lattice_degrees), required("move", &Lattice::move)};
 
 template <>
 inline constexpr auto members_of<StoredPatch> =
@@ -147,6 +163,8 @@ inline constexpr auto members_of<StoredProject> =
                member("natural_ends", &StoredProject::natural_ends),
                member("fit", &StoredProject::fit),
                member("patches", &StoredProject::patches),
+               member("moved_controls", &StoredProject::moved_controls),
+               member("lattice", &StoredProject::lattice, is_sound),
                member("parameters", &StoredProject::parameters),
                member("ran", &StoredProject::ran),
                member("steps_ran", &StoredProject::steps_ran),
@@ -264,6 +282,8 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
                                                                                        : CurveEnds::averaged_knots}));
     session.options.interpolate.parameters = stored.parameters;
     session.options.patches = stored.patches;
+    if (!stored.moved_controls.empty() || stored.lattice)
+        session.options.deformation = Deformation{stored.moved_controls, stored.lattice};
     document.edge_restraint = stored.edge_restraint;
     document.rolling = stored.rolling;
     document.limits = stored.limits;
@@ -305,6 +325,10 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.natural_ends = session.options.interpolate.ends == CurveEnds::natural;
     stored.fit = fit_choice(session.options);
     stored.patches = session.options.patches;
+    if (const auto& deformation = session.options.deformation) {
+        stored.moved_controls = deformation->moves;
+        stored.lattice = deformation->lattice;
+    }
     stored.parameters = session.options.interpolate.parameters;
     stored.ran = last_stage(session);
     stored.steps_ran = steps_done(document) > 0;

@@ -17,9 +17,27 @@ inline constexpr View all_views[] = {View::part, View::blank, View::quads, View:
 std::string_view name(View view);         ///< "part", ...
 View view_by_name(std::string_view name); ///< @throws InputError
 
-enum class Tool { look, pick, box, lasso, brush, flood, smooth_region, probe, section, vertex, outline, corners, line };
+enum class Tool {
+    look,
+    pick,
+    box,
+    lasso,
+    brush,
+    flood,
+    smooth_region,
+    probe,
+    section,
+    vertex,
+    outline,
+    corners,
+    line,
+    shape
+};
 std::string_view name(Tool tool);
 Tool tool_by_name(std::string_view name); ///< @throws InputError
+
+/// What is dragged of the surface with the tool shape.
+enum class HandleKind { control, lattice };
 
 /// What the colours of the NURBS surface say.
 enum class SurfaceLook {
@@ -51,6 +69,7 @@ struct ViewSettings {
     bool part_under_quads = true;
     SurfaceLook surface_look = SurfaceLook::deviation;
     bool quad_quality = true;
+    HandleKind handles = HandleKind::control;
     double unfolded = 0;         ///< 0: the part; k: after step k; between: on the way. See step_position()
     std::optional<int> step;     ///< the chosen one, from 0: its faces are marked
     bool field_on_steps = false; ///< the field of the states instead of the marks
@@ -105,6 +124,7 @@ struct ViewerState {
     LaterResults before;           ///< those that a grid being made (a corner being dragged) has put out of date
     std::filesystem::path project; ///< file it was saved to or opened from; empty: none yet
     bool unsaved = false;
+    bool shape_dragged = false;              ///< handles of the surface follow the mouse
     std::optional<int> hovered;              ///< face under the mouse
     std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
     std::optional<ShownFault> fault;         ///< the one that is looked at

@@ -55,11 +55,20 @@ Json listing_json(const ViewerState& state)
 Json options_json(const Document& document)
 {
     const SessionOptions& options = document.session.options;
-    return {{"material", document.material},       {"thickness", options.flatten.thickness},
-            {"blank_from", name(options.steps)},   {"skins", options.flatten.skins},
-            {"seam", written(options.read.seam)},  {"direction", written(options.flatten.direction)},
-            {"corners", written(options.corners)}, {"grid", written(options.grid)},
-            {"fit", written(fit_choice(options))}, {"patches", written(options.patches)}};
+    return {{"material", document.material},
+            {"thickness", options.flatten.thickness},
+            {"blank_from", name(options.steps)},
+            {"skins", options.flatten.skins},
+            {"seam", written(options.read.seam)},
+            {"direction", written(options.flatten.direction)},
+            {"corners", written(options.corners)},
+            {"grid", written(options.grid)},
+            {"fit", written(fit_choice(options))},
+            {"patches", written(options.patches)},
+            {"moved_controls", options.deformation ? options.deformation->moves.size() : 0},
+            {"lattice", options.deformation && options.deformation->lattice
+                            ? written(options.deformation->lattice->count)
+                            : Json(nullptr)}};
 }
 
 Json stages_json(const Session& session)

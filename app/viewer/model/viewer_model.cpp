@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "app/viewer/model/grid_advice.h"
+#include "app/viewer/model/handles.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
@@ -267,6 +268,33 @@ void ViewerModel::keep_before(const ChainResult& result, const LaterResults& qua
         state_.before = last;
 }
 
+/// The lattice bends whatever surface there is; what control points were moved belongs to the surface they are of.
+/// @param before  the surface that there was; null: none, the moves are those of a project
+/// @returns in words what could not be kept
+static std::vector<std::string> deform_again(Document& document, const std::shared_ptr<const SurfaceStage>& before)
+{
+    Session& session = document.session;
+    auto& deformation = session.options.deformation;
+    session.deformed = nullptr;
+    std::vector<std::string> lost;
+    if (before && before != session.surface) {
+        document.controls.clear();
+        if (deformation && !deformation->moves.empty()) {
+            deformation = reset(deformation, HandleKind::control);
+            lost.push_back("The moves of single control points were taken back: the surface has others now.");
+        }
+    }
+    if (deformation && session.surface)
+        try {
+            session = deform_surface(std::move(session));
+        } catch (const InputError& error) {
+            deformation.reset();
+            lost.push_back(fmt::format("The deformation of the surface was left out: {}.", error.what()));
+        }
+    document.made_with.deformation = deformation;
+    return lost;
+}
+
 /// Puts the results of a run into a document. On a part that was read otherwise the picks stay where they are in space.
 /// @returns in words what was not found again
 std::vector<std::string> ViewerModel::take_over(Document& document, const ChainResult& result) const
@@ -278,10 +306,12 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     std::optional<StoredPicks> picks;
     if (renumbered)
         picks = store_picks(document);
+    const std::shared_ptr<const SurfaceStage> surface_before = document.session.surface;
     SessionOptions wanted = std::move(document.session.options); // may have changed meanwhile
     document.session = result.session;
     document.session.options = std::move(wanted);
     document.made_with = result.made_with;
+    std::vector<std::string> lost = deform_again(document, surface_before);
     if (document.session.blank && document.session.options.limits != document.made_with.limits) { // changed meanwhile
         document.made_with.limits = document.session.options.limits;
         document.session.limits = judge_limits(as_made(document)).limits;
@@ -289,14 +319,16 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     if (before && before != after)
         document.section.reset();
     if (!picks)
-        return {};
+        return lost;
     document.selected.clear();
     document.vertices.clear();
     document.probes.clear();
     document.regions.clear();
     document.lines.clear();
     document.steps.clear();
-    return restore(document, *picks, result.search);
+    for (std::string& text : restore(document, *picks, result.search))
+        lost.push_back(std::move(text));
+    return lost;
 }
 
 /// Picks and, made of them, the process. @returns in words what was not found again, or why nothing was

@@ -310,6 +310,7 @@ void surface_step(Frame& frame)
     if (surface_look_combo(frame, view.surface_look))
         frame.actions.push(SetViewSettings{view});
     surface_figures(frame, *session.surface);
+    shape_editor(frame);
 }
 
 } // namespace

@@ -69,7 +69,68 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
     tooltip("Between the normals of two patches at their common side: 0 where they join smoothly");
 }
 
+void picked_handles(Frame& frame, HandleKind kind)
+{
+    const Document& document = frame.state.document;
+    const std::vector<int>& picked = kind == HandleKind::control ? document.controls : document.lattice_points;
+    const char* what = kind == HandleKind::control ? "control point" : "lattice point";
+    if (picked.empty()) {
+        muted(frame, fmt::format("Pick {}s in the view of the surface with the tool Shape, and drag them.", what));
+        return;
+    }
+    figure(frame, "Picked", fmt::format("{} {}{}", picked.size(), what, picked.size() == 1 ? "" : "s"));
+    double by[3] = {0, 0, 0};
+    ImGui::SetNextItemWidth(150 * frame.ui.scale);
+    if (typed_numbers(frame, "Move by, mm", by, 3, "%.4g"))
+        frame.actions.push(MoveHandles{kind, {by[0], by[1], by[2]}, false});
+}
+
 } // namespace
+
+void shape_editor(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    const auto& deformation = session.options.deformation;
+    const bool lattice = deformation && deformation->lattice;
+    const HandleKind kind = frame.state.view.handles;
+    ImGui::Dummy({0, 2 * frame.ui.scale});
+    if (small_button(frame, lattice ? "Remove lattice" : "Lay a lattice"))
+        frame.actions.push(SetLattice{lattice ? std::nullopt : std::optional(LatticeChoice{})});
+    tooltip(lattice ? "Its bend is taken back" : "Around the surface: its points are dragged to bend all of it");
+    if (lattice) {
+        double count[3];
+        for (size_t k = 0; k < 3; ++k)
+            count[k] = deformation->lattice->count[k];
+        ImGui::SetNextItemWidth(150 * frame.ui.scale);
+        if (typed_numbers(frame, "Points", count, 3, "%.0f")) {
+            LatticeChoice choice;
+            for (size_t k = 0; k < 3; ++k) {
+                choice.count[k] = int(std::clamp(count[k], 2., 64.));
+                choice.degree[k] = std::min(3, choice.count[k] - 1);
+            }
+            frame.actions.push(SetLattice{choice});
+        }
+        tooltip("Along x, y and z. Another lattice begins at rest.");
+    }
+    if (frame.state.view.tool == Tool::shape && (kind == HandleKind::control || lattice))
+        picked_handles(frame, kind);
+    if (!session.deformed)
+        return;
+    figure(frame, "Moved by up to", fmt::format("{:.4g} mm", session.deformed->result.largest));
+    if (lattice && !frame.state.shape_dragged && session.deformed->result.off_lattice > 0) {
+        figure(frame, "Off the lattice's bend", fmt::format("{:.2g} mm", session.deformed->result.off_lattice));
+        tooltip(
+            "As far is the surface of the moved control points from the surface bent by the lattice itself; more control points "
+            "bring it nearer");
+    }
+    for (const HandleKind each : {HandleKind::control, HandleKind::lattice}) {
+        const bool there =
+            each == HandleKind::control ? !deformation->moves.empty() : lattice && !deformation->lattice->at_rest();
+        if (there &&
+            small_button(frame, each == HandleKind::control ? "Take control points back" : "Take lattice points back"))
+            frame.actions.push(ResetHandles{each});
+    }
+}
 
 bool surface_look_combo(const Frame& frame, SurfaceLook& look)
 {
@@ -129,7 +190,8 @@ void surface_figures(Frame& frame, const SurfaceStage& surface)
            fmt::format("{:.3g} mm",
                        std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
     fit_figures(frame, surface);
-    certificate_figures(frame, surface.certificate);
+    if (!frame.state.shape_dragged)
+        certificate_figures(frame, surface_certificate(frame.state.document.session));
 }
 
 } // namespace spia::viewer

@@ -10,6 +10,9 @@ void patches_editor(Frame& frame);
 /// @returns whether it was changed, in `look`
 bool surface_look_combo(const Frame& frame, SurfaceLook& look);
 
+/// The lattice around the surface and the picked handles: how it is deformed.
+void shape_editor(Frame& frame);
+
 /// Control points, deviation, and how fit the surface is for analysis.
 void surface_figures(Frame& frame, const SurfaceStage& surface);
 

@@ -34,6 +34,9 @@ constexpr ToolButton tools[] = {
      GLFW_KEY_W},
     {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
     {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
+    {Tool::shape, "Shape",
+     "Pick control points of the surface, or points of its lattice, and drag them; Shift adds, Ctrl takes away  (K)",
+     GLFW_KEY_K},
     {Tool::corners, "Corners", "Drag the four corners along the outline of the blank  (C)", GLFW_KEY_C},
 };
 
@@ -48,7 +51,8 @@ bool begins_group(Tool tool) { return tool == Tool::pick || tool == Tool::vertex
 
 bool has_options(Tool tool)
 {
-    return tool == Tool::line || tool == Tool::flood || tool == Tool::brush || tool == Tool::box || tool == Tool::lasso;
+    return tool == Tool::shape || tool == Tool::line || tool == Tool::flood || tool == Tool::brush ||
+           tool == Tool::box || tool == Tool::lasso;
 }
 
 /// How the tools and their options fit into the bar.
@@ -107,6 +111,16 @@ void tool_options(Frame& frame, const BarStyle& style)
     ViewSettings settings = frame.state.view;
     bool changed = false;
     ImGui::SetNextItemWidth(style.slider);
+    if (settings.tool == Tool::shape) {
+        ImGui::SetNextItemWidth(std::max(style.slider, 122 * frame.ui.scale));
+        int kind = int(settings.handles);
+        if (ImGui::Combo("##handles", &kind, "control points\0lattice\0")) {
+            settings.handles = HandleKind(kind);
+            frame.actions.push(SetViewSettings{settings});
+        }
+        tooltip("What is dragged in the view of the surface. A lattice is laid around it in the step NURBS surface.");
+        return;
+    }
     if (settings.tool == Tool::line) {
         ImGui::SetNextItemWidth(std::max(style.slider, 92 * frame.ui.scale));
         int kind = int(frame.ui.drawn_line);

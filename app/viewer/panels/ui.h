@@ -50,6 +50,14 @@ struct Typed {
     std::string text;
 };
 
+/// Handles of the surface on their way with the mouse.
+struct HandleDrag {
+    HandleKind kind;
+    glm::dvec2 from, at;   ///< pixels of the view: where the button went down, and where the mouse was last
+    Eigen::Vector3d place; ///< mm, of the handle under the mouse
+    bool moved = false;
+};
+
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
@@ -77,6 +85,7 @@ struct Ui {
     bool aside = false;            ///< drawn for a picture: the views of the window keep their sizes and cameras
     glm::dvec2 corner_taken_at{0}; ///< pixels of the view
     bool corner_moved = false;     ///< since it was taken
+    std::optional<HandleDrag> handle_drag;
     std::vector<glm::dvec2> trail; ///< of box and lasso, pixels of the view
     std::vector<glm::dvec2> path;  ///< where the mouse went since the last frame, a button down, pixels of the window
     std::vector<Eigen::Vector3d> line; ///< being drawn: places on the part, mm

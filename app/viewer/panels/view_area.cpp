@@ -196,6 +196,9 @@ void end_drags(Frame& frame)
         frame.actions.push(SetCorner{*ui.dragged_corner, grid->boundary.corner[size_t(*ui.dragged_corner)], false});
     ui.dragged_corner.reset();
     ui.corner_moved = false;
+    if (ui.handle_drag && ui.handle_drag->moved)
+        frame.actions.push(MoveHandles{ui.handle_drag->kind, Eigen::Vector3d::Zero(), false});
+    ui.handle_drag.reset();
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/viewer/model/handles.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -38,6 +39,40 @@ void drag_corners(Frame& frame, const Mouse& mouse)
         frame.actions.push(SetCorner{*ui.dragged_corner, vertex, false});
     ui.dragged_corner.reset();
     ui.corner_moved = false;
+}
+
+/// Picked handles of the surface follow the mouse, in the plane of the picture; a click alone picks.
+void drag_handles(Frame& frame, View view, const Mouse& mouse)
+{
+    Ui& ui = frame.ui;
+    if (view != View::surface || !frame.state.document.session.surface)
+        return;
+    const HandleKind kind = frame.state.view.handles;
+    const Camera& camera = frame.state.view.camera[size_t(view)];
+    auto& drag = ui.handle_drag;
+    if (!drag && mouse.inside && ImGui::IsMouseClicked(0) && !ui.busy) {
+        const PickHandle pick{kind, mouse.pixel, mouse.size, pick_mode(), PickHandle{}.reach * ui.scale};
+        const Eigen::Matrix3Xd place = handle_positions(frame.state.document.session, kind);
+        const auto found = handle_at(pick, camera, place);
+        const std::vector<int>& picked =
+            kind == HandleKind::control ? frame.state.document.controls : frame.state.document.lattice_points;
+        // One that is picked already is taken with all the others.
+        if (!found || pick.mode != PickMode::replace || !std::binary_search(picked.begin(), picked.end(), *found))
+            frame.actions.push(pick);
+        if (found && pick.mode != PickMode::remove)
+            drag = HandleDrag{kind, mouse.pixel, mouse.pixel, place.col(*found)};
+        return;
+    }
+    if (!drag)
+        return;
+    const bool down = ImGui::IsMouseDown(0);
+    drag->moved |= glm::length(mouse.pixel - drag->from) > 3 * ui.scale;
+    if (down && drag->moved && mouse.pixel != drag->at) {
+        const Eigen::Vector3d now = place_beside(camera, drag->place, mouse.pixel - drag->at, mouse.size);
+        frame.actions.push(MoveHandles{drag->kind, now - drag->place, true});
+        drag->place = now;
+        drag->at = mouse.pixel;
+    }
 }
 
 /// Where the mouse went in a view, up to where it is.
@@ -136,6 +171,7 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
                 frame.actions.push(AddProbe{*probe});
         }
         return;
+    case Tool::shape: drag_handles(frame, view, mouse); return;
     case Tool::line: draw_line(frame, view, mouse, from, draw); return;
     case Tool::vertex:
     case Tool::outline:

@@ -35,6 +35,7 @@ constexpr Colour net(bool dark)
 {
     return dark ? Colour{0.99f, 0.86f, 0.50f, 0.55f} : Colour{0.45f, 0.17f, 0.03f, 0.45f};
 }
+constexpr Colour lattice(bool dark) { return dark ? Colour{0.45f, 0.86f, 0.78f, 1} : Colour{0.02f, 0.42f, 0.38f, 1}; }
 
 /// Of the sides v = 0, u = 1, v = 1, u = 0: equally light, a quarter of the colour circle apart.
 std::array<Colour, 4> sides();

@@ -139,6 +139,7 @@ struct SceneCache {
     using Lifted = std::shared_ptr<const LiftResult>;
     using Limits = std::shared_ptr<const LimitsResult>;
     using Surface = std::shared_ptr<const SurfaceStage>;
+    using Deformed = std::shared_ptr<const DeformedSurface>;
     using LiveBlank = std::shared_ptr<const Eigen::Matrix2Xd>;
 
     using Vertices = Memo<VertexShape, std::shared_ptr<const SceneMesh>, std::vector<int>>;
@@ -162,10 +163,12 @@ struct SceneCache {
     Memo<StageShape, Grid, Lifted, bool> quads;
     Memo<GridFigures, Grid, Blank> grid_figures;
     Memo<LineList, Part> boundary_on_quads;
-    Memo<StageShape, Part, Grid, Surface, SurfaceLook, double> surface;
+    using Net = std::shared_ptr<const MultiPatch>;
+    Memo<Net, Surface, Deformed> net;
+    Memo<StageShape, Part, Grid, Net, SurfaceLook, double> surface;
     Memo<StageShape, Surface> patch_mesh;
     Memo<LineList, Surface, bool> patch_lines;
-    Memo<StageShape, Surface, bool> control_net;
+    Memo<StageShape, Net, bool> control_net;
     Memo<StageShape, Part> refused;
 };
 

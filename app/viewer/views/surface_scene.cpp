@@ -1,4 +1,10 @@
+#include <algorithm>
+#include <iterator>
+
+#include "app/viewer/model/handles.h"
 #include "app/viewer/views/colour_scale.h"
+#include "app/viewer/views/palette.h"
+#include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/surface_shape.h"
 #include "app/viewer/views/views.h"
@@ -44,6 +50,35 @@ SceneLegend legend_of(SurfaceLook look, const SurfaceStage& surface, const Scene
     return legend;
 }
 
+/// The lattice, and the picked ones of what the tool shape drags.
+void add_handles(Scene& scene, const ViewerState& state)
+{
+    const Document& document = state.document;
+    const auto& deformation = document.session.options.deformation;
+    const bool shaping = state.view.tool == Tool::shape;
+    if (deformation && deformation->lattice && (shaping || state.view.control_net)) {
+        const StageShape shape = lattice_shape(*deformation->lattice, state.view.dark);
+        scene.lines.insert(scene.lines.end(), shape.lines.begin(), shape.lines.end());
+        scene.points.insert(scene.points.end(), shape.points.begin(), shape.points.end());
+        scene.box.extend(shape.box);
+    }
+    if (!shaping)
+        return;
+    const HandleKind kind = state.view.handles;
+    const std::vector<int>& picked = kind == HandleKind::control ? document.controls : document.lattice_points;
+    if (picked.empty())
+        return;
+    const Eigen::Matrix3Xd place = handle_positions(document.session, kind);
+    std::vector<int> shown;
+    std::copy_if(picked.begin(), picked.end(), std::back_inserter(shown), [&](int h) { return h < place.cols(); });
+    if (shown.empty())
+        return;
+    const auto points = scene_points(place(Eigen::all, shown));
+    points->colour = palette::selected;
+    points->size = 9;
+    scene.points.push_back(points);
+}
+
 } // namespace
 
 Scene surface_scene(const ViewerState& state, SceneCache& cache)
@@ -58,14 +93,18 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
                            : "The NURBS surface needs the quad mesh on the part first.";
         return result;
     }
-    const SurfaceLook look = state.view.surface_look;
+    const SurfaceLook look = state.shape_dragged && has_scale(state.view.surface_look) ? SurfaceLook::plain // quick
+                                                                                       : state.view.surface_look;
     const double tolerance = shown_tolerance(*made.surface);
-    const MultiPatch surface = surface_patches(*made.surface);
-    const StageShape& shape = cache.surface.of({session.part, made.grid, made.surface, look, tolerance}, [&] {
+    const bool is_now = made.surface == session.surface; // what there was before is shown as it was fitted
+    const SceneCache::Net net = cache.net.of({made.surface, is_now ? session.deformed : nullptr}, [&] {
+        return std::make_shared<MultiPatch>(is_now ? surface_patches(session) : fitted_patches(*made.surface));
+    });
+    const StageShape& shape = cache.surface.of({session.part, made.grid, net, look, tolerance}, [&] {
         if (made.surface->patches)
-            return surface_shape(surface, {session.part->mesh, session.part->mesh.triangles()}, look, tolerance);
+            return surface_shape(*net, {session.part->mesh, session.part->mesh.triangles()}, look, tolerance);
         const FilledMesh& filled = *made.grid->result.filled;
-        return surface_shape(surface, {filled.mesh, filled.part_triangles}, look, tolerance);
+        return surface_shape(*net, {filled.mesh, filled.part_triangles}, look, tolerance);
     });
     result.layers = shape.layers;
     for (SceneLayer& layer : result.layers) {
@@ -76,12 +115,14 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
     if (has_scale(look))
         result.legend = legend_of(look, *made.surface, result.layers.front(), shape.box.diagonal().norm());
     if (state.view.control_net) {
-        const StageShape& net = cache.control_net.of({made.surface, state.view.dark},
-                                                     [&] { return control_net_shape(surface, state.view.dark); });
-        result.lines = net.lines;
-        result.points = net.points;
-        result.box.extend(net.box);
+        const StageShape& drawn =
+            cache.control_net.of({net, state.view.dark}, [&] { return control_net_shape(*net, state.view.dark); });
+        result.lines = drawn.lines;
+        result.points = drawn.points;
+        result.box.extend(drawn.box);
     }
+    if (is_now)
+        add_handles(result, state);
     add_part_outlines(result, state, cache);
     return result;
 }

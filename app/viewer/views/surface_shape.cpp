@@ -210,6 +210,39 @@ StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, Surfa
     return shape;
 }
 
+StageShape lattice_shape(const Lattice& lattice, bool dark)
+{
+    const Eigen::Matrix3Xd place = rest_positions(lattice) + lattice.move;
+    std::vector<std::array<int, 2>> edges;
+    const auto& n = lattice.count;
+    for (int k = 0; k < n[2]; ++k)
+        for (int j = 0; j < n[1]; ++j)
+            for (int i = 0; i < n[0]; ++i) {
+                const int here = lattice.index(i, j, k);
+                if (i + 1 < n[0])
+                    edges.push_back({here, lattice.index(i + 1, j, k)});
+                if (j + 1 < n[1])
+                    edges.push_back({here, lattice.index(i, j + 1, k)});
+                if (k + 1 < n[2])
+                    edges.push_back({here, lattice.index(i, j, k + 1)});
+            }
+    Eigen::Matrix2Xi ends(2, Eigen::Index(edges.size()));
+    for (size_t e = 0; e < edges.size(); ++e)
+        ends.col(Eigen::Index(e)) << edges[e][0], edges[e][1];
+    StageShape shape;
+    const auto lines = scene_lines(place, ends);
+    lines->colour = palette::lattice(dark);
+    lines->colour[3] = 0.5f;
+    lines->on_top = true;
+    shape.lines = {lines};
+    const auto points = scene_points(place);
+    points->colour = palette::lattice(dark);
+    points->size = 6;
+    shape.points.push_back(points);
+    shape.box = {place.rowwise().minCoeff(), place.rowwise().maxCoeff()};
+    return shape;
+}
+
 StageShape control_net_shape(const MultiPatch& surface, bool dark)
 {
     Eigen::Index controls = 0, edges = 0;

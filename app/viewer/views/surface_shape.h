@@ -3,6 +3,7 @@
 
 #include "app/viewer/model/state.h"
 #include "app/viewer/views/scene_cache.h"
+#include "engine/deform/lattice.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/multi_patch.h"
 #include "engine/nurbs/tessellate.h"
@@ -30,6 +31,9 @@ StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, Surfa
 /// Colours by number, 0 to 5, as few as it takes, so that no two patches that share a side have the same. (Where six do not
 /// suffice, which no map in the plane needs, neighbours may.)
 std::vector<int> patch_colours(const MultiPatch& surface);
+
+/// Lines and points of a lattice, where they are now.
+StageShape lattice_shape(const Lattice& lattice, bool dark);
 
 /// Lines and points of the control nets.
 StageShape control_net_shape(const MultiPatch& surface, bool dark);

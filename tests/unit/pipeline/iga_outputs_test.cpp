@@ -56,8 +56,8 @@ TEST(IgaOutputs, HoldTheSurfaceOfTheChainBitForBit)
     const auto fields = surface_fields(session);
     EXPECT_EQ(iga::read_gismo(out / "square-cup-gismo-thickness.xml").values, fields[0].value);
     EXPECT_EQ(iga::read_gismo(out / "square-cup-gismo-plastic_strain.xml").values, fields[1].value);
-    EXPECT_EQ(iga::read_mfem_field(out / "square-cup-mfem-thickness.gf", surface_patches(*session.surface)), fields[0].value);
-    EXPECT_EQ(iga::read_mfem_field(out / "square-cup-mfem-plastic_strain.gf", surface_patches(*session.surface)),
+    EXPECT_EQ(iga::read_mfem_field(out / "square-cup-mfem-thickness.gf", surface_patches(session)), fields[0].value);
+    EXPECT_EQ(iga::read_mfem_field(out / "square-cup-mfem-plastic_strain.gf", surface_patches(session)),
               fields[1].value);
     const SheetFields& sheet = session.blank->node;
     const auto& fitted = session.surface->result;

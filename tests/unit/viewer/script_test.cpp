@@ -66,6 +66,13 @@ std::vector<Action> every_action()
         set(SetGrid{{30, 0, 12, 5, GridMethod::harmonic}});
         set(SelectFaces{{3, 1, 2}, PickMode::remove});
         set(PickAt{View::blank, pixel, size, PickMode::add, 12.0, true});
+        set(PickHandle{HandleKind::lattice, pixel, size, PickMode::add, 20});
+        set(SelectHandles{HandleKind::lattice, {3, 4}, PickMode::add});
+        set(MoveHandles{HandleKind::lattice, {1, 2, 3.5}, true});
+        set(ResetHandles{HandleKind::lattice});
+        set(SetLattice{LatticeChoice{{5, 4, 3}, {2, 3, 1}}});
+        set(OpenDeformation{"d.json"});
+        set(SaveDeformation{"e.json"});
         set(PickArea{View::quads, {{0, 0}, {10, 0}, {10, 10.25}}, size, PickMode::add, true});
         set(PickBrush{View::surface, pixel, 33, size, PickMode::remove, true});
         set(SelectVertices{{2, 5}, PickMode::add});
