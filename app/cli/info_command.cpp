@@ -70,7 +70,10 @@ int info(const InfoArguments& arguments)
     const auto number = [](const std::optional<int>& value) {
         return value ? std::to_string(*value) : "no meaning here";
     };
-    say("file            {} ({}, 1 unit = {} mm)\n", arguments.part.string(), part.format, millimetres(part.unit));
+    if (part.cad && part.cad->unit_stated) // which is converted
+        say("file            {} ({})\n", arguments.part.string(), part.format);
+    else
+        say("file            {} ({}, 1 unit = {} mm)\n", arguments.part.string(), part.format, millimetres(part.unit));
     say("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices, part.file_faces);
     if (part.deck)
         print_parts(*part.deck);

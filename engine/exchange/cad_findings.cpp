@@ -141,6 +141,20 @@ void report_doubles(const CadContent& cad, std::vector<Finding>& findings)
     findings.push_back(std::move(finding));
 }
 
+/// "0-17, 19": ascending numbers as they are given to --part.
+std::string ranges(const std::set<int>& faces)
+{
+    std::string text;
+    for (auto from = faces.begin(); from != faces.end();) {
+        auto to = from;
+        while (std::next(to) != faces.end() && *std::next(to) == *to + 1)
+            ++to;
+        text += fmt::format("{}{}{}", text.empty() ? "" : ",", *from, to == from ? "" : fmt::format("-{}", *to));
+        from = std::next(to);
+    }
+    return text;
+}
+
 void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
 {
     if (cad.overlapping.empty())
@@ -157,47 +171,64 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
     finding.first = finding.where.front();
     finding.text = fmt::format("more than two of these CAD faces meet along an edge or lie on one another: {}",
                                listed(cad.overlapping));
+    std::set<int> others(cad.face.begin(), cad.face.end());
+    for (const int face : cad.overlapping)
+        others.erase(face);
     finding.advice = "leave the ones out that are double or branch off: choose the others (--part)";
+    if (!others.empty())
+        finding.advice = fmt::format(
+            "leave the ones out that are double or branch off: choose the others (--part {})",
+            ranges(others));
     findings.push_back(std::move(finding));
 }
 
-/// "0-17, 19": ascending numbers as they are given to --part.
-std::string ranges(const std::set<int>& faces)
-{
-    std::string text;
-    for (auto from = faces.begin(); from != faces.end();) {
-        auto to = from;
-        while (std::next(to) != faces.end() && *std::next(to) == *to + 1)
-            ++to;
-        text += fmt::format("{}{}{}", text.empty() ? "" : ",", *from, to == from ? "" : fmt::format("-{}", *to));
-        from = std::next(to);
-    }
-    return text;
-}
+/// A piece of the mesh.
+struct Piece {
+    std::set<int> faces; ///< of the CAD file
+    int triangles = 0;
+    double area = 0;
+    bool closed = true; ///< without a boundary: no sheet
+    Eigen::AlignedBox3d box;
+};
 
-/// The CAD faces of each piece of the mesh, the largest by area first.
-std::vector<std::set<int>> pieces(const CadContent& cad, const PartFile& part)
+/// The largest by area first.
+std::vector<Piece> pieces(const CadContent& cad, const PartFile& part)
 {
     DisjointSets joined(size_t(part.mesh.vertices()));
+    std::set<std::pair<int, int>> alone; // sides without their opposite
     for (int f = 0; f < part.mesh.triangles(); ++f)
-        for (int k = 0; k < 3; ++k)
-            joined.join(part.mesh.triangle(0, f), part.mesh.triangle(k, f));
-    std::map<int, std::pair<double, std::set<int>>> found;
+        for (int k = 0; k < 3; ++k) {
+            const int from = part.mesh.triangle(k, f), to = part.mesh.triangle((k + 1) % 3, f);
+            joined.join(part.mesh.triangle(0, f), from);
+            if (alone.erase({to, from}) == 0)
+                alone.insert({from, to});
+        }
+    std::map<int, Piece> found;
     for (int f = 0; f < part.mesh.triangles(); ++f) {
-        auto& [area, faces] = found[joined.root(part.mesh.triangle(0, f))];
+        Piece& piece = found[joined.root(part.mesh.triangle(0, f))];
         const Eigen::Vector3d a = part.mesh.position.col(part.mesh.triangle(0, f));
         const Eigen::Vector3d ab = part.mesh.position.col(part.mesh.triangle(1, f)) - a;
-        area += ab.cross(part.mesh.position.col(part.mesh.triangle(2, f)) - a).norm();
-        faces.insert(cad.face[size_t(part.source_face[size_t(f)])]);
+        piece.area += ab.cross(part.mesh.position.col(part.mesh.triangle(2, f)) - a).norm();
+        piece.faces.insert(cad.face[size_t(part.source_face[size_t(f)])]);
+        ++piece.triangles;
+        for (int k = 0; k < 3; ++k)
+            piece.box.extend(Eigen::Vector3d(part.mesh.position.col(part.mesh.triangle(k, f))));
     }
-    std::vector<std::pair<double, std::set<int>>> by_area;
+    for (const auto& [from, to] : alone)
+        found[joined.root(from)].closed = false;
+    std::vector<Piece> result;
     for (auto& [root, piece] : found)
-        by_area.push_back(std::move(piece));
-    std::stable_sort(by_area.begin(), by_area.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<std::set<int>> result;
-    for (auto& [area, faces] : by_area)
-        result.push_back(std::move(faces));
+        result.push_back(std::move(piece));
+    std::stable_sort(result.begin(), result.end(), [](const Piece& a, const Piece& b) { return a.area > b.area; });
     return result;
+}
+
+std::string in_words(const Piece& piece)
+{
+    const Eigen::Vector3d size = piece.box.sizes();
+    return fmt::format("{} ({}{}, {:.4g} x {:.4g} x {:.4g} mm)", ranges(piece.faces),
+                       counted(piece.triangles, "triangle", "triangles"), piece.closed ? ", closed" : "", size[0],
+                       size[1], size[2]);
 }
 
 /// Bodies of the file that some of the faces taken are of.
@@ -219,8 +250,8 @@ void report_bodies(const CadContent& cad, const PartFile& part, std::vector<Find
         for (const int body : taken)
             choices.push_back(choice(cad.tree.item[size_t(body)]));
     else
-        for (const std::set<int>& faces : pieces(cad, part))
-            choices.push_back(ranges(faces));
+        for (const Piece& piece : pieces(cad, part))
+            choices.push_back(ranges(piece.faces));
     const std::span<const std::string> named = std::span(choices).first(std::min(shown, choices.size()));
     findings.push_back({Fault::several_components,
                         Severity::fatal,
@@ -240,19 +271,21 @@ void name_pieces(const CadContent& cad, PartFile& part)
     for (Finding& finding : part.doctor.findings) {
         if (finding.fault != Fault::several_components || cad.solid)
             continue;
-        const std::vector<std::set<int>> all = pieces(cad, part);
+        const std::vector<Piece> all = pieces(cad, part);
         if (finding.severity == Severity::fatal) {
             std::vector<std::string> choices;
-            for (const std::set<int>& faces : std::span(all).first(std::min(most, all.size())))
-                choices.push_back(ranges(faces));
-            finding.advice =
-                fmt::format("keep the largest (--keep-largest), or choose the CAD faces of one piece (--part): {}{}",
-                            fmt::join(choices, " or "), all.size() > most ? ", ..." : "");
+            for (const Piece& piece : std::span(all).first(std::min(most, all.size())))
+                choices.push_back(in_words(piece));
+            // A closed one is no sheet, often a box around the model: nobody wants to keep it.
+            finding.advice = fmt::format(
+                "{} the CAD faces of one piece (--part): {}{}",
+                !all.empty() && all.front().closed ? "choose" : "keep the largest (--keep-largest), or choose",
+                fmt::join(choices, " or "), all.size() > most ? ", ..." : "");
             continue;
         }
         std::set<int> left_out(cad.face.begin(), cad.face.end());
-        for (const std::set<int>& faces : all)
-            for (const int face : faces)
+        for (const Piece& piece : all)
+            for (const int face : piece.faces)
                 left_out.erase(face);
         if (!left_out.empty())
             finding.text += fmt::format("; that leaves out CAD faces {}", ranges(left_out));
@@ -265,7 +298,9 @@ void report_cad(const CadContent& cad, PartFile& part)
 {
     part.notes.push_back(fmt::format("{} CAD faces{}{}; triangles within {:.3g} mm of them", cad.faces,
                                      cad.taken < cad.faces ? fmt::format(", {} of them taken", cad.taken) : "",
-                                     cad.unit.empty() ? "" : fmt::format(", lengths in {} and read as mm", cad.unit),
+                                     cad.unit.empty()   ? ""
+                                     : cad.unit == "MM" ? ", lengths in mm"
+                                                        : fmt::format(", lengths converted from {} to mm", cad.unit),
                                      cad.deflection));
     part.notes.push_back(cad.sewing_tolerance > 0
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",

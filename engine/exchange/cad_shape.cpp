@@ -91,7 +91,20 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     std::istringstream stream(content);
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "reading the CAD model");
     BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
-    list_faces(result);
+    if (!result.shape.IsNull())
+        list_faces(result);
+    if (!result.face.empty())
+        return;
+    // The kernel reads as far as it can and says nothing: a shape that is announced and not there was lost on the way.
+    const size_t shapes = content.find("\nTShapes");
+    if (shapes == std::string::npos)
+        refuse(fmt::format(
+            "it was cut short or is damaged: its list of shapes (TShapes) is missing, the text ends at byte {}",
+            content.size()));
+    if (content.find("\nFa", shapes) != std::string::npos || result.shape.IsNull())
+        refuse(fmt::format(
+            "it was cut short or is damaged: the shapes from byte {} on cannot be read up to the end at byte {}",
+            shapes + 1, content.size()));
 }
 
 CadNames read_step(const std::filesystem::path& path, CadShape& result, const Progress& progress)

@@ -166,26 +166,35 @@ void DeckBuilder::thickness_from_elements()
     if (thickness_.empty())
         return;
     struct Range {
-        double low = 1e300, high = 0;
+        double low = 1e300, high = 0, sum = 0;
+        int shells = 0;
     };
     std::vector<Range> range(deck_.parts.size());
     int told = 0;
     for (size_t e = 0; e < shell_.size(); ++e) {
         Range& of_part = range[size_t(shell_[e].part)];
         const double t = thickness_[e] > 0 ? thickness_[e] : at(shell_[e].part).thickness.value_or(0);
-        of_part = {std::min(of_part.low, t), std::max(of_part.high, t)};
+        of_part = {std::min(of_part.low, t), std::max(of_part.high, t), of_part.sum + t, of_part.shells + 1};
     }
     for (size_t p = 0; p < range.size(); ++p) {
         DeckPart& part = deck_.parts[p];
-        const auto [low, high] = range[p];
+        const auto [low, high, sum, shells] = range[p];
         if (!(high > 0))
             continue;
         if (low == high)
             part.thickness = low;
-        else if (told++ < 20)
-            deck_.notes.push_back(fmt::format(
-                "part {} {}: its elements have thicknesses of their own, from {:.4g} to {:.4g}; {} is taken",
-                part.id.value_or(0), part.name, low, high, part.thickness ? "that of its section" : "none"));
+        else if (low > 0) { // the sheet that is solved has one; a card of an element goes before that of its section
+            part.thickness = sum / shells;
+            if (told++ < 20)
+                note(fmt::format(
+                    "part {} {}: its elements have thicknesses of their own, from {:.4g} to {:.4g}; their mean, "
+                    "{:.4g}, is taken",
+                    part.id.value_or(0), part.name, low, high, *part.thickness));
+        } else if (told++ < 20)
+            note(fmt::format(
+                "part {} {}: some of its elements have thicknesses of their own, up to {:.4g}, others none at all; "
+                "{} is taken",
+                part.id.value_or(0), part.name, high, part.thickness ? "that of its section" : "none"));
     }
 }
 

@@ -77,7 +77,7 @@ Examination examine(const PolygonSoup& soup, const DoctorOptions& options, const
     const Tally dropped = drop_flat_at_crowded_edges(s);
     if (options.keep_largest)
         keep_largest(s, report);
-    check_edges(s, report);
+    check_edges(s, options.keep_largest, report);
     progress.checkpoint(0.7, "turning faces to one side");
     orient(s, report);
     mend_flat_triangles(s, dropped, report);

@@ -71,7 +71,7 @@ bool readable(const PolygonSoup& soup, DoctorReport& report)
     return report.healthy();
 }
 
-void check_edges(MendedSurface& s, DoctorReport& report)
+void check_edges(MendedSurface& s, bool kept_largest, DoctorReport& report)
 {
     int most = 0;
     std::vector<EdgeUse> crowded; ///< the first face of each
@@ -97,8 +97,11 @@ void check_edges(MendedSurface& s, DoctorReport& report)
                     "{}, at face "
                     "{})",
                     counted(faces.count, "edge belongs", "edges belong"), most, first.low, first.high, faces.first),
-        "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part; --keep-largest "
-        "leaves out what hangs on such edges");
+        kept_largest
+            ? "a sheet goes on to two sides only, and what meets here hangs together elsewhere, too: remove doubled layers, keep one "
+              "skin of the part"
+            : "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part; --keep-largest "
+              "leaves out what hangs on such edges");
 }
 
 void report_strays(const MendedSurface& s, DoctorReport& report)

@@ -8,7 +8,8 @@ namespace spia {
 bool readable(const PolygonSoup& soup, DoctorReport& report);
 
 /// Edges of three and more faces; notes in the surface whether there are any.
-void check_edges(MendedSurface& s, DoctorReport& report);
+/// @param kept_largest  what hung on such edges has been left out already
+void check_edges(MendedSurface& s, bool kept_largest, DoctorReport& report);
 
 /// Vertices of the soup that no face names.
 void report_strays(const MendedSurface& s, DoctorReport& report);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "engine/exchange/fixed_number.h"
 #include "engine/exchange/original_results.h"
 #include "engine/exchange/part_shells.h"
 #include "engine/exchange/write_element_results.h"
@@ -49,8 +50,18 @@ std::vector<std::string> deck_file_names(const std::string& format, const std::s
 
 void require_deck_ids(std::span<const std::string> formats, const PartFile& part)
 {
-    if (std::any_of(formats.begin(), formats.end(), is_deck_format))
-        part_shells(part.deck ? as_read(part) : part);
+    if (std::none_of(formats.begin(), formats.end(), is_deck_format))
+        return;
+    const PartShells shells = part_shells(part.deck ? as_read(part) : part);
+    const bool keyword = std::any_of(formats.begin(), formats.end(), [](const std::string& format) {
+        return format == "dynain" || format == "blank-k";
+    });
+    if (!keyword)
+        return;
+    constexpr int widest =
+        10; // of keyword files, even with I10=Y; copies of nodes along a seam get ids above all others
+    fixed_number(shells.last_node + std::int64_t(shells.mesh.node.size()), widest);
+    fixed_number(shells.last_element + std::int64_t(shells.mesh.element.size()), widest);
 }
 
 std::vector<std::filesystem::path> write_deck_files(const std::filesystem::path& folder, const std::string& name,

@@ -254,7 +254,11 @@ TEST(CadSewing, NamesPiecesByTheirFaces)
     const Finding* pieces = both.doctor.find(Fault::several_components);
     ASSERT_TRUE(pieces);
     EXPECT_EQ(pieces->severity, Severity::fatal);
-    EXPECT_NE(pieces->advice.find("(--part): 1-2 or 0"), std::string::npos) << pieces->advice;
+    EXPECT_NE(
+        pieces->advice.find(
+            "keep the largest (--keep-largest), or choose the CAD faces of one piece (--part): 1-2 (4 triangles, 40 x 10 x 0 mm) or 0 (2 "),
+        std::string::npos)
+        << pieces->advice;
     ReadOptions largest;
     largest.doctor.keep_largest = true;
     const PartFile kept = read_part(folder / "two.igs", largest);
@@ -514,6 +518,26 @@ TEST(CadPart, SameFileGivesTheSameTriangles)
     EXPECT_EQ(a.soup.position, b.soup.position);
 }
 
+TEST(CadSewing, AClosedPieceIsNotAdvisedToBeKept)
+{
+    const ScratchFolder folder;
+    const double a = 100;
+    write_iges(folder / "boxed.igs", std::vector{bilinear({0, 0, 0}, {0, a, 0}, {a, 0, 0}, {a, a, 0}),
+                                                 bilinear({0, 0, a}, {a, 0, a}, {0, a, a}, {a, a, a}),
+                                                 bilinear({0, 0, 0}, {a, 0, 0}, {0, 0, a}, {a, 0, a}),
+                                                 bilinear({0, a, 0}, {0, a, a}, {a, a, 0}, {a, a, a}),
+                                                 bilinear({0, 0, 0}, {0, 0, a}, {0, a, 0}, {0, a, a}),
+                                                 bilinear({a, 0, 0}, {a, a, 0}, {a, 0, a}, {a, a, a}),
+                                                 bilinear({40, 40, 50}, {60, 40, 50}, {40, 60, 50}, {60, 60, 50})});
+    const PartFile part = examine_part(folder / "boxed.igs");
+    const Finding* pieces = part.doctor.find(Fault::several_components);
+    ASSERT_TRUE(pieces);
+    EXPECT_EQ(pieces->advice.find("keep-largest"), std::string::npos) << pieces->advice;
+    EXPECT_NE(pieces->advice.find("0-5 (12 triangles, closed, 100 x 100 x 100 mm) or 6 (2 triangles, 20 x 20 x 0 mm)"),
+              std::string::npos)
+        << pieces->advice;
+}
+
 /// Files cut short and with bytes changed: refused or read, but never the end of this program.
 TEST(CadPart, DamagedFilesAreRefusedOrReadButNeverCrash)
 {
@@ -549,6 +573,8 @@ TEST(CadPart, DamagedFilesAreRefusedOrReadButNeverCrash)
                 examine_part(file, {}, patience);
             } catch (const InputError& error) {
                 EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos); // the name of the file
+                if (k % 3 == 0 && source.extension() == ".brep")
+                    EXPECT_NE(std::string(error.what()).find("cut short"), std::string::npos) << error.what();
                 ++refused;
             } catch (const Cancelled&) {
             }

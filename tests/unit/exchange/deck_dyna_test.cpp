@@ -32,7 +32,7 @@ TEST(DynaDeck, EveryOptionOfShellsHasItsCards)
                             {"_OFFSET", "             0.1\n", "             0.1\n", 0},
                             {"_DOF", "               7       7\n", "               7       7\n", 0},
                             {"_THICKNESS_OFFSET", thick + "             0.1\n", thick + "             0.1\n", 0.8},
-                            {"_THICKNESS", two, two, -1}}) {
+                            {"_THICKNESS", two, two, 2}}) {
         SCOPED_TRACE(known.option);
         const Deck deck = read(four_nodes + "*ELEMENT_SHELL" + known.option + "\n" + quad + known.behind_first +
                                triangle + known.behind_second);
@@ -44,9 +44,14 @@ TEST(DynaDeck, EveryOptionOfShellsHasItsCards)
         else
             EXPECT_FALSE(deck.parts[0].thickness);
     }
-    // The mean over the corners of each: 3 for the quad, 1 for the triangle, so no single one for the part.
+    // The mean over the corners of each: 3 for the quad, 1 for the triangle; the part has their mean, whatever its section says.
     const Deck deck = read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n" + quad + two + triangle + two);
-    EXPECT_TRUE(has_note(deck, "from 1 to 3"));
+    EXPECT_TRUE(has_note(deck, "from 1 to 3; their mean, 2, is taken"));
+    EXPECT_EQ(read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n" + quad + two + triangle + two +
+                   "*PART\nside\n2,8\n*SECTION_SHELL\n8,2\n1.5,1.5,1.5,1.5\n")
+                  .parts[0]
+                  .thickness,
+              2.);
 }
 
 TEST(DynaDeck, ACornerWithoutAThicknessHasThatOfTheSection)

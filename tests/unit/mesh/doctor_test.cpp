@@ -250,6 +250,20 @@ TEST(Doctor, ThirdFaceAtAnEdgeIsFatalAndNamed)
     EXPECT_EQ(count(e, Fault::crowded_edge), 1);
     EXPECT_FALSE(e.report.genus.has_value());
     expect_refused(e, "between the vertices 1 and 4");
+    EXPECT_NE(e.report.find(Fault::crowded_edge)->advice.find("--keep-largest"), std::string::npos);
+}
+
+TEST(Doctor, WhoKeepsTheLargestIsNotAdvisedTo)
+{
+    PolygonSoup soup = quads(2, 1); // from the inner edge a flap goes up and down again to the border
+    soup.position.emplace_back(1.2, 0.5, 1);
+    soup.add_polygon(std::array<int, 3>{1, 4, 6});
+    soup.add_polygon(std::array<int, 3>{4, 5, 6});
+    const Examination e = examine(soup, {.keep_largest = true});
+    if (const Finding* crowded = e.report.find(Fault::crowded_edge))
+        EXPECT_EQ(crowded->advice.find("--keep-largest"), std::string::npos) << crowded->advice;
+    else
+        ADD_FAILURE() << "nothing is crowded";
 }
 
 TEST(Doctor, HolesThatTouchInAVertexAreSeparated)

@@ -130,6 +130,24 @@ TEST_F(DeckFiles, ReadBackWithTheIdsCornersPartsAndPlacesOfTheDeck)
     }
 }
 
+TEST_F(DeckFiles, IdsThatAreTooLongForKeywordFilesAreToldBeforeTheSolve)
+{
+    const PartFile part =
+        read("long.k", "*KEYWORD\n*NODE\n123456789001,0,0,0\n123456789002,1,0,0\n123456789003,1,1,0\n"
+                       "*ELEMENT_SHELL\n1,5,123456789001,123456789002,123456789003,123456789003\n*END\n");
+    for (const char* format : {"dynain", "blank-k"}) {
+        const std::string formats[] = {"mapping", format};
+        EXPECT_THROW(require_deck_ids(formats, part), InputError) << format;
+    }
+    for (const char* format : {"mapping", "blank-msh", "blank-inp", "blank-bdf", "nastran"}) {
+        const std::string one[] = {format};
+        EXPECT_NO_THROW(require_deck_ids(one, part)) << format;
+    }
+    const std::string all[] = {"dynain", "blank-k"};
+    EXPECT_NO_THROW(require_deck_ids(
+        all, read("short.k", "*KEYWORD\n*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n*ELEMENT_SHELL\n1,5,1,2,3,3\n*END\n")));
+}
+
 TEST_F(DeckFiles, AUniformlyStretchedPatchHasItsStrainAndThicknessOnEveryElement)
 {
     const double along_x = 1.2, along_y = 1.05, h0 = 0.8;
