@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/nurbs/basis.h"
+#include "engine/nurbs/even_spans.h"
 #include "engine/nurbs/span_borders.h"
 
 namespace spia {
@@ -23,8 +24,8 @@ std::vector<double> joined(const std::vector<double>& borders, const std::vector
     for (size_t s = 0; s + 1 < borders.size(); ++s) {
         if (s + 2 < borders.size() && left > fewest) {
             const double width = borders[s + 1] - borders[s];
-            const bool halves = borders[s + 2] - borders[s + 1] == width &&
-                                std::fmod(borders[s], 2 * width) == 0; // of one dyadic span
+            const bool halves =
+                borders[s + 2] - borders[s + 1] == width && std::fmod(borders[s], 2 * width) == 0; // of one dyadic span
             if (halves && std::max(largest[s], largest[s + 1]) <= distance) {
                 result.push_back(borders[s + 2]);
                 ++s;
@@ -77,6 +78,41 @@ void Joining::tried(bool good)
         return;
     along_u_ = !along_u_;
     factor_ *= along_u_ ? 2 : 1;
+}
+
+std::optional<SpanBorders> Evening::next(const NurbsSurface& surface)
+{
+    constexpr Eigen::Index most_controls = 4'000;
+    constexpr int most_tries = 14;
+    const bool single = options_.ends == CurveEnds::averaged_knots; // others ask for certain spans at the ends
+    if (!single || !source_.lines_u.empty() || !source_.lines_v.empty() || surface.control.cols() > most_controls)
+        return {};
+    const SpanBorders now{span_borders(surface.knots_u, surface.degree_u),
+                          span_borders(surface.knots_v, surface.degree_v)};
+    for (int direction = 0; direction < 2 && trials_ < most_tries; ++direction, along_u_ = !along_u_) {
+        const int spans = int((along_u_ ? now.u : now.v).size()) - 1;
+        double& share = share_[along_u_ ? 0 : 1];
+        const int fewer = std::max(1, int(share * spans));
+        if (share <= 0 || spans < 2)
+            continue;
+        ++trials_;
+        SpanBorders proposed = now;
+        (along_u_ ? proposed.u : proposed.v) = even_spans(surface, along_u_, spans - fewer);
+        if (fewer == 1)
+            share = -std::abs(share); // the least that can be tried
+        return proposed;
+    }
+    return {};
+}
+
+void Evening::tried(bool good)
+{
+    double& share = share_[along_u_ ? 0 : 1];
+    if (good)
+        share = std::abs(share);
+    else if (share > 0)
+        share /= 2;
+    along_u_ = !along_u_;
 }
 
 } // namespace spia

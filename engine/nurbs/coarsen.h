@@ -29,4 +29,24 @@ private:
     int trials_ = 0;
 };
 
+/// Proposes fewer spans of even change (even_spans()) for a surface within the tolerance, one direction at a time, fewer by a share that is
+/// halved where it was too bold.
+class Evening {
+public:
+    Evening(const FitSource& source, const FitOptions& options) : source_(source), options_(options) {}
+
+    /// @returns none if nothing is left to try, the data lie on lines of their own, or trying costs too much
+    std::optional<SpanBorders> next(const NurbsSurface& surface);
+
+    /// Whether the last proposal was good enough.
+    void tried(bool good);
+
+private:
+    const FitSource& source_;
+    const FitOptions& options_;
+    double share_[2] = {0.35, 0.35}; ///< of the spans along u, v to be spared at once
+    bool along_u_ = true;
+    int trials_ = 0;
+};
+
 } // namespace spia

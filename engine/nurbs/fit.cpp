@@ -9,8 +9,8 @@
 
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
-#include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/coarsen.h"
+#include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit_attempt.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_judge.h"
@@ -36,8 +36,8 @@ void require_in_range(const FitSource& source, const FitOptions& options)
         if (!lines->empty() && lines->size() < 3)
             throw InputError("a fit needs at least 3 x 3 points; choose a finer grid");
     if (options.max_control_points < 16)
-        throw InputError(fmt::format("{} control points are too few for a surface; allow 16 or more",
-                                     options.max_control_points));
+        throw InputError(
+            fmt::format("{} control points are too few for a surface; allow 16 or more", options.max_control_points));
 }
 
 /// The most urgent spans of both directions, as many as the number of control points allows.
@@ -172,8 +172,8 @@ FitSource source_of(const QuadGrid& lifted)
         Eigen::Matrix3Xd points(3, Eigen::Index(u.size() * v.size()));
         for (size_t j = 0; j < v.size(); ++j)
             for (size_t i = 0; i < u.size(); ++i)
-                points.col(Eigen::Index(i + j * u.size())) = lifted.position.col(lifted.node(
-                    int(std::lround(u[i] * lifted.columns)), int(std::lround(v[j] * lifted.rows))));
+                points.col(Eigen::Index(i + j * u.size())) = lifted.position.col(
+                    lifted.node(int(std::lround(u[i] * lifted.columns)), int(std::lround(v[j] * lifted.rows))));
         return points;
     };
     return source;
@@ -184,11 +184,13 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     require_in_range(source, options);
     const FitJudge judge(mesh, options);
     progress.checkpoint(0, "fitting the border");
-    std::vector<double> borders_u = borders_of_sides(source, options, true);
-    std::vector<double> borders_v = borders_of_sides(source, options, false);
+    // Points that slide need fewer knots than the border has where they stay.
+    const bool corrected = options.parameters == FitParameters::corrected;
+    std::vector<double> borders_u = corrected ? first_borders(options.ends) : borders_of_sides(source, options, true);
+    std::vector<double> borders_v = corrected ? first_borders(options.ends) : borders_of_sides(source, options, false);
 
     std::optional<Slide> slide;
-    if (options.parameters == FitParameters::corrected)
+    if (corrected)
         slide.emplace(mesh);
 
     struct Best {
@@ -220,7 +222,8 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
                            source, options);
         out_of_points = halve.out_of_points;
         if (better(judgement))
-            best = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
+            best =
+                Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
         if (halve.count == 0)
             break;
         borders_u = halved(borders_u, halve.u);
@@ -235,11 +238,28 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
         progress.checkpoint(0.9, fmt::format("joining to {} x {} spans", joined->u.size() - 1, joined->v.size() - 1));
         Attempt now = attempt(source, options, slide ? &*slide : nullptr, joined->u, joined->v);
         Judgement judgement = judge.judge(now.surface, false, progress.part(0.9, 0.95));
-        const bool good = judgement.within &&
-                          judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
+        const bool good =
+            judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
         joining.tried(good);
         if (good)
-            best = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
+            best =
+                Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
+    }
+    // Spans of even change can be fewer than halved ones.
+    Evening evening(source, options);
+    while (best->judgement.within) {
+        const auto even = evening.next(best->surface);
+        if (!even)
+            break;
+        progress.checkpoint(0.92, fmt::format("evening {} x {} spans", even->u.size() - 1, even->v.size() - 1));
+        Attempt now = attempt(source, options, slide ? &*slide : nullptr, even->u, even->v);
+        Judgement judgement = judge.judge(now.surface, false, progress.part(0.92, 0.95));
+        const bool good =
+            judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
+        evening.tried(good);
+        if (good)
+            best =
+                Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
     }
     if (!best->judgement.within) {
         best->judgement = judge.judge(best->surface, true, progress.part(0.9, 0.95));

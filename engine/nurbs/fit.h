@@ -23,7 +23,7 @@ struct FitSource {
 FitSource source_of(const QuadGrid& lifted);
 
 enum class FitParameters {
-    blank,    ///< a point keeps its place in the blank: (u, v) of the surface are those of the grid
+    blank, ///< a point keeps its place in the blank: (u, v) of the surface are those of the grid
     corrected ///< points slide over the part to where the surface is nearest: closer with fewer knots, but (u, v) no longer
               ///< are places of the blank [Hoschek 1988]
 };
@@ -48,8 +48,8 @@ struct FitShortfall {
         control_points  ///< there were not enough for the tolerance
     };
     Reason reason = Reason::none;
-    int a = -1, b = -1;                              ///< vertices of the mesh: the edge; at a corner only a
-    double angle = 0;                                ///< radians: between the normals of the two faces, or the outline's turn
+    int a = -1, b = -1; ///< vertices of the mesh: the edge; at a corner only a
+    double angle = 0;   ///< radians: between the normals of the two faces, or the outline's turn
     Eigen::Vector3d where = Eigen::Vector3d::Zero(); ///< mm, the place of the largest deviation
     std::string text;                                ///< what it is and what to do, for a person; empty for none
 };
@@ -64,7 +64,7 @@ struct FitReport {
 };
 
 struct FitResult {
-    NurbsSurface surface;     ///< weights 1; inner knots single and dyadic
+    NurbsSurface surface;     ///< weights 1; inner knots single
     std::vector<double> u, v; ///< parameters of the last data
     Deviation deviation;      ///< two-sided; `within` and `beyond` by the tolerance
     FitReport report;
@@ -73,7 +73,8 @@ struct FitResult {
 /// A least squares surface within a tolerance of the part. It begins with a single span (two or four if ends are asked
 /// for); spans in which a sample of either way is too far from the part are halved, along u, v or both, by what least squares
 /// along one direction alone leaves there; so until no sample is left. The four border curves are fitted first and held.
-/// All knots are dyadic. [exchange-and-iga.md 5; NURBS Book, A9.7]
+/// Spans that turn out finer than they need be are joined again, and of a surface of up to 4000 control points shared out evenly by how it
+/// changes (even_spans()). [exchange-and-iga.md 5; NURBS Book, A9.7]
 /// @param mesh  the part, or the part with its holes filled: what the deviation is measured from
 /// @throws InputError  if an option is out of range or the source gives something else than points
 FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options = {},
