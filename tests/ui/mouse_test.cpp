@@ -245,5 +245,56 @@ TEST_F(Mouse, DragsACornerChoosesAFieldAndSaves)
     EXPECT_EQ(reopened.report["display"]["field"], "strain_major");
 }
 
+TEST_F(Mouse, DragsAControlPointAndALatticePointAndTakesThemBack)
+{
+    unfold();
+    Json now = tool("k", "shape");
+    const auto on_screen = [](const Json& report, const Json& at) {
+        Json action = report.at("view");
+        action["do"] = "set_view";
+        const ViewSettings settings = std::get<SetViewSettings>(action_from_json(action)).view;
+        const Json& size = report["window"]["views"]["surface"]["size"];
+        const glm::dvec2 pixel(pixel_of(settings.camera[size_t(View::surface)],
+                                        {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()},
+                                        {size[0].get<double>(), size[1].get<double>()}));
+        return in_view(report, "surface", 0, 0) + pixel;
+    };
+    const auto drag = [&](const char* undo_name) {
+        const glm::dvec2 middle = in_view(viewer->report(), "surface", 0.45, 0.55);
+        for (double right = 0; viewer->report()["handles"]["picked"].empty() && right < 120; right += 12) {
+            viewer->click(middle.x + right, middle.y); // a lattice is wide: look for a point
+        }
+        now = viewer->report();
+        ASSERT_EQ(now["handles"]["picked"].size(), 1u);
+        const Json before = now["handles"]["picked"][0];
+        const glm::dvec2 from = on_screen(now, before["at"]), to = from + glm::dvec2(40, -25);
+        viewer->drag(from.x, from.y, to.x, to.y);
+        now = viewer->wait("the handle under the mouse", [&](const Json& r) {
+            return glm::length(on_screen(r, r["handles"]["picked"][0]["at"]) - to) < 2;
+        });
+        EXPECT_EQ(now["handles"]["picked"][0]["number"], before["number"]);
+        EXPECT_EQ(now["history"]["undo"], undo_name);
+        EXPECT_FALSE(now["figures"]["deformation"]["largest_mm"].is_null());
+        EXPECT_TRUE(now["figures"]["certificate"]["patches"].is_array()) << "judged when the drag has ended";
+        viewer->keys("ctrl+z");
+        viewer->wait("the handle where it was", [&](const Json& r) { return r["handles"]["picked"][0] == before; });
+        viewer->keys("Escape");
+        viewer->wait("nothing picked", [&](const Json& r) { return r["handles"]["picked"].empty(); });
+    };
+    drag("Move control points");
+    const std::filesystem::path script = folder / "lattice.json";
+    std::ofstream(script) << R"({"schema": "spia-script/1", "actions": [
+        {"do": "open_project", "file": "panel.spia"}, {"do": "wait"}, {"do": "run_to", "stage": "fit"}, {"do": "wait"},
+        {"do": "set_lattice", "lattice": {"count": [9, 9, 2]}}, {"do": "save_project", "file": "lattice.spia"}]})";
+    viewer.reset();
+    ASSERT_EQ(run_viewer(folder, {"--script", script.string()}).exit_code, 0);
+    viewer = std::make_unique<OpenViewer>(
+        folder, std::vector<std::string>{"lattice.spia", "--width", "1366", "--height", "768"});
+    viewer->wait("the surface",
+                 [](const Json& r) { return r["stages"]["fit"] == true && r["job"]["running"] == false; });
+    tool("k", "shape");
+    drag("Move lattice points");
+}
+
 } // namespace
 } // namespace spia::viewer

@@ -70,11 +70,13 @@ void ViewerModel::Apply::operator()(const InvertSelection&)
 
 void ViewerModel::Apply::operator()(const ClearSelection&)
 {
-    if (document.selected.empty() && document.vertices.empty())
+    std::vector<int>* const picked[] = {&document.selected, &document.vertices, &document.controls,
+                                        &document.lattice_points};
+    if (std::all_of(std::begin(picked), std::end(picked), [](const auto* list) { return list->empty(); }))
         return;
     change("Clear selection");
-    document.selected.clear();
-    document.vertices.clear();
+    for (std::vector<int>* list : picked)
+        list->clear();
 }
 
 void ViewerModel::Apply::select_vertices(std::vector<int> vertices, PickMode mode, const char* name)

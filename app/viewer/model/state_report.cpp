@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/handles.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/pipeline/report.h"
@@ -161,6 +162,22 @@ Json vertices_json(const Document& document)
     return list;
 }
 
+/// What is picked of the surface's control points or of its lattice, and where it is now.
+Json handles_json(const ViewerState& state)
+{
+    const Document& document = state.document;
+    const HandleKind kind = state.view.handles;
+    const std::vector<int>& picked = kind == HandleKind::control ? document.controls : document.lattice_points;
+    Json list = Json::array();
+    if (!picked.empty()) {
+        const Eigen::Matrix3Xd place = handle_positions(document.session, kind);
+        for (const int handle : picked)
+            if (handle < place.cols())
+                list.push_back({{"number", handle}, {"at", vector_json(place.col(handle))}});
+    }
+    return {{"kind", name_in_table(kind)}, {"picked", list}};
+}
+
 Json distance_json(const Document& document)
 {
     const auto distance = distance_of_picked(document);
@@ -263,6 +280,7 @@ Json state_report(const ViewerState& state)
             {"selection", faces_json(document.selected)},
             {"vertices", vertices_json(document)},
             {"distance", distance_json(document)},
+            {"handles", handles_json(state)},
             {"regions", regions_json(document.regions)},
             {"lines", written(document.lines)},
             {"process", {{"edge_restraint", document.edge_restraint}, {"rolling", written(document.rolling)}}},
