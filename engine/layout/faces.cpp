@@ -8,6 +8,7 @@
 #include "engine/layout/matching.h"
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
+#include "engine/layout/spokes.h"
 
 namespace spia {
 
@@ -144,9 +145,10 @@ bool sees(const Eigen::Vector2d& from, const std::vector<Eigen::Vector2d>& point
     return true;
 }
 
-/// A place from which all middles are seen: the mean of corners and middles, else the best of places around it.
-Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& corners, const std::vector<Eigen::Vector2d>& middles,
-                          const std::vector<Eigen::Vector2d>& polygon)
+/// A place from which all middles are seen: the mean of corners and middles, else the best of places around it. Nothing if there is none.
+std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& corners,
+                                         const std::vector<Eigen::Vector2d>& middles,
+                                         const std::vector<Eigen::Vector2d>& polygon)
 {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     for (size_t k = 0; k < corners.size(); ++k)
@@ -160,10 +162,33 @@ Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& corners, const std
                 if (sees(place, middles, polygon))
                     return place;
             }
+    return std::nullopt;
+}
+
+/// From the middles of the sides to one place: straight lines where they can be, else bent around what is in their way.
+Spokes divided(const std::vector<Eigen::Vector2d>& corners, const std::vector<Eigen::Vector2d>& middles,
+               const std::vector<Eigen::Vector2d>& polygon)
+{
+    Spokes result;
+    if (const auto straight = middle_of(corners, middles, polygon)) {
+        result.centre = *straight;
+        for (const Eigen::Vector2d& middle : middles)
+            result.line.push_back((Eigen::Matrix2Xd(2, 2) << middle, *straight).finished());
+        return result;
+    }
+    Eigen::Matrix2Xd points(2, Eigen::Index(polygon.size()));
+    for (size_t i = 0; i < polygon.size(); ++i)
+        points.col(Eigen::Index(i)) = polygon[i];
+    std::vector<int> start;
+    for (const Eigen::Vector2d& middle : middles)
+        start.push_back(int(std::find(polygon.begin(), polygon.end(), middle) - polygon.begin()));
+    if (auto bent = spokes(points, start))
+        return std::move(*bent);
+    const Eigen::Vector2d where = points.rowwise().mean();
     throw InputError(fmt::format(
-        "the blank cannot be divided into four-sided patches near ({:.6g}, {:.6g}) of its plane: an arc of the "
-        "border hides the others there; give cuts (--patches FILE)",
-        mean.x(), mean.y()));
+        "the blank cannot be divided into four-sided patches near ({:.6g}, {:.6g}) of its plane: it is too narrow "
+        "there beside its arcs; give cuts (--patches FILE)",
+        where.x(), where.y()));
 }
 
 } // namespace
@@ -314,13 +339,13 @@ void divide_faces(PlaneGraph& graph, std::vector<Face>& faces)
             middles.push_back(graph.vertex[size_t(graph.curve[size_t(half)].vertex[1])]);
         }
         const int centre = int(graph.vertex.size());
-        graph.vertex.push_back(middle_of(corners, middles, polygon(graph, halves)));
+        const Spokes from_middle = divided(corners, middles, polygon(graph, halves));
+        graph.vertex.push_back(from_middle.centre);
         graph.border.push_back(std::nullopt);
         for (size_t k = 0; k < face.size(); ++k) {
             LayoutCurve line;
             line.vertex = {graph.curve[size_t(first_half[size_t(face[k].curve)])].vertex[1], centre};
-            line.plane.resize(2, 2);
-            line.plane << middles[k], graph.vertex.back();
+            line.plane = from_middle.line[k];
             spoke.push_back(int(graph.curve.size()));
             graph.curve.push_back(std::move(line));
         }

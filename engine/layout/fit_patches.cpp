@@ -292,12 +292,11 @@ PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOp
     progress.checkpoint(0, "dividing the blank into patches");
     std::optional<PatchesFit> plain;
     if (!layout.split) {
-        const Layout made = make_layout(part, blank, layout);
         try {
-            plain = fit_patches(part, blank, made, options, progress.part(0, 0.5));
+            plain = fit_patches(part, blank, make_layout(part, blank, layout), options, progress.part(0, 0.5));
         } catch (const InputError&) { // what is wrong is said by the divided layout, if that fails too
         }
-        if (plain && (made.split || (plain->reached && certify(plain->patches).suited())))
+        if (plain && (plain->layout.split || (plain->reached && certify(plain->patches).suited())))
             return std::move(*plain);
     }
     // Better corners, worth it only where they help. Other vertices on the border where a face has a corner without room for cells.

@@ -51,7 +51,8 @@ void join_arcs(PlaneGraph& graph, std::vector<Face>& faces);
 /// Pairs of triangles to faces of four sides; four-sided ones stay. False if a face is left over.
 bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_angle);
 
-/// Divides each face from a place in its middle to the middles of its sides. @throws InputError if none is seen from all of these
+/// Divides each face from a place in its middle to the middles of its sides, by straight lines where these see it, else by bent ones (spokes()).
+/// @throws InputError if a face is too narrow for that
 void divide_faces(PlaneGraph& graph, std::vector<Face>& faces);
 
 } // namespace spia
