@@ -57,8 +57,9 @@ bool has_options(Tool tool)
 
 /// How the tools and their options fit into the bar.
 struct BarStyle {
-    bool compact = false, two_rows = false; ///< the second row is for the options of a tool
-    float gap, group, slider;               ///< pixels
+    /// The second row has the last group of tools and the options. It is there whatever the tool, or views would jump.
+    bool compact = false, two_rows = false;
+    float gap, group, slider; ///< pixels
 };
 
 void push(const Frame& frame, const BarStyle& style)
@@ -67,7 +68,7 @@ void push(const Frame& frame, const BarStyle& style)
         return;
     ImGui::PushFont(frame.ui.fonts.small);
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5 * frame.ui.scale, padding.y + 1 * frame.ui.scale});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {4 * frame.ui.scale, padding.y + 1 * frame.ui.scale});
 }
 
 void pop(const BarStyle& style)
@@ -101,7 +102,7 @@ BarStyle bar_style(const Frame& frame, float width)
         return style;
     style = {true, false, 2 * s, 6 * s, 56 * s};
     push(frame, style);
-    style.two_rows = has_options(frame.state.view.tool) && most() > width;
+    style.two_rows = most() > width;
     pop(style);
     return style;
 }
@@ -162,7 +163,7 @@ void tool_bar(Frame& frame)
     const BarStyle style = bar_style(frame, ImGui::GetContentRegionAvail().x);
     push(frame, style);
     for (const ToolButton& button : tools) {
-        if (button.tool != Tool::look)
+        if (button.tool != Tool::look && !(style.two_rows && button.tool == Tool::probe))
             ImGui::SameLine(0, style.gap + (begins_group(button.tool) ? style.group : 0));
         const bool active = frame.state.view.tool == button.tool;
         if (active) {
@@ -177,8 +178,7 @@ void tool_bar(Frame& frame)
         tooltip(button.help);
     }
     if (has_options(frame.state.view.tool)) {
-        if (!style.two_rows)
-            ImGui::SameLine(0, style.gap + style.group);
+        ImGui::SameLine(0, style.gap + style.group);
         tool_options(frame, style);
     }
     pop(style);
