@@ -40,6 +40,7 @@ struct RunArguments {
     bool fill_holes = false;
     std::string deform;          ///< file of a deformation of the finished surface; empty: none
     std::string patches = "one"; ///< one, auto, or a file of cuts
+    bool smooth_joins = false;   ///< of patches
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's
     std::vector<std::string> glb_nodes = {"part", "blank", "quad_mesh", "surface", "control_net"};

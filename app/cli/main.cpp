@@ -203,6 +203,10 @@ int main(int count, char** values)
             "moves control points of the finished surface, or all of it by a lattice around it (JSON, spia.deformation/1)")
         ->type_name("FILE");
     run_command->add_option("--degree", run.degree, "of the surface along u and v, 2 to 5; one number for both")
+    run_command->add_flag(
+        "--smooth-joins", run.smooth_joins,
+        "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part "
+        "(above 20 degrees) stay");
         ->delimiter(',')
         ->expected(1, 2)
         ->check(CLI::Range(2, 5))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
@@ -95,7 +96,17 @@ void print_summary(const Session& session)
     if (const auto& fit = session.surface->fit; fit && patches)
         say("          {} {:.4g} mm in {} rounds, {} interfaces\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->rounds, patches->patches.interfaces.size());
-    else if (fit)
+    if (patches && patches->joins) {
+        constexpr double degree = std::numbers::pi / 180;
+        const JoinsReport& joins = *patches->joins;
+        say("joins     angle up to {:.3g} degrees, {:.3g} before{}{}\n", joins.angle_after / degree,
+            joins.angle_before / degree,
+            joins.kept > 0 ? fmt::format("; {} stay as they were, to keep to the tolerance",
+                                         counted(joins.kept, "patch", "patches"))
+                           : "",
+            joins.edges > 0 ? fmt::format("; {} of {} places are edges of the part", joins.edges, joins.places) : "");
+    }
+    if (const auto& fit = session.surface->fit; fit && !patches)
         say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * deviation.within()),
             fit->knots_u, fit->knots_v, fit->rounds);

@@ -84,6 +84,10 @@ SessionOptions options(const RunArguments& arguments)
     result.interpolate.degree_u = arguments.degree.front();
     result.interpolate.degree_v = arguments.degree.back();
     result.tolerance = arguments.tolerance;
+    if (arguments.smooth_joins && !result.patches)
+        throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it away");
+    if (arguments.smooth_joins)
+        result.patches->smooth_joins = true;
     result.patches = patch_layout(arguments.patches);
     if (result.patches && arguments.degree.front() != arguments.degree.back())
         throw InputError("patches of a layout have one degree along u and v; give --degree one number");

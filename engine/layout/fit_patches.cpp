@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/layout/patches_judge.h"
+#include "engine/layout/smooth_fit.h"
 #include "engine/mesh/locate.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/nurbs/fit_curve.h"
@@ -277,6 +278,8 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
             break;
     }
     result.layout = layout;
+    if (options.smooth_joins)
+        best = smooth_fit(result, judge, std::move(*best), options.tolerance, progress.part(0.95, 1));
     result.surface_to_mesh = best->surface_to_mesh;
     result.mesh_to_surface = best->mesh_to_surface;
     result.at_vertex = best->at_vertex;

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "engine/layout/patch_grids.h"
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/multi_patch.h"
@@ -10,7 +12,15 @@ struct PatchesFitOptions {
     int degree = 3;                   ///< 2 to 5, of all patches along u and v
     int max_control_points = 200'000; ///< of all patches
     int most_rounds = 16;
+    bool smooth_joins = false; ///< take the angles out of the joins, see smooth_fit()
     PatchGridOptions grid = {};
+};
+
+/// What became of the angles at which patches join.
+struct JoinsReport {
+    double angle_before = 0, angle_after = 0; ///< radians, the greatest where there is no edge of the part
+    int places = 0, edges = 0;                ///< looked at, and how many of these are edges of the part: they stay
+    int kept = 0; ///< patches that stay as they were: smooth, they would not keep to the tolerance
 };
 
 /// How far patches and part are from each other, and how the fit went.
@@ -24,6 +34,7 @@ struct PatchesFit {
     std::vector<double> patch_deviation; ///< mm, per patch the largest of both ways
     bool reached = false;                ///< the tolerance, at all samples
     int rounds = 0;
+    std::optional<JoinsReport> joins = {};     ///< where they were to be smooth
     std::vector<std::vector<double>> u, v;     ///< per patch the parameters of the data
     std::vector<std::vector<MeshPoint>> place; ///< per patch where on the part the data lie, u fastest
 

@@ -46,11 +46,12 @@ struct LayoutOptions {
     std::vector<LayoutCut> cuts = {};
     /// Vertices of the part on its border that are corners of patches, beside the ends of cuts: then no others are. Empty: chosen.
     std::vector<int> corners = {};
-    double corner_deg = 50;            ///< turn of the border from which on a vertex is a corner of patches
-    double worst_angle_deg = 15;       ///< corners of two triangles that become one patch are between this and its
-                                       ///< complement to 180; half of it and a quarter are tried, too
-    double spacing = 1.2;              ///< of vertices along the outline, over the mean distance of holes
-    bool split = false;                ///< divide every face, even where triangles pair
+    double corner_deg = 50;      ///< turn of the border from which on a vertex is a corner of patches
+    double worst_angle_deg = 15; ///< corners of two triangles that become one patch are between this and its
+                                 ///< complement to 180; half of it and a quarter are tried, too
+    double spacing = 1.2;        ///< of vertices along the outline, over the mean distance of holes
+    bool split = false;          ///< divide every face, even where triangles pair
+    bool smooth_joins = false;   ///< of the fit: take the angles out of the joins of the patches, see smooth_joins()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 
     friend bool operator==(const LayoutOptions&, const LayoutOptions&) = default;

@@ -32,7 +32,7 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
         return layout;
     const Json json = read_json(choice, true);
     const Place top(choice);
-    members::require_object(json, top, {"cuts", "corners"});
+    members::require_object(json, top, {"cuts", "corners", "smooth_joins"});
     if (const Json* cuts = members::find(json, top, "cuts", false)) {
         if (!cuts->is_array())
             top.member("cuts").fail("must be a list of paths [[12, 40], ...]");
@@ -41,6 +41,11 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
     }
     if (const Json* corners = members::find(json, top, "corners", false))
         layout.corners = vertices(*corners, top.member("corners"), 2);
+    if (const Json* smooth = members::find(json, top, "smooth_joins", false)) {
+        if (!smooth->is_boolean())
+            top.member("smooth_joins").fail("must be true or false");
+        layout.smooth_joins = smooth->get<bool>();
+    }
     if (layout.cuts.empty() && layout.corners.empty())
         top.fail("must have cuts or corners; --patches auto needs no file");
     return layout;

@@ -211,6 +211,7 @@ void make_patches(Session& session, const Progress& progress)
     options.tolerance = session.options.tolerance.value_or(1e-3 * bounding_diagonal(part.mesh));
     options.degree = session.options.interpolate.degree_u;
     options.max_control_points = session.options.max_control_points;
+    options.smooth_joins = layout.smooth_joins;
     auto fitted =
         std::make_shared<PatchesFit>(blank_patches(part.mesh, session.blank->blank, layout, options, progress));
     SurfaceStage stage;

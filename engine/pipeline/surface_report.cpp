@@ -80,11 +80,19 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
         sum += joint.mean_angle;
     }
     const size_t joints = certificate.interfaces.size();
+    Json smoothed = nullptr;
+    if (const auto& j = fit.joins)
+        smoothed = {{"angle_before_deg", degrees(j->angle_before)},
+                    {"angle_after_deg", degrees(j->angle_after)},
+                    {"patches_kept", j->kept},
+                    {"places", j->places},
+                    {"places_of_edges", j->edges}};
     return {{"patches", list},
             {"faces_divided", fit.layout.split},
             {"interfaces", joints},
             {"interface_angle_max_deg", degrees(greatest)},
             {"interface_angle_mean_deg", joints > 0 ? degrees(sum) / double(joints) : 0},
+            {"joins_smoothed", std::move(smoothed)},
             {"control_points", controls},
             {"shared_control_points", shared_controls(fit.patches).count}};
 }

@@ -77,7 +77,8 @@ inline constexpr auto members_of<Reading> = std::tuple{member("weld", &Reading::
                                                        member("skin", &Reading::skin),
                                                        member("sewing_mm", &Reading::sewing_mm, gap_width),
                                                        member("deflection_mm", &Reading::deflection_mm, chord_height),
-                                                       member("leave_out_bad_faces", &Reading::leave_out_bad_faces)};
+                                                       member("leave_out_bad_faces", &Reading::leave_out_bad_faces),
+                                                       member("keep_triangles", &Reading::keep_triangles)};
 template <>
 inline constexpr auto members_of<RemeshOptions> =
     std::tuple{member("size", &RemeshOptions::size, Between{1e-9, most_mm}),
@@ -120,7 +121,8 @@ inline constexpr auto is_cut = [](const std::vector<LayoutCut>& cuts, const Plac
 };
 template <>
 inline constexpr auto members_of<LayoutOptions> =
-    std::tuple{member("cuts", &LayoutOptions::cuts, is_cut), member("corners", &LayoutOptions::corners, any_index)};
+    std::tuple{member("cuts", &LayoutOptions::cuts, is_cut), member("corners", &LayoutOptions::corners, any_index),
+               member("smooth_joins", &LayoutOptions::smooth_joins)};
 
 inline constexpr Between lattice_points{2, 64}, lattice_degrees{1, 5};
 template <>

@@ -168,6 +168,13 @@ void patches_editor(Frame& frame)
         ImGui::SameLine();
         muted(frame, cut_name(patches->cuts[k]));
     }
+    bool smooth = patches->smooth_joins;
+    if (ImGui::Checkbox("Smooth joins", &smooth)) {
+        LayoutOptions changed = *patches;
+        changed.smooth_joins = smooth;
+        frame.actions.push(SetPatches{changed});
+    }
+    tooltip("Takes the angles between patches away, as far as the tolerance allows; edges of the part stay");
     if (patches->cuts.empty())
         muted(frame, "To cut by hand, pick two vertices of the border with the tool Vertex.");
 }

@@ -1,0 +1,69 @@
+#include "engine/layout/smooth_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/nurbs/certificate.h"
+#include "engine/nurbs/smooth_joins.h"
+
+namespace spia {
+
+namespace {
+
+/// Per patch 1 where it is worse than it may be.
+std::vector<char> spoilt(const PatchesJudgement& before, const Certificate& proved, const PatchesJudgement& after,
+                         const Certificate& certificate, double tolerance)
+{
+    std::vector<char> result(before.patch_max.size(), 0);
+    for (size_t p = 0; p < result.size(); ++p)
+        result[p] = after.patch_max[p] > std::max(tolerance, before.patch_max[p]) ||
+                    (certificate.patch[p].refusal && !proved.patch[p].refusal);
+    return result;
+}
+
+/// The patches and those beside them.
+std::vector<char> with_neighbours(std::vector<char> patches, const MultiPatch& all)
+{
+    const std::vector<char> first = patches;
+    for (const PatchInterface& joint : all.interfaces)
+        for (const auto& [a, b] :
+             {std::pair(joint.first.patch, joint.second.patch), std::pair(joint.second.patch, joint.first.patch)})
+            if (first[size_t(a)])
+                patches[size_t(b)] = 1;
+    return patches;
+}
+
+int count(const std::vector<char>& patches) { return int(std::count(patches.begin(), patches.end(), 1)); }
+
+} // namespace
+
+PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJudgement now, double tolerance,
+                            const Progress& progress)
+{
+    const Certificate proved = certify(fit.patches);
+    SmoothJoinsOptions options;
+    options.tolerance = tolerance;
+    options.kept.assign(fit.patches.patch.size(), 0);
+    for (int round = 0;; ++round) {
+        const Progress here = progress.part(1 - std::pow(0.7, round), 1 - std::pow(0.7, round + 1));
+        SmoothJoins smooth = smooth_joins(fit.patches, options, here.part(0, 0.5));
+        fit.joins = {smooth.angle_before, smooth.angle_after, smooth.places, smooth.edges, count(options.kept)};
+        if (smooth.greatest_move == 0)
+            return now;
+        PatchesJudgement then = judge.judge(smooth.patches.patch, here.part(0.5, 1));
+        std::vector<char> bad = spoilt(now, proved, then, certify(smooth.patches), tolerance);
+        if (count(bad) == 0) {
+            fit.patches = std::move(smooth.patches);
+            return then;
+        }
+        // A place of the part beside a patch that is kept already is nearest to a neighbour that moved.
+        const int before = count(options.kept);
+        for (int pass = 0; pass < 2 && count(options.kept) == before; ++pass, bad = with_neighbours(bad, fit.patches))
+            for (size_t p = 0; p < bad.size(); ++p)
+                options.kept[p] = char(options.kept[p] | bad[p]);
+        if (count(options.kept) == before) // none is left that can be blamed
+            options.kept.assign(options.kept.size(), 1);
+    }
+}
+
+} // namespace spia
