@@ -15,7 +15,9 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/two_columns.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/deform_file.h"
 #include "engine/pipeline/line_file.h"
+#include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/unfold_file.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/sample_decks.h"
@@ -178,6 +180,39 @@ bool read_steps(std::string_view content)
     }
 }
 
+bool read_moves(std::string_view content)
+{
+    try {
+        const Held file(".json", content);
+        const DeformationWish wish = read_deformation(file.path());
+        require(!wish.moves.empty() || wish.lattice, "a deformation that moves nothing was accepted");
+        for (const ControlMove& move : wish.moves)
+            require(move.patch >= 0 && move.i >= 0 && move.j >= 0 && move.move.allFinite(),
+                    "a move to no place was accepted");
+        if (wish.lattice)
+            require(wish.lattice->move.cols() == wish.lattice->points() && wish.lattice->move.allFinite(),
+                    "a lattice point without a move was accepted");
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+bool read_cuts(std::string_view content)
+{
+    try {
+        const Held file(".json", content);
+        const std::optional<LayoutOptions> layout = patch_layout(file.path().string());
+        require(layout && (!layout->cuts.empty() || !layout->corners.empty()), "a layout of nothing was accepted");
+        for (const LayoutCut& cut : layout->cuts)
+            for (const int v : cut)
+                require(v >= 0, "a cut through no vertex was accepted");
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 const std::vector<std::string> numbers = {"-1",
                                           "0",
                                           "99999999",
@@ -292,6 +327,13 @@ const char* const steps_seed = R"({"schema": "spia.unfold/1",
 const char* const lines_seed = R"({"schema": "spia.lines/1", "unit": "cm", "lines": [
  {"name": "hole 1", "closed": true, "points": [[10, 20], [30, 20], [30, 40]]}, {"name": "", "points": [[0, 0, 1], [1, 2, 3]]}]})";
 
+const char* const moves_seed =
+    R"({"schema": "spia.deformation/1", "moves": [{"patch": 1, "at": [2, 3], "by": [0, 0.5, -1e2]}],
+ "lattice": {"count": [3, 4, 2], "degree": [2, 3, 1], "origin": [0, 0, 0], "edges": [[10, 0, 0], [0, 20, 0], [0, 0, 5]],
+  "moves": [{"at": [1, 1, 1], "by": [1, 2, 3]}]}})";
+
+const char* const cuts_seed = R"({"cuts": [[12, 40, 77], [1, 2]], "corners": [3, 9, 60, 88]})";
+
 std::vector<FuzzTarget> make_targets()
 {
     const TriMesh mesh = shapes::rectangle(10. / 3, 7. / 3, 3, 2);
@@ -339,6 +381,14 @@ std::vector<FuzzTarget> make_targets()
          with_numbers(
              {"{", "}", "[", "]", "\"", "\"cylinder\"", "\"smooth\"", "\"faces\":[0]", "\"region 2\"", "null"}),
          read_steps},
+        {"deformation.json",
+         {moves_seed},
+         with_numbers({"{", "}", "[", "]", "\"", "\"moves\"", "\"lattice\"", "\"edges\"", "[]", "[0,0,0]", "null"}),
+         read_moves},
+        {"patches.json",
+         {cuts_seed},
+         with_numbers({"{", "}", "[", "]", "\"", "\"cuts\"", "\"corners\"", "[]", "[[[[", "null"}),
+         read_cuts},
     };
 }
 

@@ -8,7 +8,7 @@ command -v clang++ >/dev/null || { echo "libFuzzer comes with clang: apt-get ins
 executions=${1:-1000000}
 shift || true
 formats=("$@")
-[ ${#formats[@]} -gt 0 ] || formats=(obj off ply stl gltf k bdf inp msh rad dxf csv lines.json steps.json)
+[ ${#formats[@]} -gt 0 ] || formats=(obj off ply stl gltf k bdf inp msh rad dxf csv lines.json steps.json deformation.json patches.json)
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target spia-fuzz spia-fuzz-seeds | tail -1
 mkdir -p build/fuzz/found
