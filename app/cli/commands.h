@@ -20,7 +20,7 @@ CadOptions cad_options(const CadArguments& arguments, const std::filesystem::pat
 
 /// Of the part's triangles.
 struct RemeshArguments {
-    bool wanted = false;
+    bool wanted = false, unwanted = false;
     std::optional<double> size, tolerance;             ///< mm; not given: chosen from the part
     std::optional<double> least_angle_deg, edge_ratio; ///< targets for the triangles, remeshed or not
 };
@@ -124,7 +124,7 @@ struct FitArguments {
 int fit_material(const FitArguments& arguments);
 
 /// Not given unless it is wanted.
-std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments);
+void set_remeshing(ReadOptions& options, const RemeshArguments& arguments);
 MeshTargets mesh_targets(const RemeshArguments& arguments);
 
 /// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.

@@ -59,8 +59,7 @@ int info(const InfoArguments& arguments)
     if (!arguments.skin.empty())
         options.skin = skin_by_name(arguments.skin);
     options.seam = seam_options(arguments.seam);
-    options.remesh = remesh_options(arguments.remesh);
-    options.targets = mesh_targets(arguments.remesh);
+    set_remeshing(options, arguments.remesh);
     JobDisplay display{"read"};
     const PartFile part = examine_part(arguments.part, options, display.progress());
     const DoctorReport& doctor = part.doctor;

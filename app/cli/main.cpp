@@ -71,6 +71,12 @@ void add_remesh(CLI::App* command, spia::cli::RemeshArguments& remesh)
         "--remesh", remesh.wanted,
         "replace the triangles by well-shaped ones that stay within a tolerance; deviations are those from the original");
     command
+        ->add_flag(
+            "--no-remesh", remesh.unwanted,
+            "keep the triangles of CAD faces also where they are needles on a surface that does not unroll; such "
+            "parts are remeshed else")
+        ->excludes(wanted);
+    command
         ->add_option("--remesh-size", remesh.size,
                      "length of their edges where nothing asks for shorter ones (default: the part's median edge, from "
                      "1/250 to 1/40 of its diagonal)")
@@ -197,16 +203,16 @@ int main(int count, char** values)
             "sides, or a file of cuts {\"cuts\": [[12, 40], ...], \"corners\": [...]}, vertices of the file")
         ->type_name("auto|one|FILE")
         ->capture_default_str();
+    run_command->add_flag(
+        "--smooth-joins", run.smooth_joins,
+        "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part "
+        "(above 20 degrees) stay");
     run_command
         ->add_option(
             "--deform", run.deform,
             "moves control points of the finished surface, or all of it by a lattice around it (JSON, spia.deformation/1)")
         ->type_name("FILE");
     run_command->add_option("--degree", run.degree, "of the surface along u and v, 2 to 5; one number for both")
-    run_command->add_flag(
-        "--smooth-joins", run.smooth_joins,
-        "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part "
-        "(above 20 degrees) stay");
         ->delimiter(',')
         ->expected(1, 2)
         ->check(CLI::Range(2, 5))

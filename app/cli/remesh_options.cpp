@@ -4,23 +4,17 @@
 
 namespace spia::cli {
 
-std::optional<RemeshOptions> remesh_options(const RemeshArguments& arguments)
+void set_remeshing(ReadOptions& options, const RemeshArguments& arguments)
 {
-    if (!arguments.wanted)
-        return std::nullopt;
-    RemeshOptions options;
-    options.size = arguments.size;
-    options.tolerance = arguments.tolerance;
-    return options;
-}
-
-MeshTargets mesh_targets(const RemeshArguments& arguments)
-{
-    MeshTargets targets;
+    if (arguments.wanted) {
+        options.remesh.emplace();
+        options.remesh->size = arguments.size;
+        options.remesh->tolerance = arguments.tolerance;
+    }
+    options.cad.keep_triangles = arguments.unwanted;
     if (arguments.least_angle_deg)
-        targets.least_angle = *arguments.least_angle_deg * std::numbers::pi / 180;
-    targets.edge_ratio = arguments.edge_ratio;
-    return targets;
+        options.targets.least_angle = *arguments.least_angle_deg * std::numbers::pi / 180;
+    options.targets.edge_ratio = arguments.edge_ratio;
 }
 
 } // namespace spia::cli

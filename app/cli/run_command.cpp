@@ -53,8 +53,7 @@ SessionOptions options(const RunArguments& arguments)
     if (!arguments.skin.empty())
         result.read.skin = skin_by_name(arguments.skin);
     result.read.seam = seam_options(arguments.seam);
-    result.read.remesh = remesh_options(arguments.remesh);
-    result.read.targets = mesh_targets(arguments.remesh);
+    set_remeshing(result.read, arguments.remesh);
     result.flatten.material = find_material(arguments.material, assets() / "materials");
     if (arguments.thickness) // else that of the deck, once it is read
         result.flatten.thickness = *arguments.thickness;
@@ -84,11 +83,11 @@ SessionOptions options(const RunArguments& arguments)
     result.interpolate.degree_u = arguments.degree.front();
     result.interpolate.degree_v = arguments.degree.back();
     result.tolerance = arguments.tolerance;
+    result.patches = patch_layout(arguments.patches);
     if (arguments.smooth_joins && !result.patches)
         throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it away");
     if (arguments.smooth_joins)
         result.patches->smooth_joins = true;
-    result.patches = patch_layout(arguments.patches);
     if (result.patches && arguments.degree.front() != arguments.degree.back())
         throw InputError("patches of a layout have one degree along u and v; give --degree one number");
     if (result.patches && arguments.fit_parameters == "corrected")

@@ -59,8 +59,7 @@ PartFile part_of(const UnfoldArguments& arguments)
     if (!arguments.skin.empty())
         read.skin = skin_by_name(arguments.skin);
     read.seam = seam_options(arguments.seam);
-    read.remesh = remesh_options(arguments.remesh);
-    read.targets = mesh_targets(arguments.remesh);
+    set_remeshing(read, arguments.remesh);
     JobDisplay display{"read"};
     return read_part(arguments.part, read, display.progress());
 }

@@ -13,6 +13,8 @@ struct CadOptions {
     bool leave_out_unmeshed =
         false; ///< faces that cannot be read or meshed are left out, and the report names them; else
                ///< the part is refused for them
+    bool keep_triangles =
+        false; ///< those of the CAD faces stay; else slivers on a part that does not unroll are remeshed
 
     friend bool operator==(const CadOptions&, const CadOptions&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/exchange/cad_findings.h"
@@ -215,12 +216,41 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     return part;
 }
 
-/// Healthy parts alone can be remeshed.
-PartFile remeshed_where_asked(const fs::path& path, const ReadOptions& options, const Progress& progress)
+/// Needles on CAD faces. On a part that unrolls they are strips along its straight lines, as they should be. On others they are chords that
+/// differ from triangle to triangle, which is taken for strain: they go unasked, or a note says why not.
+void remesh_needles(PartFile& part, std::optional<double> deflection, const Progress& progress)
 {
-    PartFile part = examine_file(path, options, progress.part(0, options.remesh ? 0.4 : 1));
+    constexpr double needle = 15 * std::numbers::pi / 180; // of one triangle in a hundred
+    constexpr double unrolls = 0.02; // bent parts measured have 0 to rounding, the flattest of the drawn ones 0.9
+    if (triangle_quality(part.mesh).least_angle_of_99 > needle)
+        return;
+    if (total_curvature(part.mesh) < unrolls) {
+        if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
+            part.notes.push_back("its narrow triangles are strips along the straight lines of a surface that unrolls: "
+                                 "their strains are right");
+        return;
+    }
+    try {
+        RemeshOptions remesh;
+        remesh.tolerance = deflection; // where one was given the mesh is to be that close
+        remesh_part(part, remesh, progress);
+        part.notes.push_back("the triangles of its CAD faces were needles on a surface that does not unroll, whose "
+                             "chords are taken for strain; they can be kept (--no-remesh)");
+    } catch (const InputError& error) {
+        part.notes.push_back(fmt::format("the triangles of its CAD faces are needles on a surface that does not "
+                                         "unroll, so that strains there mean little; they were not remeshed: {}",
+                                         error.what()));
+    }
+}
+
+/// Healthy parts alone can be remeshed.
+PartFile remeshed(const fs::path& path, const ReadOptions& options, const Progress& progress)
+{
+    PartFile part = examine_file(path, options, progress.part(0, 0.4));
     if (part.doctor.healthy() && options.remesh)
         remesh_part(part, *options.remesh, progress.part(0.4, 1));
+    else if (part.doctor.healthy() && part.cad && !options.cad.keep_triangles)
+        remesh_needles(part, options.cad.deflection, progress.part(0.4, 1));
     if (part.doctor.healthy())
         check_targets(options.targets, part);
     return part;
@@ -240,7 +270,7 @@ template <class Work> PartFile named(const fs::path& path, const Work& work)
 
 PartFile examine_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
-    return named(path, [&] { return remeshed_where_asked(path, options, progress); });
+    return named(path, [&] { return remeshed(path, options, progress); });
 }
 
 PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const Progress& progress)
@@ -254,7 +284,7 @@ PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const
 PartFile read_part(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress)
 {
     return named(path, [&] {
-        PartFile part = remeshed_where_asked(path, options, progress);
+        PartFile part = remeshed(path, options, progress);
         try {
             require_healthy(part.doctor);
         } catch (const InputError& error) {

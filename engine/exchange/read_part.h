@@ -31,7 +31,7 @@ struct ReadOptions {
     std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
                                    ///< flat enough (has_both_skins()) are taken as hollow bodies, not as solids
     std::optional<RemeshOptions> remesh =
-        {};                   ///< not given: the triangles stay as they are; a part that is refused has none
+        {}; ///< not given: the triangles stay as they are, but for cad.keep_triangles; a part that is refused has none
     MeshTargets targets = {}; ///< checked after that; not given: none
 };
 

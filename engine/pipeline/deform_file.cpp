@@ -96,8 +96,9 @@ DeformationWish read_deformation(const std::filesystem::path& file)
     if (members::text_in(json, top, "schema", "") != schema)
         top.member("schema").fail(fmt::format("must be \"{}\"", schema));
     DeformationWish wish;
-    members::each_of(json, top, "moves",
-                     [&](const Json& move, const Place& at, const std::string&) { wish.moves.push_back(control_move(move, at)); });
+    members::each_of(json, top, "moves", [&](const Json& move, const Place& at, const std::string&) {
+        wish.moves.push_back(control_move(move, at));
+    });
     if (const Json* lattice = members::find(json, top, "lattice", false))
         read_lattice(*lattice, top.member("lattice"), wish);
     if (wish.moves.empty() && !wish.lattice)

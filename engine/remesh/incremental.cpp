@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 #include <numbers>
 
+#include "engine/core/error.h"
 #include "engine/remesh/border_clearance.h"
 #include "engine/remesh/evolving_mesh.h"
 #include "engine/remesh/triangle_quality.h"
@@ -49,27 +51,40 @@ double relative_length(const EvolvingMesh& mesh, Edge edge)
     return mesh.length(a, b) / std::min(mesh.size(a), mesh.size(b));
 }
 
-void split_long(EvolvingMesh& mesh, const Progress& progress)
-{
-    constexpr int most_sweeps = 12; // each halves
-    bool again = true;
-    for (int sweep = 0; sweep < most_sweeps && again; ++sweep) {
-        again = false;
-        for_free_edges(mesh, sweep == 0 ? progress : progress.part(1, 1), "splitting long edges", [&](Edge edge) {
-            if (relative_length(mesh, edge) <= EvolvingMesh::too_long)
-                return;
-            mesh.split(edge);
-            again = true;
-        });
-    }
-}
-
 void collapse_short(EvolvingMesh& mesh, const Progress& progress)
 {
     for_free_edges(mesh, progress, "collapsing short edges", [&](Edge edge) {
         if (relative_length(mesh, edge) < EvolvingMesh::too_short)
             mesh.collapse_if_sound(edge);
     });
+}
+
+void split_long(EvolvingMesh& mesh, double most_edges, const Progress& progress)
+{
+    constexpr int most_sweeps = 12; // each halves
+    constexpr size_t most_growth = 4;
+    bool again = true;
+    size_t before = mesh.mesh().n_edges();
+    for (int sweep = 0; sweep < most_sweeps && again; ++sweep) {
+        again = false;
+        for_free_edges(mesh, sweep == 0 ? progress : progress.part(1, 1), "splitting long edges", [&](Edge edge) {
+            if (relative_length(mesh, edge) <= EvolvingMesh::too_long)
+                return;
+            if (double(mesh.mesh().n_edges()) > most_edges) {
+                const Vector at = mesh.at(mesh.ends(edge).first);
+                throw InputError(fmt::format(
+                    "remeshing would cut the needles near {:.6g}, {:.6g}, {:.6g} mm into more than {:.2g} million edges",
+                    at.x(), at.y(), at.z(), most_edges / 1e6));
+            }
+            mesh.split(edge);
+            again = true;
+        });
+        // Needles beside each other would all be cut to pieces as long as the sizes, a hundred times too many.
+        if (mesh.mesh().n_edges() > most_growth * before) {
+            collapse_short(mesh, progress.part(1, 1));
+            before = mesh.mesh().n_edges();
+        }
+    }
 }
 
 /// Towards six neighbours of inner vertices and four of those at the boundary.
@@ -228,7 +243,7 @@ TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const 
             return progress.part(0.02 + 0.78 * (round + from) / options.rounds,
                                  0.02 + 0.78 * (round + to) / options.rounds);
         };
-        split_long(mesh, step(0, 0.2));
+        split_long(mesh, options.most_edges, step(0, 0.2));
         mesh.drop_line_vertices();
         collapse_short(mesh, step(0.2, 0.5));
         flip_for_valence(mesh, step(0.5, 0.6));

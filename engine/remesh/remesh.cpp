@@ -225,9 +225,12 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
             refuse("a larger size");
         }
         constexpr double most_growth = 20; // then shorter edges do not help
+        // Of a triangle that is to be, 1.5; what passes by on the way is up to 15 times as many for the needles of CAD faces.
+        const double most_edges = std::max(2e6, 25 * 1.5 * expected_triangles(even, size));
         if (attempt == 0)
             most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));
-        result.mesh = remesh_incrementally(even, lines, size, on_even, {allowed * result.tolerance}, here.part(0, 0.8));
+        result.mesh = remesh_incrementally(even, lines, size, on_even, {allowed * result.tolerance, most_edges},
+                                           here.part(0, 0.8));
         lead_back(result, part, search);
         fault = fault_of(result, part, search, size, here.part(0.8, 1));
         if (fault.text.empty())

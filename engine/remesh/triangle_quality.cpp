@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "engine/mesh/edge_graph.h"
@@ -59,6 +60,23 @@ TriangleQuality triangle_quality(const TriMesh& mesh)
     std::nth_element(length.begin(), middle, length.end());
     result.median_edge = *middle;
     return result;
+}
+
+double total_curvature(const TriMesh& mesh)
+{
+    const EdgeGraph graph = edge_graph(mesh);
+    Eigen::VectorXd angle = Eigen::VectorXd::Zero(mesh.vertices());
+    for (int f = 0; f < mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto corner = [&](int i) { return mesh.position.col(mesh.triangle((k + i) % 3, f)); };
+            const Eigen::Vector3d a = corner(1) - corner(0), b = corner(2) - corner(0);
+            angle[mesh.triangle(k, f)] += std::atan2(a.cross(b).norm(), a.dot(b));
+        }
+    Eigen::VectorXd curvature = (angle.array() - 2 * std::numbers::pi).abs();
+    for (int v = 0; v < mesh.vertices(); ++v)
+        if (graph.on_rim[size_t(v)] || angle[v] == 0) // none of a vertex without triangles
+            curvature[v] = 0;
+    return curvature.sum();
 }
 
 } // namespace spia

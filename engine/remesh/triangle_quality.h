@@ -15,6 +15,10 @@ struct TriangleQuality {
 
 TriangleQuality triangle_quality(const TriMesh& mesh);
 
+/// Radians: how much the angles around the vertices off the boundary differ from a full turn, all taken as positive (the Gaussian curvature,
+/// integrated). 0 up to rounding for strips that unroll.
+double total_curvature(const TriMesh& mesh);
+
 /// Radians; 0 for a triangle that has no area. Columns: its corners.
 double least_angle(const Eigen::Matrix3d& triangle);
 

@@ -17,15 +17,17 @@ expect() { # CODE WORDS COMMAND...
 triangles() { grep -o '"triangles": [0-9]*' "$out/info.json" | grep -o '[0-9]*'; }
 expect 0 "" "$spia" run "$source/assets/parts/dome.obj" --out "$out" --formats step --name dome
 step="$out/dome.step"
-expect 0 "holds  *body:0  *dome .*1 faces, sheet body" "$spia" info "$step" --json "$out/info.json"
+expect 0 "holds  *body:0  *dome .*1 faces, sheet body" "$spia" info "$step" --no-remesh --json "$out/info.json"
 grep -q '"choice": "body:0"' "$out/info.json" || fail "no items in the JSON"
 usual=$(triangles)
-expect 0 "can be unfolded" "$spia" info "$step" --part dome --json "$out/info.json"
+expect 0 "can be unfolded" "$spia" info "$step" --part dome --no-remesh --json "$out/info.json"
 expect 2 "'roof' is not in the file.*" "$spia" info "$step" --part roof
-expect 0 "within 0.5 mm of them" "$spia" info "$step" --deflection 0.5 --json "$out/info.json"
+expect 0 "within 0.5 mm of them" "$spia" info "$step" --deflection 0.5 --no-remesh --json "$out/info.json"
 [ "$(triangles)" -lt "$usual" ] || fail "a larger deflection gave no fewer triangles"
-expect 0 "can be unfolded" "$spia" info "$step" --angle 2 --json "$out/info.json"
+expect 0 "can be unfolded" "$spia" info "$step" --angle 2 --no-remesh --json "$out/info.json"
 [ "$(triangles)" -gt "$usual" ] || fail "a smaller angle gave no more triangles"
+expect 0 "can be kept (--no-remesh)" "$spia" info "$step"
+expect 2 "excludes" "$spia" info "$step" --remesh --no-remesh
 expect 0 "not sewn" "$spia" info "$step" --sewing 0 --skip-bad-faces
 for wrong in "--sewing -1" "--sewing nan" "--sewing 1e9" "--deflection 0" "--deflection inf" "--deflection 1e-300" "--angle 0" "--angle 95" "--angle nan"; do
     expect 2 "sewing tolerance\|deflection\|angle" "$spia" info "$step" $wrong

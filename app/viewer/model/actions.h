@@ -25,15 +25,15 @@ enum class PickMode { replace, add, remove };
 /// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), keep_largest (all
 /// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
 /// all), skin (of a solid of sheet: "outer", the default, "inner" or "middle"), and of CAD files sewing_mm (gaps up to this are closed;
-/// not given: found from the gaps), deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal) and leave_out_bad_faces
-/// (those that cannot be read or meshed).
+/// not given: found from the gaps), deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal), leave_out_bad_faces
+/// (those that cannot be read or meshed) and keep_triangles (needles on drawn parts are not remeshed).
 struct Reading {
     std::optional<bool> weld = {};
     bool keep_largest = false;
     std::vector<std::string> parts = {};
     std::optional<Skin> skin = {};
     std::optional<double> sewing_mm = {}, deflection_mm = {};
-    bool leave_out_bad_faces = false;
+    bool leave_out_bad_faces = false, keep_triangles = false;
 
     friend bool operator==(const Reading&, const Reading&) = default;
 };
@@ -67,7 +67,8 @@ struct ReadAgain {
 struct SetSeam {
     SeamOptions seam;
 };
-/// "set_remeshing": remesh {size, tolerance} in mm, each null: chosen from the part; null: the triangles of the file; reads the part again.
+/// "set_remeshing": remesh {size, tolerance} in mm, each null: chosen from the part; null: the triangles of the file, also where those
+/// of CAD faces are needles (reading.keep_triangles); reads the part again.
 struct SetRemeshing {
     std::optional<RemeshOptions> remesh = {};
 };

@@ -142,9 +142,12 @@ void ViewerModel::Apply::operator()(const SetSeam& action)
 
 void ViewerModel::Apply::operator()(const SetRemeshing& action)
 {
-    if (session.options.read.remesh != action.remesh)
-        read_again(action.remesh ? "Remesh" : "Take the triangles of the file",
-                   [&](ReadOptions& read) { read.remesh = action.remesh; });
+    const ReadOptions& now = session.options.read;
+    if (now.remesh != action.remesh || now.cad.keep_triangles != !action.remesh)
+        read_again(action.remesh ? "Remesh" : "Take the triangles of the file", [&](ReadOptions& read) {
+            read.remesh = action.remesh;
+            read.cad.keep_triangles = !action.remesh;
+        });
 }
 
 void ViewerModel::Apply::operator()(const RunTo& action)

@@ -47,11 +47,11 @@ std::vector<char> with_what_they_hold(const FileItems& items, std::vector<char> 
 /// A file that is about to be opened.
 struct FileListing {
     std::filesystem::path file;
-    bool again = false;                       ///< it is that of the part, which is read otherwise
-    std::shared_ptr<const ListedFile> listed; ///< null: not yet, or there is a failure
-    std::string failure;                      ///< why it cannot be read; empty: none
-    std::string step;                         ///< of the work
-    double fraction = 0;                      ///< of the work
+    bool again = false;                            ///< it is that of the part, which is read otherwise
+    std::shared_ptr<const ListedFile> listed = {}; ///< null: not yet, or there is a failure
+    std::string failure = {};                      ///< why it cannot be read; empty: none
+    std::string step = {};                         ///< of the work
+    double fraction = 0;                           ///< of the work
 };
 
 } // namespace spia::viewer

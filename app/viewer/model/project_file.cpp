@@ -148,6 +148,7 @@ inline constexpr auto members_of<StoredPart> =
                member("sewing_mm", &StoredPart::sewing_mm, gap_width),
                member("deflection_mm", &StoredPart::deflection_mm, chord_height),
                member("leave_out_bad_faces", &StoredPart::leave_out_bad_faces),
+               member("keep_triangles", &StoredPart::keep_triangles),
                member("remesh", &StoredPart::remesh)};
 template <>
 inline constexpr auto members_of<StoredProject> =

@@ -10,7 +10,8 @@ Reading reading_of(const ReadOptions& options)
             options.skin,
             options.cad.sewing_tolerance,
             options.cad.deflection,
-            options.cad.leave_out_unmeshed};
+            options.cad.leave_out_unmeshed,
+            options.cad.keep_triangles};
 }
 
 void set_reading(ReadOptions& options, const Reading& reading)
@@ -22,6 +23,7 @@ void set_reading(ReadOptions& options, const Reading& reading)
     options.cad.sewing_tolerance = reading.sewing_mm;
     options.cad.deflection = reading.deflection_mm;
     options.cad.leave_out_unmeshed = reading.leave_out_bad_faces;
+    options.cad.keep_triangles = reading.keep_triangles;
 }
 
 } // namespace spia::viewer

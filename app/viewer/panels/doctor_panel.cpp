@@ -186,23 +186,24 @@ void remeshing(Frame& frame, const PartFile* part)
 {
     const std::optional<RemeshOptions>& now = frame.state.document.session.options.read.remesh;
     ImGui::BeginDisabled(frame.model.busy());
-    bool wanted = now.has_value();
+    const bool done = part && part->remeshed; // that of a CAD part unasked, too
+    bool wanted = now || done;
     if (ImGui::Checkbox("Remesh", &wanted))
         frame.actions.push(SetRemeshing{wanted ? std::optional(RemeshOptions{}) : std::nullopt});
     tooltip("Puts even triangles in the place of slivers, coarse or over-fine ones. The surface stays within the "
             "tolerance, and deviations are still those from the triangles of the file.");
-    if (now) { // also where it was refused: other sizes may do
-        RemeshOptions edited = *now;
-        const bool done = part && part->remeshed;
-        double size = done ? part->remeshed->size : now->size.value_or(0),
-               tolerance = done ? part->remeshed->tolerance : now->tolerance.value_or(0);
+    if (wanted && (now || done)) { // also where it was refused: other sizes may do
+        const RemeshOptions before = now.value_or(RemeshOptions{});
+        RemeshOptions edited = before;
+        double size = done ? part->remeshed->size : before.size.value_or(0),
+               tolerance = done ? part->remeshed->tolerance : before.tolerance.value_or(0);
         ImGui::SetNextItemWidth(100 * frame.ui.scale);
         if (typed_number(frame, "Edges, mm", size, "%.4g"))
             edited.size = size;
         ImGui::SetNextItemWidth(100 * frame.ui.scale);
         if (typed_number(frame, "Tolerance, mm", tolerance, "%.3g"))
             edited.tolerance = tolerance;
-        if (edited != *now)
+        if (edited != before)
             frame.actions.push(SetRemeshing{edited});
     }
     ImGui::EndDisabled();

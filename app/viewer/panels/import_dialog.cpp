@@ -41,6 +41,7 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
         fresh.skin = read.skin;
         fresh.keep_largest = read.doctor.keep_largest;
         fresh.leave_out_bad_faces = read.cad.leave_out_unmeshed;
+        fresh.keep_triangles = read.cad.keep_triangles;
         const auto typed = [](const std::optional<double>& mm) { return mm ? fmt::format("{}", *mm) : std::string(); };
         fresh.sewing = typed(read.cad.sewing_tolerance);
         fresh.deflection = typed(read.cad.deflection);
@@ -362,6 +363,7 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
         ImGui::Checkbox("Leave out faces that cannot be meshed", &choices.leave_out_bad_faces);
         tooltip("They are named, and the rest is read. Without it the part is refused for them.");
         reading.leave_out_bad_faces = choices.leave_out_bad_faces;
+        reading.keep_triangles = choices.keep_triangles;
     }
     reading.skin = choices.skin;
     reading.keep_largest = choices.keep_largest;

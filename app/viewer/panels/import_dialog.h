@@ -27,7 +27,7 @@ struct ImportChoices {
     std::optional<bool> weld;                ///< as the part was read
     std::string unit;                        ///< empty: as the file says, else mm
     std::optional<Skin> skin;
-    bool keep_largest = false, leave_out_bad_faces = false;
+    bool keep_largest = false, leave_out_bad_faces = false, keep_triangles = false;
     std::string sewing, deflection; ///< mm, as typed; empty: found
     std::optional<int> hovered;     ///< an item
     Camera camera;

@@ -425,6 +425,7 @@ TEST_P(RealCad, HasTheLoopsAndTheAreaItsOriginStates)
     ReadOptions options;
     options.seam.mode = SeamOptions::Mode::none;
     options.cad.deflection = 0.005; // so that the chords of borders and bends take less than 1e-3 of the area
+    options.cad.keep_triangles = true;
     const PartFile part = examine_part(file, options);
     EXPECT_EQ(part.cad->faces, known.faces);
     EXPECT_EQ(part.doctor.components, 1);

@@ -7,8 +7,10 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
 #include <BRepLib.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom_Circle.hxx>
@@ -157,6 +159,21 @@ void write_swept_cylinder(const std::filesystem::path& brep, Swept swept)
     }
     if (!BRepTools::Write(bounded(surface, wire.Wire()), brep.c_str()))
         throw std::runtime_error("no cylinder was written");
+}
+
+void write_cup_quarter(const std::filesystem::path& brep)
+{
+    const OcctSession session;
+    const double middle = 4 * std::sqrt(0.5);
+    BRepBuilderAPI_MakeWire profile;
+    profile.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(20, 0, 0), gp_Pnt(96, 0, 0)).Edge());
+    profile.Add(BRepBuilderAPI_MakeEdge(
+                    GC_MakeArcOfCircle(gp_Pnt(96, 0, 0), gp_Pnt(96 + middle, 0, 4 - middle), gp_Pnt(100, 0, 4)).Value())
+                    .Edge());
+    profile.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(100, 0, 4), gp_Pnt(100, 0, 64)).Edge());
+    const TopoDS_Shape cup = BRepPrimAPI_MakeRevol(profile.Wire(), gp::OZ(), std::numbers::pi / 2).Shape();
+    if (!BRepTools::Write(cup, brep.c_str()))
+        throw std::runtime_error("not written: " + brep.string());
 }
 
 } // namespace spia

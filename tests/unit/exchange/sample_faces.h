@@ -33,4 +33,7 @@ enum class Swept { line_up, line_down, circle_up, circle_down };
 /// Writes it as BREP, from -1 to 1 rad about z and from z = 0 to 30.
 void write_swept_cylinder(const std::filesystem::path& brep, Swept swept);
 
+/// Writes a quarter of a cup as BREP: its flat bottom from radius 20 to 96, a round of radius 4 and a wall of 60 mm, revolved about z.
+void write_cup_quarter(const std::filesystem::path& brep);
+
 } // namespace spia
