@@ -1,0 +1,49 @@
+#include "engine/coons/element_energy.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace spia {
+
+TEST(ElementEnergy, IsLeastForARotationAndInfiniteForAFold)
+{
+    const ElementEnergy energy{0, 0.3};
+    const Jacobian rotation(std::cos(0.7), std::sin(0.7), -std::sin(0.7), std::cos(0.7));
+    EXPECT_NEAR(energy.value(rotation), 2 + 2 * 0.3, 1e-14);
+    Eigen::Vector4d gradient;
+    Eigen::Matrix4d hessian;
+    energy.derivatives(rotation, gradient, hessian);
+    EXPECT_LT(gradient.norm(), 1e-14);
+    EXPECT_EQ(energy.value(Jacobian(1, 0, 0, -1)), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(energy.value(Jacobian::Zero()), std::numeric_limits<double>::infinity());
+    EXPECT_LT((ElementEnergy{0.1, 0.3}.value(Jacobian(1, 0, 0, -1))), 1e4); // finite once eps > 0
+}
+
+TEST(ElementEnergy, DerivativesAreThoseOfTheValue)
+{
+    // Where the second derivative has no negative eigenvalue, it must be the difference of the gradients too.
+    for (const double eps : {0.0, 0.2})
+        for (const Jacobian& J : {Jacobian(1.1, 0.2, -0.1, 0.9), Jacobian(0.5, 0.1, 0.3, 0.7)}) {
+            const ElementEnergy energy{eps, 0.5};
+            Eigen::Vector4d gradient, ahead, behind;
+            Eigen::Matrix4d hessian, ignored;
+            energy.derivatives(J, gradient, hessian);
+            constexpr double h = 1e-5; // differences are good to h^2
+            Eigen::Matrix4d expected;
+            for (int k = 0; k < 4; ++k) {
+                const Jacobian step = h * Jacobian::Unit(k);
+                EXPECT_NEAR(gradient[k], (energy.value(J + step) - energy.value(J - step)) / (2 * h), 1e-7);
+                energy.derivatives(J + step, ahead, ignored);
+                energy.derivatives(J - step, behind, ignored);
+                expected.col(k) = (ahead - behind) / (2 * h);
+            }
+            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(expected);
+            const Eigen::Matrix4d clamped =
+                eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+            EXPECT_LT((hessian - clamped).cwiseAbs().maxCoeff(), 1e-6 * expected.norm());
+        }
+}
+
+} // namespace spia
