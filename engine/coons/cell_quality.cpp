@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/mesh/orient2d.h"
+
 namespace spia {
 
 namespace {
 
-constexpr double least_sine = 1e-9; // below it, rounding decides which way the corner turns
+constexpr double least_sine = 1e-9; // below it a corner is right but of no use: any rounding turns it
 
 double sine(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -15,23 +17,36 @@ double sine(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
     return lengths > 0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : 0;
 }
 
+std::array<Eigen::Vector2d, 4> corners_of(const QuadGrid& planar, int i, int j)
+{
+    const auto at = [&](int a, int b) -> Eigen::Vector2d { return planar.position.col(planar.node(a, b)).head<2>(); };
+    return {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+}
+
+double least_sine_of(const std::array<Eigen::Vector2d, 4>& corner)
+{
+    double smallest = 1;
+    for (size_t k = 0; k < 4; ++k)
+        smallest = std::min(smallest, sine(corner[(k + 1) % 4] - corner[k], corner[(k + 3) % 4] - corner[k]));
+    return smallest;
+}
+
 } // namespace
+
+bool turns_left_everywhere(const std::array<Eigen::Vector2d, 4>& corner)
+{
+    for (size_t k = 0; k < 4; ++k)
+        if (orient2d(corner[k], corner[(k + 1) % 4], corner[(k + 3) % 4]) <= 0)
+            return false;
+    return true;
+}
 
 Eigen::VectorXd scaled_jacobians(const QuadGrid& planar)
 {
     Eigen::VectorXd result(Eigen::Index(planar.columns) * planar.rows);
     for (int j = 0; j < planar.rows; ++j)
-        for (int i = 0; i < planar.columns; ++i) {
-            const std::array<int, 4> node = {planar.node(i, j), planar.node(i + 1, j), planar.node(i + 1, j + 1),
-                                             planar.node(i, j + 1)};
-            double smallest = 1;
-            for (size_t k = 0; k < 4; ++k) {
-                const Eigen::Vector2d here = planar.position.col(node[k]).head<2>();
-                smallest = std::min(smallest, sine(planar.position.col(node[(k + 1) % 4]).head<2>() - here,
-                                                   planar.position.col(node[(k + 3) % 4]).head<2>() - here));
-            }
-            result[i + Eigen::Index(j) * planar.columns] = smallest;
-        }
+        for (int i = 0; i < planar.columns; ++i)
+            result[i + Eigen::Index(j) * planar.columns] = least_sine_of(corners_of(planar, i, j));
     return result;
 }
 
@@ -40,9 +55,13 @@ CellQuality cell_quality(const QuadGrid& planar)
     const Eigen::VectorXd jacobian = scaled_jacobians(planar);
     CellQuality quality;
     quality.min_scaled_jacobian = jacobian.size() > 0 ? jacobian.minCoeff() : 1;
-    for (int cell = 0; cell < jacobian.size(); ++cell)
-        if (jacobian[cell] <= least_sine && quality.folded_cells++ == 0)
-            quality.first_folded = cell;
+    for (int j = 0; j < planar.rows; ++j)
+        for (int i = 0; i < planar.columns; ++i) {
+            const int cell = i + j * planar.columns;
+            const bool good = jacobian[cell] > least_sine && turns_left_everywhere(corners_of(planar, i, j));
+            if (!good && quality.folded_cells++ == 0)
+                quality.first_folded = cell;
+        }
     return quality;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
+#include <Eigen/Core>
+#include <array>
+
 #include "engine/coons/quad_grid.h"
 
 namespace spia {
 
 /// What the cells of a planar grid are like.
 struct CellQuality {
-    int folded_cells = 0;           ///< cells with a corner whose determinant is not positive
+    int folded_cells = 0;           ///< cells that are not strictly convex
     int first_folded = -1;          ///< cell i + j * columns; -1 if none is
     double min_scaled_jacobian = 0; ///< smallest sine of a corner's angle over all cells; 1 in a grid of rectangles
 };
@@ -14,8 +17,12 @@ struct CellQuality {
 /// where the edges to the next and to the previous node do not turn counter-clockwise.
 Eigen::VectorXd scaled_jacobians(const QuadGrid& planar);
 
-/// Looks at the four corners of each cell in the plane (z is not read). A cell folds where the edges to the
-/// next and to the previous node do not turn counter-clockwise; a corner of 180 degrees counts as folded.
+/// Whether a cell is strictly convex and counter-clockwise: the triangles at its four corners are, by exact arithmetic
+/// (orient2d()). Its bilinear map then has a positive determinant everywhere, which is linear between those at the corners.
+bool turns_left_everywhere(const std::array<Eigen::Vector2d, 4>& corner);
+
+/// Looks at the four corners of each cell in the plane (z is not read). A cell folds unless it turns_left_everywhere() and
+/// all its corners have a sine above 1e-9: one of 180 degrees counts as folded, as does a node that is no number.
 CellQuality cell_quality(const QuadGrid& planar);
 
 } // namespace spia

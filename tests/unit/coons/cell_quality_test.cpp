@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace spia {
 
@@ -40,6 +41,29 @@ TEST(CellQuality, ANonConvexAndAFlatCornerCountAsFolded)
     EXPECT_EQ(cell_quality(grid).folded_cells, 1);
     grid.position.col(3) << 0.6, 0.6, 0;
     EXPECT_EQ(cell_quality(grid).folded_cells, 0);
+}
+
+TEST(CellQuality, ANodeThatIsNoNumberFoldsItsCells)
+{
+    QuadGrid grid = unit_cells(4, 3);
+    grid.position(0, grid.node(2, 1)) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(cell_quality(grid).folded_cells, 4);
+    grid.position(0, grid.node(2, 1)) = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(cell_quality(grid).folded_cells, 4);
+}
+
+TEST(CellQuality, TheOrientationOfACellIsExact)
+{
+    // A corner one rounding above, on and below the line between its neighbours; far from the origin, where every difference
+    // of products in doubles is off by more than that.
+    const double far = 1 << 20, up = std::nextafter(far + 1.0, 1e300), down = std::nextafter(far + 1.0, 0.0);
+    const auto cell = [&](double y) {
+        return std::array<Eigen::Vector2d, 4>{Eigen::Vector2d(far, far), Eigen::Vector2d(far + 1, y),
+                                              Eigen::Vector2d(far + 2, far + 2), Eigen::Vector2d(far, far + 2)};
+    };
+    EXPECT_TRUE(turns_left_everywhere(cell(down)));
+    EXPECT_FALSE(turns_left_everywhere(cell(far + 1)));
+    EXPECT_FALSE(turns_left_everywhere(cell(up)));
 }
 
 TEST(CellQuality, TheScaledJacobianIsTheSineOfTheSharpestAngle)
