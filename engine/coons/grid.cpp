@@ -8,12 +8,14 @@
 #include <fmt/ranges.h>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "engine/coons/blank_search.h"
 #include "engine/coons/border_check.h"
 #include "engine/coons/find_nodes.h"
 #include "engine/coons/harmonic_map.h"
 #include "engine/coons/mend.h"
+#include "engine/coons/opened_map.h"
 #include "engine/coons/place_border.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -27,14 +29,24 @@ constexpr int most_refinements = 1;     // of an automatic count: doubled
 constexpr int sweeps_between_looks = 5; // smoothing can fold what it has unfolded: stop as soon as it is good
 constexpr std::array<double, 3> slides = {0, 1.5, 6}; // how far border nodes may slide, in cells: tried in turn
 
-/// Everything the ways to a grid share: the blank as a search structure, and the harmonic map once it is
-/// needed.
+/// A map of the blank onto the unit square, and its inverse.
+struct SquareMap {
+    HarmonicMap map;
+    PlanarLocator square;
+    GridRoute route;
+
+    SquareMap(HarmonicMap to_square, GridRoute way)
+        : map(std::move(to_square)), square(map.square, map.triangle), route(way)
+    {
+    }
+};
+
+/// Everything the ways to a grid share: the blank as a search structure, and the maps once they are needed.
 struct Workshop {
     std::shared_ptr<const FilledMesh> filled;
     BlankBoundary boundary;
     BlankSearch blank;
-    std::optional<HarmonicMap> map = {};
-    std::optional<PlanarLocator> square = {};
+    std::optional<SquareMap> harmonic = {};
 };
 
 GridResult empty_grid(const Workshop& shop, int columns, int rows, const BorderParameters& border)
@@ -112,26 +124,81 @@ GridResult coons_patch(const Workshop& shop, int columns, int rows, const GridOp
     return grid;
 }
 
-/// The harmonic map, inverted at the nodes of the unit square. Each node keeps the triangle it was found in.
-GridResult harmonic_grid(Workshop& shop, int columns, int rows, const BorderParameters& border,
-                         const Progress& progress)
+/// A map onto the unit square, inverted at the nodes of the grid. Each node keeps the triangle it was found in.
+GridResult inverted(const SquareMap& map, const Workshop& shop, int columns, int rows, const BorderParameters& border)
 {
-    if (!shop.map) {
-        shop.map = harmonic_map(*shop.filled, shop.boundary, progress);
-        shop.square.emplace(shop.map->square, shop.map->triangle);
-    }
     GridResult grid = empty_grid(shop, columns, rows, border);
-    grid.route = GridRoute::harmonic;
+    grid.route = map.route;
     parallel_for(grid.planar.nodes(), [&](int n) {
         if (is_border(grid.planar, n))
             return;
         const Eigen::Vector2d uv(double(n % (columns + 1)) / columns, double(n / (columns + 1)) / rows);
         MeshPoint& place = grid.place[size_t(n)];
-        place = shop.map->in_filled_mesh(shop.square->nearest(uv));
+        place = map.map.in_filled_mesh(map.square.nearest(uv));
         grid.planar.position.col(n) << shop.blank.position(place), 0;
     });
     grid.quality = cell_quality(grid.planar);
     return grid;
+}
+
+/// Whether cells with straight edges can follow the outline between these border nodes.
+bool border_is_possible(const GridResult& grid, const Workshop& shop)
+{
+    return impossible_corner(grid.planar) < 0 && follows_outline(grid, shop.blank.overlaps_itself());
+}
+
+/// The grid of a map, mended where it folds. Sound, or the last one tried.
+GridResult mended_grid(const SquareMap& map, const Workshop& shop, int columns, int rows,
+                       const BorderParameters& border, const Progress& progress)
+{
+    GridResult grid = inverted(map, shop, columns, rows, border);
+    if (is_sound(grid) || !border_is_possible(grid, shop))
+        return grid;
+    mend(shop.blank, grid, progress.part(0, 0.5));
+    if (!is_sound(grid) && map.route == GridRoute::harmonic) {
+        // Where the map squeezes much of the blank into a corner, the patch is the better start.
+        blend_opposite_sides(grid.planar);
+        mend(shop.blank, grid, progress.part(0.5, 1));
+    }
+    return grid;
+}
+
+/// Border nodes that divide the sides evenly, else that slide as little as they have to for cells to follow the outline.
+GridResult harmonic_grid(Workshop& shop, int columns, int rows, const Progress& progress)
+{
+    if (!shop.harmonic)
+        shop.harmonic.emplace(harmonic_map(*shop.filled, shop.boundary, progress.part(0, 0.2)), GridRoute::harmonic);
+    GridResult grid;
+    for (const double reach : slides) {
+        const BorderParameters border =
+            reach > 0 ? slid_border(*shop.filled, shop.boundary, columns, rows, reach) : even_border(columns, rows);
+        grid = mended_grid(*shop.harmonic, shop, columns, rows, border, progress.part(0.2, 1));
+        grid.border_slid = reach > 0;
+        if (is_sound(grid) || border_is_possible(grid, shop))
+            break;
+    }
+    return grid;
+}
+
+/// The same from a map that leaves lobes and windings their area, first with border nodes that divide the sides evenly.
+GridResult opened_grid(const Workshop& shop, int columns, int rows, GridResult best, const Progress& progress)
+{
+    for (const bool slide : {false, true}) {
+        const Progress here = progress.part(0.5 * slide, 0.5 + 0.5 * slide);
+        std::optional<HarmonicMap> opened =
+            opened_map(shop.harmonic->map, double(columns) / rows, slide, here.part(0, 0.5));
+        if (!opened)
+            continue;
+        const SquareMap map(std::move(*opened), GridRoute::opened);
+        GridResult grid = mended_grid(map, shop, columns, rows, border_of_map(map.map, shop.boundary, columns, rows),
+                                      here.part(0.5, 1));
+        grid.border_slid = slide;
+        if (is_sound(grid))
+            return grid;
+        if (!border_is_possible(best, shop) && border_is_possible(grid, shop))
+            best = std::move(grid);
+    }
+    return best;
 }
 
 /// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a part with lobes.
@@ -196,6 +263,7 @@ std::string_view name(GridRoute route)
     case GridRoute::coons: return "Coons patch";
     case GridRoute::smoothed_coons: return "smoothed Coons patch";
     case GridRoute::harmonic: return "harmonic map";
+    case GridRoute::opened: return "opened harmonic map";
     case GridRoute::untangled: return "untangled harmonic map";
     }
     return "";
@@ -221,26 +289,12 @@ GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBounda
     for (int level = 0; level < levels; ++level) {
         const Progress here = progress.part(0.2 + 0.8 * level / levels, 0.2 + 0.8 * (level + 1) / levels);
         const int m = columns << level, n = rows << level;
-        for (const double reach : slides) { // only where even nodes cut across the outline
-            grid =
-                harmonic_grid(shop, m, n, reach > 0 ? slid_border(*filled, boundary, m, n, reach) : even_border(m, n),
-                              here.part(0, 0.2));
-            grid.refinements = level;
-            grid.border_slid = reach > 0;
-            if (is_sound(grid))
-                return grid;
-            if (impossible_corner(grid.planar) >= 0 || !follows_outline(grid, shop.blank.overlaps_itself()))
-                continue;
-            mend(shop.blank, grid, here.part(0.2, 0.6));
-            if (!is_sound(
-                    grid)) { // where the map squeezes much of the blank into a corner, the patch is the better start
-                blend_opposite_sides(grid.planar);
-                mend(shop.blank, grid, here.part(0.6, 1));
-            }
-            if (is_sound(grid))
-                return grid;
-            break;
-        }
+        grid = harmonic_grid(shop, m, n, here.part(0, 0.5));
+        if (!is_sound(grid))
+            grid = opened_grid(shop, m, n, std::move(grid), here.part(0.5, 1));
+        grid.refinements = level;
+        if (is_sound(grid))
+            return grid;
     }
     throw_impossible(shop, grid, options.file_number);
 }

@@ -30,17 +30,18 @@ struct GridOptions {
 };
 
 /// Which way the grid came about.
-enum class GridRoute { coons, smoothed_coons, harmonic, untangled };
+enum class GridRoute { coons, smoothed_coons, harmonic, opened, untangled };
 std::string_view name(GridRoute route);
 
 /// A planar quad grid that fills the blank, and where each of its nodes lies on the part.
 struct GridResult {
     QuadGrid planar; ///< in the plane of the blank, z = 0; the border nodes lie on the outline
     GridRoute route = GridRoute::coons;
-    CellQuality quality;      ///< no folded cell but with GridMethod::coons
-    int nodes_outside = 0;    ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
-    int refinements = 0;      ///< how often an automatic cell count was doubled to get there
-    bool border_slid = false; ///< the border nodes do not divide the sides evenly: that made loops, see slid_border()
+    CellQuality quality;   ///< no folded cell but with GridMethod::coons
+    int nodes_outside = 0; ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
+    int refinements = 0;   ///< how often an automatic cell count was doubled to get there
+    bool border_slid =
+        false; ///< the border nodes do not divide the sides evenly: see slid_border(), or the sides of opened_map()
     /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
     std::array<Eigen::VectorXd, 4> border;
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside
@@ -50,7 +51,8 @@ struct GridResult {
 /// Fills the blank with columns x rows quads between its four sides. The border nodes divide the sides evenly
 /// by length. Inside: bilinearly blended Coons patch (eq. 25); if a cell folds or a node misses the blank,
 /// Laplacian smoothing; then the harmonic map of the blank onto the unit square, inverted at the grid nodes;
-/// then untangling, on a finer grid if the cell counts are automatic. Holes of the part are filled for this.
+/// then untangling, from the harmonic map or from one that gives lobes their area (opened_map()), on a finer grid if the
+/// cell counts are automatic. Holes of the part are filled for this.
 /// @param boundary of the same blank, see split_boundary()
 /// @throws InputError if every way folds a cell; the message says at which corner, and what to choose instead;
 ///         also if the part is not one piece without handles

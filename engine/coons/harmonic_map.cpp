@@ -140,7 +140,8 @@ HarmonicMap harmonic_map(const FilledMesh& filled, const BlankBoundary& boundary
     progress.checkpoint(0, "harmonic map: equations");
     const std::vector<char> sides = sides_of_vertices(boundary, filled.mesh.vertices());
     HarmonicMap map;
-    const Eigen::Matrix2Xd plane = cut_dividing_edges(filled, sides, map);
+    map.plane = cut_dividing_edges(filled, sides, map);
+    const Eigen::Matrix2Xd& plane = map.plane;
     map.square = Eigen::Matrix2Xd::Zero(2, plane.cols());
     place_sides(boundary, filled.plane, map.square);
 

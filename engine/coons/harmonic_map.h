@@ -13,6 +13,7 @@ namespace spia {
 /// that are cut where an inner edge joins two vertices of one side: a straight side would leave them no area.
 struct HarmonicMap {
     Eigen::Matrix2Xd square;             ///< 2 by #V, those of the filled mesh first
+    Eigen::Matrix2Xd plane;              ///< 2 by #V, the same vertices in the plane of the blank
     Eigen::Matrix3Xi triangle;           ///< 3 by #F
     std::vector<int> parent;             ///< per triangle, the face of the filled mesh it is a part of
     std::vector<Eigen::Matrix3d> corner; ///< per triangle, barycentric coordinates of its corners in the parent
