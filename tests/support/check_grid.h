@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "engine/coons/grid.h"
+#include "tests/support/outlines_by_lot.h"
+
+namespace spia::shapes {
+
+/// What is wrong with a planar grid of a blank, empty if nothing: every cell strictly convex and counter-clockwise by exact
+/// arithmetic, every node where its triangle says, the corners on their vertices, the other border nodes on edges of the
+/// outline and in its order.
+std::string fault_of(const GridResult& grid, const BlankBoundary& boundary);
+
+struct GridByLot {
+    std::string fault; ///< as above; also what was thrown, unless
+    bool refused;      ///< the blank was refused as one that winds too much
+};
+
+/// coons_grid() of an outline with default options.
+GridByLot grid_by_lot(const OutlineByLot& lot);
+
+} // namespace spia::shapes

@@ -1,0 +1,26 @@
+#pragma once
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "engine/mesh/tri_mesh.h"
+
+/// Flat parts with outlines and corners drawn by lot. They are their own blank.
+namespace spia::shapes {
+
+struct OutlineByLot {
+    std::string name; ///< kind and number: "comb 17"
+    TriMesh part;     ///< z = 0; may have holes
+    std::array<int, 4>
+        corner; ///< distinct vertices of the outer boundary, counter-clockwise, where it turns to the left
+};
+
+constexpr int outline_kinds = 8;
+std::string_view outline_kind(int kind); ///< star, L, U, comb, spiral, lobes, maze, plate with holes
+
+/// One outline of a kind, turned and stretched by lot: the same every time and everywhere. Corners are any four vertices at
+/// which the outline turns to the left, looked at from its neighbours and from one hundredth of its length: a cell with
+/// straight edges cannot have a corner of 180 degrees or more.
+OutlineByLot outline_by_lot(int kind, int number);
+
+} // namespace spia::shapes
