@@ -1,14 +1,15 @@
 // Runs every shape of the family and every mesh of a folder, and prints a table per family: what ended how, and what failed.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <fmt/core.h>
-
 #include <map>
 
 #include "engine/forming/material_library.h"
 #include "tests/robustness/shape_run.h"
 #include "tests/robustness/unfold_run.h"
+#include "tests/support/check_grid.h"
 #include "tests/support/shape_family.h"
 
 namespace {
@@ -89,6 +90,37 @@ int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const
     return wrong;
 }
 
+/// A table of grids over outlines and corners drawn by lot, 40 of each kind. @returns how many are not sound, or were refused
+int grid_all(const std::string& only, int each)
+{
+    fmt::print(
+        "| kind | outlines | sound | refused as winding too much | not sound | slowest s |\n|---|---|---|---|---|---|\n");
+    int wrong = 0;
+    for (int kind = 0; kind < shapes::outline_kinds; ++kind) {
+        if (shapes::outline_kind(kind).find(only) == std::string_view::npos)
+            continue;
+        int refused = 0, faulty = 0;
+        double slowest = 0;
+        std::string names;
+        for (int number = 0; number < each; ++number) {
+            const shapes::OutlineByLot lot = shapes::outline_by_lot(kind, number);
+            const auto clock = std::chrono::steady_clock::now();
+            const shapes::GridByLot made = shapes::grid_by_lot(lot);
+            slowest =
+                std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
+            refused += made.refused;
+            faulty += !made.fault.empty();
+            if (made.refused || !made.fault.empty())
+                names += fmt::format("{}: {}\n", lot.name, made.refused ? "winds too much" : made.fault);
+        }
+        fmt::print("| {} | {} | {} | {} | {} | {:.1f} |\n{}", shapes::outline_kind(kind), each, each - refused - faulty,
+                   refused, faulty, slowest, names);
+        std::fflush(stdout);
+        wrong += refused + faulty;
+    }
+    return wrong;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -99,6 +131,7 @@ int main(int argc, char** argv)
     std::string only;
     std::filesystem::path folder;
     bool verbose = false, unfold = false;
+    int grids = 0;
     double edge = 0;
     app.add_option("--triangles", triangles, "about how many each shape has")->capture_default_str();
     app.add_option("--seed", seed, "of all lots")->capture_default_str();
@@ -107,7 +140,10 @@ int main(int argc, char** argv)
     app.add_option("--edge", edge, "restraint of the outer edge, a share of the lock force")->capture_default_str();
     app.add_flag("--verbose", verbose, "a line per shape");
     app.add_flag("--unfold", unfold, "the bent parts instead, step by step, beside other methods");
+    app.add_option("--grids", grids, "grids over that many outlines of each kind instead, with corners drawn by lot");
     CLI11_PARSE(app, argc, argv);
+    if (grids > 0)
+        return grid_all(only, grids) == 0 ? 0 : 1;
 
     FlattenOptions flattening;
     flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
