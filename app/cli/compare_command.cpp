@@ -26,6 +26,7 @@ int compare(const CompareArguments& arguments)
         read.weld = true;
     read.parts = arguments.parts;
     read.cad = cad_options(arguments.cad, arguments.part);
+    read.cad.keep_triangles = true; // methods are compared on the triangles of the file
     read.doctor.keep_largest = arguments.keep_largest;
     if (!arguments.skin.empty())
         read.skin = skin_by_name(arguments.skin);

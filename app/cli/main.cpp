@@ -206,7 +206,7 @@ int main(int count, char** values)
     run_command->add_flag(
         "--smooth-joins", run.smooth_joins,
         "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part "
-        "(above 20 degrees) stay");
+        "(joins with more than 10 degrees) stay");
     run_command
         ->add_option(
             "--deform", run.deform,

@@ -96,12 +96,12 @@ void print_summary(const Session& session)
     if (const auto& fit = session.surface->fit; fit && patches)
         say("          {} {:.4g} mm in {} rounds, {} interfaces\n", fit->reached ? "within" : "NOT within",
             fit->tolerance, fit->rounds, patches->patches.interfaces.size());
-    if (patches && patches->joins) {
+    if (patches && patches->joins && patches->joins->places > 0) {
         constexpr double degree = std::numbers::pi / 180;
         const JoinsReport& joins = *patches->joins;
         say("joins     angle up to {:.3g} degrees, {:.3g} before{}{}\n", joins.angle_after / degree,
             joins.angle_before / degree,
-            joins.kept > 0 ? fmt::format("; {} stay as they were, to keep to the tolerance",
+            joins.kept > 0 ? fmt::format("; {} stay as they were: smooth, they would be worse",
                                          counted(joins.kept, "patch", "patches"))
                            : "",
             joins.edges > 0 ? fmt::format("; {} of {} places are edges of the part", joins.edges, joins.places) : "");

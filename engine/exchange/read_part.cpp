@@ -232,9 +232,11 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
     }
     try {
         RemeshOptions remesh;
-        remesh.tolerance = deflection; // where one was given the mesh is to be that close
+        if (deflection) // the mesh is to be as close again; not coarser than by default, nor finer than can be
+            remesh.tolerance =
+                std::clamp(*deflection, 1e-6 * bounding_diagonal(part.mesh), 1e-3 * bounding_diagonal(part.mesh));
         remesh_part(part, remesh, progress);
-        part.notes.push_back("the triangles of its CAD faces were needles on a surface that does not unroll, whose "
+        part.notes.push_back("triangles of its CAD faces were needles on a surface that does not unroll, whose "
                              "chords are taken for strain; they can be kept (--no-remesh)");
     } catch (const InputError& error) {
         part.notes.push_back(fmt::format("the triangles of its CAD faces are needles on a surface that does not "

@@ -65,8 +65,18 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
     remeshed.original = std::make_shared<TriMesh>(std::exchange(part.mesh, std::move(result.mesh)));
     if (part.cad)
         number_anew(part);
-    std::erase_if(part.doctor.findings, [](const Finding& finding) { return finding.fault == Fault::sliver; }); // gone
+    std::erase_if(part.doctor.findings,
+                  [](const Finding& finding) { return finding.fault == Fault::sliver; }); // of others
     part.notes.push_back(in_words(remeshed));
+    constexpr double sliver = std::numbers::pi / 180; // as the doctor has it
+    int slivers = 0;
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        slivers += least_angle(part.mesh.position(Eigen::all, part.mesh.triangle.col(f))) < sliver;
+    if (slivers > 0)
+        part.notes.push_back(
+            fmt::format("{} of its triangles still {} an angle below 1 degree, where lines of the part are "
+                        "close to each other; strains there mean little",
+                        slivers, slivers == 1 ? "has" : "have"));
 }
 
 PartFile as_read(const PartFile& part)

@@ -278,8 +278,6 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
             break;
     }
     result.layout = layout;
-    if (options.smooth_joins)
-        best = smooth_fit(result, judge, std::move(*best), options.tolerance, progress.part(0.95, 1));
     result.surface_to_mesh = best->surface_to_mesh;
     result.mesh_to_surface = best->mesh_to_surface;
     result.at_vertex = best->at_vertex;
@@ -289,8 +287,10 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
     return result;
 }
 
-PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
-                         const PatchesFitOptions& options, const Progress& progress)
+namespace {
+
+PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
+                        const PatchesFitOptions& options, const Progress& progress)
 {
     progress.checkpoint(0, "dividing the blank into patches");
     std::optional<PatchesFit> plain;
@@ -326,6 +326,25 @@ PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOp
     if (!plain)
         throw *first;
     return std::move(*plain);
+}
+
+} // namespace
+
+PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
+                         const PatchesFitOptions& options, const Progress& progress)
+{
+    if (!options.smooth_joins)
+        return best_patches(part, blank, layout, options, progress);
+    PatchesFit fit = best_patches(part, blank, layout, options, progress.part(0, 0.7));
+    const PatchesJudge judge(part, blank, fit.layout, options.tolerance);
+    const PatchesJudgement judged = smooth_fit(fit, judge, judge.judge(fit.patches.patch, progress.part(0.7, 0.75)),
+                                               options.tolerance, progress.part(0.75, 1));
+    fit.surface_to_mesh = judged.surface_to_mesh;
+    fit.mesh_to_surface = judged.mesh_to_surface;
+    fit.at_vertex = judged.at_vertex;
+    fit.patch_deviation = judged.patch_max;
+    fit.reached = judged.max() <= options.tolerance;
+    return fit;
 }
 
 } // namespace spia

@@ -12,7 +12,7 @@ struct PatchesFitOptions {
     int degree = 3;                   ///< 2 to 5, of all patches along u and v
     int max_control_points = 200'000; ///< of all patches
     int most_rounds = 16;
-    bool smooth_joins = false; ///< take the angles out of the joins, see smooth_fit()
+    bool smooth_joins = false; ///< of blank_patches(): take the angles out of the joins, see smooth_fit()
     PatchGridOptions grid = {};
 };
 
@@ -20,7 +20,7 @@ struct PatchesFitOptions {
 struct JoinsReport {
     double angle_before = 0, angle_after = 0; ///< radians, the greatest where there is no edge of the part
     int places = 0, edges = 0;                ///< looked at, and how many of these are edges of the part: they stay
-    int kept = 0; ///< patches that stay as they were: smooth, they would not keep to the tolerance
+    int kept = 0; ///< patches that stay as they were: smooth, they would be worse, see smooth_fit()
 };
 
 /// How far patches and part are from each other, and how the fit went.

@@ -10,14 +10,23 @@ namespace spia {
 
 namespace {
 
-/// Per patch 1 where it is worse than it may be.
+constexpr int most_rounds = 12;   // of trying; then all stay as they were
+constexpr int patient_rounds = 3; // then those beside spoilt patches are kept as well
+constexpr double no_worse = 1e-3; // radians, by which the angle of a join may grow while others get smooth
+
+/// Per patch 1 where it is worse than it may be: too far from the part, folded, or with a greater angle at one of its sides.
 std::vector<char> spoilt(const PatchesJudgement& before, const Certificate& proved, const PatchesJudgement& after,
                          const Certificate& certificate, double tolerance)
 {
     std::vector<char> result(before.patch_max.size(), 0);
     for (size_t p = 0; p < result.size(); ++p)
-        result[p] = after.patch_max[p] > std::max(tolerance, before.patch_max[p]) ||
+        result[p] = !(after.patch_max[p] <= std::max(tolerance, before.patch_max[p])) ||
                     (certificate.patch[p].refusal && !proved.patch[p].refusal);
+    for (size_t i = 0; i < proved.interfaces.size(); ++i) {
+        const InterfaceCertificate &was = proved.interfaces[i], &is = certificate.interfaces[i];
+        if (!(is.greatest_angle <= was.greatest_angle + no_worse))
+            result[size_t(is.joint.first.patch)] = result[size_t(is.joint.second.patch)] = 1;
+    }
     return result;
 }
 
@@ -48,8 +57,11 @@ PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJ
         const Progress here = progress.part(1 - std::pow(0.7, round), 1 - std::pow(0.7, round + 1));
         SmoothJoins smooth = smooth_joins(fit.patches, options, here.part(0, 0.5));
         fit.joins = {smooth.angle_before, smooth.angle_after, smooth.places, smooth.edges, count(options.kept)};
-        if (smooth.greatest_move == 0)
+        if (smooth.greatest_move == 0 || round == most_rounds) {
+            fit.joins->kept = int(options.kept.size());
+            fit.joins->angle_after = smooth.angle_before;
             return now;
+        }
         PatchesJudgement then = judge.judge(smooth.patches.patch, here.part(0.5, 1));
         std::vector<char> bad = spoilt(now, proved, then, certify(smooth.patches), tolerance);
         if (count(bad) == 0) {
@@ -58,6 +70,8 @@ PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJ
         }
         // A place of the part beside a patch that is kept already is nearest to a neighbour that moved.
         const int before = count(options.kept);
+        if (round >= patient_rounds)
+            bad = with_neighbours(bad, fit.patches);
         for (int pass = 0; pass < 2 && count(options.kept) == before; ++pass, bad = with_neighbours(bad, fit.patches))
             for (size_t p = 0; p < bad.size(); ++p)
                 options.kept[p] = char(options.kept[p] | bad[p]);

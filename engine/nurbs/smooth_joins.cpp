@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <iterator>
 
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
@@ -17,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double wanted_angle = 1e-4;   // radians: as bad as a move by the tolerance
 constexpr double already_smooth = 1e-9; // radians
+constexpr double least_share = 0.01;    // of a step
 constexpr double small_progress = 0.98; // of what is minimised, in one step
 
 /// A derivative as a sum over control points, by their shared numbers.
@@ -34,10 +36,19 @@ Vector3d value(const Derivative& derivative, const Eigen::Matrix3Xd& control)
 struct Place {
     std::array<Derivative, 3> derivative;
 
-    /// The sine of the angle between the patches, and that it is one of more than a right angle.
+    /// Between the normals of the patches; a cosine below 0 is that of more than a right angle.
     struct Angle {
         double sine = 0, cosine = 1;
     };
+    /// Whether both patches and the join have a direction there.
+    bool defined(const Eigen::Matrix3Xd& control) const
+    {
+        const Vector3d a = value(derivative[0], control), b = value(derivative[1], control),
+                       t = value(derivative[2], control);
+        constexpr double least_sine = 1e-6;
+        return a.cross(t).norm() > least_sine * a.norm() * t.norm() &&
+               t.cross(b).norm() > least_sine * t.norm() * b.norm();
+    }
     Angle angle(const Eigen::Matrix3Xd& control) const
     {
         const Vector3d a = value(derivative[0], control), b = value(derivative[1], control),
@@ -81,10 +92,12 @@ Derivative along(const NurbsSurface& s, int patch, Side side, double t, const Sh
     return result;
 }
 
-std::vector<Place> places_of(const MultiPatch& patches, const SharedControls& shared)
+/// Of each interface.
+std::vector<std::vector<Place>> places_of(const MultiPatch& patches, const SharedControls& shared)
 {
-    std::vector<Place> result;
+    std::vector<std::vector<Place>> result;
     for (const PatchInterface& joint : patches.interfaces) {
+        std::vector<Place>& places = result.emplace_back();
         const auto [p, side] = joint.first;
         const auto [q, other] = joint.second;
         const NurbsSurface &a = patches.patch[size_t(p)], &b = patches.patch[size_t(q)];
@@ -93,7 +106,7 @@ std::vector<Place> places_of(const MultiPatch& patches, const SharedControls& sh
         for (size_t s = 0; s + 1 < borders.size(); ++s)
             for (int n = 0; n < pieces + (s + 2 == borders.size()); ++n) {
                 const double t = borders[s] + n * (borders[s + 1] - borders[s]) / pieces;
-                result.push_back(
+                places.push_back(
                     {{across(a, p, side, t, shared), across(b, q, other, joint.reversed ? 1 - t : t, shared),
                       along(a, p, side, t, shared)}});
             }
@@ -145,39 +158,46 @@ public:
         for (size_t p = 0; p < patches.patch.size(); ++p)
             for (int c = 0; c < int(patches.patch[p].control.cols()); ++c)
                 start_.col(shared_.of(int(p), c)) = patches.patch[p].control.col(c);
-        for (Place& place : places_of(patches, shared_)) {
-            const Place::Angle angle = place.angle(start_);
-            // Not a number: a side or a patch has no direction there, and nothing is to be mended.
-            if (std::atan2(std::abs(angle.sine), angle.cosine) <= options.sharp)
-                place_.push_back(std::move(place));
+        for (std::vector<Place>& places : places_of(patches, shared_)) {
+            std::erase_if(places, [&](const Place& place) { return !place.defined(start_); });
+            const bool smooth = std::all_of(places.begin(), places.end(), [&](const Place& place) {
+                const Place::Angle angle = place.angle(start_);
+                return std::atan2(std::abs(angle.sine), angle.cosine) <= options.sharp;
+            });
+            if (smooth)
+                std::move(places.begin(), places.end(), std::back_inserter(place_));
             else
-                ++edges_;
+                edges_ += int(places.size());
         }
     }
 
     SmoothJoins run(const MultiPatch& patches, const Progress& progress)
     {
         SmoothJoins result{patches, greatest_angle(start_), 0, int(place_.size()) + edges_, edges_, 0};
-        Eigen::Matrix3Xd best = start_, control = start_;
+        Eigen::Matrix3Xd control = start_;
         double least = objective(start_);
         const bool smooth = result.angle_before < already_smooth || place_.empty();
         for (int step = 0; step < options_.most_steps && free_ > 0 && !smooth; ++step) {
             progress.checkpoint(double(step) / options_.most_steps, "smoothing the joins of patches");
-            control += gauss_newton_step(control);
-            const double now = objective(control);
+            const Eigen::Matrix3Xd way = gauss_newton_step(control);
+            double share = 1, now = objective(control + way);
+            while (!(now < least) && share > least_share) {
+                share /= 2; // beside edges that stay the angles are far from linear
+                now = objective(control + share * way);
+            }
             if (!(now < least))
                 break;
             const bool slow = now > small_progress * least;
-            best = control;
+            control += share * way;
             least = now;
             if (slow)
                 break;
         }
-        result.angle_after = greatest_angle(best);
-        result.greatest_move = free_ > 0 ? (best - start_).colwise().norm().maxCoeff() : 0;
+        result.angle_after = greatest_angle(control);
+        result.greatest_move = free_ > 0 ? (control - start_).colwise().norm().maxCoeff() : 0;
         for (size_t p = 0; p < patches.patch.size(); ++p)
             for (int c = 0; c < int(patches.patch[p].control.cols()); ++c)
-                result.patches.patch[p].control.col(c) = best.col(shared_.of(int(p), c));
+                result.patches.patch[p].control.col(c) = control.col(shared_.of(int(p), c));
         return result;
     }
 
@@ -205,39 +225,33 @@ private:
 
     Eigen::Matrix3Xd gauss_newton_step(const Eigen::Matrix3Xd& control) const
     {
+        // One row per place, then J^T J as a whole: its entries one by one would take gigabytes.
         std::vector<Eigen::Triplet<double>> entries;
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(3 * free_);
-        const double of_move = 1 / (options_.tolerance * options_.tolerance);
-        for (size_t n = 0; n < unknown_.size(); ++n)
-            if (const int at = unknown_[n]; at >= 0) {
-                right.segment<3>(at) -= of_move * (control - start_).col(Eigen::Index(n));
-                for (int i = 0; i < 3; ++i)
-                    entries.emplace_back(at + i, at + i, of_move);
-            }
-        std::vector<std::pair<int, Vector3d>> row;
-        for (const Place& place : place_) {
+        Eigen::VectorXd residual(Eigen::Index(place_.size()));
+        for (size_t r = 0; r < place_.size(); ++r) {
+            const Place& place = place_[r];
             const Vector3d a = value(place.derivative[0], control), b = value(place.derivative[1], control),
                            t = value(place.derivative[2], control);
             // sine = det(a, t, b) |t| / (|a x t| |t x b|), of which the lengths hardly change
             const double scale = t.norm() / (a.cross(t).norm() * t.cross(b).norm()) / wanted_angle;
-            const double residual = scale * a.dot(t.cross(b));
+            residual[Eigen::Index(r)] = scale * a.dot(t.cross(b));
             const std::array<Vector3d, 3> by = {scale * t.cross(b), scale * a.cross(t), scale * b.cross(a)};
-            row.clear();
             for (size_t d = 0; d < 3; ++d)
                 for (const auto& [number, factor] : place.derivative[d])
-                    if (unknown_[size_t(number)] >= 0)
-                        row.emplace_back(unknown_[size_t(number)], factor * by[d]);
-            for (const auto& [i, x] : row) {
-                right.segment<3>(i) -= residual * x;
-                for (const auto& [j, y] : row)
-                    for (int k = 0; k < 3; ++k)
-                        for (int l = 0; l < 3; ++l)
-                            if (i + k >= j + l)
-                                entries.emplace_back(i + k, j + l, x[k] * y[l]);
-            }
+                    if (const int at = unknown_[size_t(number)]; at >= 0)
+                        for (int k = 0; k < 3; ++k)
+                            entries.emplace_back(int(r), at + k, factor * by[d][k]);
         }
-        Eigen::SparseMatrix<double> matrix(3 * free_, 3 * free_);
-        matrix.setFromTriplets(entries.begin(), entries.end());
+        Eigen::SparseMatrix<double> rows(Eigen::Index(place_.size()), 3 * free_);
+        rows.setFromTriplets(entries.begin(), entries.end());
+        Eigen::VectorXd right = -(rows.transpose() * residual);
+        const double of_move = 1 / (options_.tolerance * options_.tolerance);
+        for (size_t n = 0; n < unknown_.size(); ++n)
+            if (const int at = unknown_[n]; at >= 0)
+                right.segment<3>(at) -= of_move * (control - start_).col(Eigen::Index(n));
+        Eigen::SparseMatrix<double> matrix = rows.transpose() * rows;
+        for (int i = 0; i < 3 * free_; ++i)
+            matrix.coeffRef(i, i) += of_move;
         const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
         Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, control.cols());
         if (factor.info() != Eigen::Success)

@@ -8,7 +8,7 @@ namespace spia {
 
 struct SmoothJoinsOptions {
     double sharp =
-        20 * std::numbers::pi / 180; ///< radians: places of a join with a greater angle are edges of the part, and stay
+        10 * std::numbers::pi / 180; ///< radians: joins with a place of a greater angle are edges of the part, and stay
     double tolerance = 0.1;      ///< mm: how far control points may go is weighed by it; moves are not bounded by it
     std::vector<char> kept = {}; ///< per patch, not 0: no control point of it moves; empty: none is kept
     int most_steps = 8;

@@ -225,7 +225,7 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
             refuse("a larger size");
         }
         constexpr double most_growth = 20; // then shorter edges do not help
-        // Of a triangle that is to be, 1.5; what passes by on the way is up to 15 times as many for the needles of CAD faces.
+        // 1.5 for a triangle that is to be; the needles of CAD faces take up to 15 times as many on the way.
         const double most_edges = std::max(2e6, 25 * 1.5 * expected_triangles(even, size));
         if (attempt == 0)
             most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));

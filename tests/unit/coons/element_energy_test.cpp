@@ -25,7 +25,10 @@ TEST(ElementEnergy, DerivativesAreThoseOfTheValue)
 {
     // Where the second derivative has no negative eigenvalue, it must be the difference of the gradients too.
     for (const double eps : {0.0, 0.2})
-        for (const Jacobian& J : {Jacobian(1.1, 0.2, -0.1, 0.9), Jacobian(0.5, 0.1, 0.3, 0.7)}) {
+        for (const Jacobian& J :
+             {Jacobian(1.1, 0.2, -0.1, 0.9), Jacobian(0.5, 0.1, 0.3, 0.7), Jacobian(1, 0.1, 0.2, -0.8)}) {
+            if (eps == 0 && J[0] * J[3] < J[1] * J[2])
+                continue; // a folded element has an energy with eps only
             const ElementEnergy energy{eps, 0.5};
             Eigen::Vector4d gradient, ahead, behind;
             Eigen::Matrix4d hessian, ignored;
@@ -34,7 +37,8 @@ TEST(ElementEnergy, DerivativesAreThoseOfTheValue)
             Eigen::Matrix4d expected;
             for (int k = 0; k < 4; ++k) {
                 const Jacobian step = h * Jacobian::Unit(k);
-                EXPECT_NEAR(gradient[k], (energy.value(J + step) - energy.value(J - step)) / (2 * h), 1e-7);
+                EXPECT_NEAR(gradient[k], (energy.value(J + step) - energy.value(J - step)) / (2 * h),
+                            1e-7 * std::max(1., energy.value(J)));
                 energy.derivatives(J + step, ahead, ignored);
                 energy.derivatives(J - step, behind, ignored);
                 expected.col(k) = (ahead - behind) / (2 * h);

@@ -33,6 +33,8 @@ Session solved(const std::filesystem::path& file, bool remeshed, Stage last = St
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     if (remeshed)
         session.options.read.remesh.emplace();
+    else
+        session.options.read.cad.keep_triangles = true;
     for (const Stage stage : chain) {
         session = run_stage(stage, session);
         if (stage == last)
