@@ -235,6 +235,10 @@ void require_version(const Json& json, const fs::path& file)
 /// Members that older projects of this version have otherwise.
 void translate_older(Json& json)
 {
+    // Older projects name vertices of the triangles of the CAD faces: these stay.
+    if (const auto part = json.find("part");
+        part != json.end() && part->is_object() && !part->contains("keep_triangles"))
+        (*part)["keep_triangles"] = true;
     const auto view = json.find("view");
     if (view == json.end() || !view->is_object())
         return;

@@ -151,7 +151,8 @@ TEST(ProjectFile, ReopensToTheSameState)
     EXPECT_EQ(after.session.options.flatten.thickness, 0.8);
     EXPECT_EQ(after.session.options.flatten.direction, before.session.options.flatten.direction);
     EXPECT_EQ(after.session.options.flatten.material.name, before.session.options.flatten.material.name);
-    EXPECT_EQ(fit_choice(after.session.options), (FitChoice{0.035, 5, 3, CurveEnds::clamped, FitParameters::corrected, 4321}));
+    EXPECT_EQ(fit_choice(after.session.options),
+              (FitChoice{0.035, 5, 3, CurveEnds::clamped, FitParameters::corrected, 4321}));
     EXPECT_EQ(after.session.options.read.unit, LengthUnit::mm);
 
     save_project(
@@ -383,6 +384,19 @@ TEST(ProjectFile, WhatIsNoProjectIsRefusedInPlainWords)
     Document nothing;
     EXPECT_THROW(save_project(folder / "c.spia", nothing, {}), InputError);
     EXPECT_THROW(save_project(folder / "nowhere/c.spia", viewer::document_of(dome, Stage::read), {}), ExchangeError);
+}
+
+/// Before it could be asked for, no triangles of CAD faces were remeshed unasked: cuts and corners name their vertices.
+TEST(ProjectFile, OneFromBeforeKeepsTheTrianglesOfCadFaces)
+{
+    const ScratchFolder folder;
+    save_project(folder / "a.spia", viewer::document_of(dome, Stage::read), {});
+    EXPECT_FALSE(open_project(folder / "a.spia", materials_folder).document.session.options.read.cad.keep_triangles);
+    std::string text = content_of(folder / "a.spia");
+    const std::string member = "\"keep_triangles\":false,";
+    ASSERT_NE(text.find(member), std::string::npos);
+    put(folder / "b.spia", text.erase(text.find(member), member.size()));
+    EXPECT_TRUE(open_project(folder / "b.spia", materials_folder).document.session.options.read.cad.keep_triangles);
 }
 
 TEST(ProjectFile, ASectionWithoutAPlaneIsRefused)
