@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/nurbs/certificate.h"
+
 namespace spia::patches {
 namespace {
 
@@ -145,6 +147,14 @@ std::vector<Sample> samples()
         right.weight[right.index(3, j)] = 0.7 + 0.01 * j;
     result.push_back({"mixed two", {{left, right}, {{{0, Side::u1}, {1, Side::u0}, false}}}});
     return result;
+}
+
+double greatest_angle(const MultiPatch& patches)
+{
+    double greatest = 0;
+    for (const InterfaceCertificate& joint : certify(patches).interfaces)
+        greatest = std::max(greatest, joint.greatest_angle);
+    return greatest;
 }
 
 } // namespace spia::patches

@@ -28,4 +28,7 @@ struct Sample {
 /// a polynomial one; five around a corner; each polynomial and rational.
 std::vector<Sample> samples();
 
+/// Radians, between the normals of two patches at their common sides, as the certificate measures it.
+double greatest_angle(const MultiPatch& patches);
+
 } // namespace spia::patches

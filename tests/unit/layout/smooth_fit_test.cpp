@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/nurbs/certificate.h"
+#include "tests/support/joined_patches.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -13,13 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-double greatest_angle(const MultiPatch& patches)
-{
-    double greatest = 0;
-    for (const InterfaceCertificate& joint : certify(patches).interfaces)
-        greatest = std::max(greatest, joint.greatest_angle);
-    return greatest;
-}
+using patches::greatest_angle;
 
 /// A plate of 120 x 80 mm with two holes, lifted by a height; its projection is its blank (one-to-one is all that counts here).
 struct Sheet {

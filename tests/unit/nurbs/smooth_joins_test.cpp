@@ -14,14 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Radians, as the certificate measures it: at other places, from normals.
-double greatest_angle(const MultiPatch& patches)
-{
-    double greatest = 0;
-    for (const InterfaceCertificate& joint : certify(patches).interfaces)
-        greatest = std::max(greatest, joint.greatest_angle);
-    return greatest;
-}
+using patches::greatest_angle;
 
 /// The patch at 0 <= u <= 1 and the one beyond it of a surface over the plane, as control points of even Greville abscissas: of a
 /// plane or a parabolic sheet they join smoothly.
