@@ -82,6 +82,17 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     return CadNames(reader);
 }
 
+/// The word from there on.
+std::string word_at(std::string_view content, size_t at)
+{
+    constexpr size_t most = 20;
+    const size_t begin = std::min(content.find_first_not_of(" \t\r\n", at), content.size());
+    std::string word(content.substr(begin, std::min(content.find_first_of(" \t\r\n", begin) - begin, most)));
+    for (char& c : word)
+        c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+    return word;
+}
+
 void read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
     const std::string content = file_content(path);
@@ -89,8 +100,20 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
         content.substr(0, 200).find("CASCADE Topology") == std::string::npos)
         refuse("it is no BREP file in text form");
     std::istringstream stream(content);
+    // Left to itself the kernel reads on where there is nothing any more, and some of its loops never end then.
+    stream.exceptions(std::ios::failbit | std::ios::badbit);
     const Handle(OcctProgress) passed_on = new OcctProgress(progress, "reading the CAD model");
-    BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
+    try {
+        BRepTools::Read(result.shape, stream, BRep_Builder(), passed_on->Start());
+    } catch (const std::ios::failure&) {
+        stream.exceptions(std::ios::goodbit);
+        stream.clear();
+        const auto at = size_t(std::max(std::streamoff(0), std::streamoff(stream.tellg())));
+        if (at >= content.size())
+            refuse(fmt::format("it was cut short: its text ends at byte {}, where more is announced", content.size()));
+        refuse(fmt::format("it is damaged: at byte {} stands '{}', which is not what has to be there", at,
+                           word_at(content, at)));
+    }
     if (!result.shape.IsNull())
         list_faces(result);
     if (!result.face.empty())

@@ -170,20 +170,26 @@ CadContent coarse(CadShape& shape, const Progress& progress)
     return result;
 }
 
-/// In a process of its own, with what OpenCASCADE throws said in our words.
+/// What OpenCASCADE throws, said in our words.
+template <class Work> CadContent in_our_words(const Work& work)
+{
+    try {
+        return work();
+    } catch (const Standard_Failure& failure) {
+        throw InputError(
+            fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
+    } catch (const std::length_error& error) { // a count in a damaged file
+        throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
+    }
+}
+
+/// In a process of its own.
 template <class Work> CadContent apart(const Work& work, const Progress& progress)
 {
     const OcctSession session; // held here for as long as the child works
     const auto in_it = [&](const Progress& told, const ChildLog& log) {
         session.redirect(log);
-        try {
-            return packed(work(told));
-        } catch (const Standard_Failure& failure) {
-            throw InputError(
-                fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
-        } catch (const std::length_error& error) { // a count in a damaged file
-            throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
-        }
+        return packed(in_our_words([&] { return work(told); }));
     };
     const auto log = [](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); };
     return unpacked(in_child(in_it, log, progress));
@@ -209,6 +215,15 @@ CadContent read_cad(const std::filesystem::path& path, const CadOptions& options
             return content_of(shape, options, wanted, told.part(0.4, 1));
         },
         progress);
+}
+
+CadContent read_cad_unguarded(const std::filesystem::path& path)
+{
+    const OcctSession session;
+    return in_our_words([&] {
+        CadShape shape = read_cad_shape(path, {});
+        return content_of(shape, {}, {}, {});
+    });
 }
 
 CadContent preview_cad(const std::filesystem::path& path, const Progress& progress)

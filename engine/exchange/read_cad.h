@@ -70,6 +70,11 @@ CadContent read_cad(const std::filesystem::path& path, const CadOptions& options
                     std::span<const std::string> wanted = {}, std::optional<LengthUnit> unit = {},
                     const Progress& progress = {});
 
+/// As read_cad() does, with its defaults, but in this process: damage that makes OpenCASCADE crash or hang does so here. For a search
+/// through many files, within a child process for all of them (tests/fuzz).
+/// @throws InputError  the file is damaged or holds no face
+CadContent read_cad_unguarded(const std::filesystem::path& path);
+
 /// The faces of such a file as they are, neither healed nor sewn, in triangles that are coarse: enough to show what there is. It has soup,
 /// face, faces, tree, format and unit.
 /// @throws InputError  the file is damaged or holds no face

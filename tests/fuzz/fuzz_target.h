@@ -15,8 +15,7 @@ struct FuzzTarget {
     bool (*read)(std::string_view content) = nullptr;
 };
 
-/// All formats that parts and lines are read from in this process. CAD files are read in another one (read_cad()); damage to them
-/// is tested in tests/unit/exchange.
+/// All formats that parts and lines are read from in this process. CAD files are read in another one: cad_search.h.
 const std::vector<FuzzTarget>& fuzz_targets();
 
 /// @throws std::out_of_range if there is none

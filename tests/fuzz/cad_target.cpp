@@ -1,0 +1,156 @@
+#include "tests/fuzz/cad_target.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <unistd.h>
+
+#include "engine/core/error.h"
+#include "engine/exchange/cad_findings.h"
+#include "engine/exchange/read_cad.h"
+#include "engine/exchange/read_part.h"
+#include "engine/exchange/write_iges.h"
+#include "engine/exchange/write_step.h"
+#include "tests/unit/exchange/sample_faces.h"
+
+namespace spia::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require(bool sound, const char* what)
+{
+    if (!sound)
+        throw std::logic_error(what);
+}
+
+void require_sound(const CadContent& cad)
+{
+    require(cad.face.size() == size_t(cad.soup.polygons()), "triangles of no face");
+    for (const int face : cad.face)
+        require(face >= 0 && face < cad.faces, "a triangle of a face that is not there");
+    for (int t = 0; t < cad.soup.polygons(); ++t)
+        for (const int v : cad.soup.polygon(t))
+            require(v >= 0 && v < cad.soup.vertices(), "a corner that is not there");
+    require(cad.tree.body_of.size() == size_t(cad.faces), "faces of no body");
+    for (const CadGap& gap : cad.gaps)
+        for (const int face : gap.face)
+            require(face >= 0 && face < cad.faces, "a gap between faces that are not there");
+    for (const CadSliver& sliver : cad.slivers)
+        require(sliver.face >= 0 && sliver.face < cad.faces, "a sliver that is no face");
+}
+
+/// A quarter of a cylinder, 10 mm high and of 20 mm radius.
+NurbsSurface quarter()
+{
+    NurbsSurface s;
+    s.degree_u = 2;
+    s.degree_v = 1;
+    s.count_u = 3;
+    s.count_v = 2;
+    s.knots_u = {0, 0, 0, 1, 1, 1};
+    s.knots_v = {0, 0, 1, 1};
+    s.control.resize(3, 6);
+    s.control << 20, 20, 0, 20, 20, 0, 0, 20, 20, 0, 20, 20, 0, 0, 0, 10, 10, 10;
+    s.weight.resize(6);
+    s.weight << 1, std::sqrt(0.5), 1, 1, std::sqrt(0.5), 1;
+    return s;
+}
+
+NurbsSurface square()
+{
+    NurbsSurface s;
+    s.degree_u = s.degree_v = 1;
+    s.count_u = s.count_v = 2;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.control.resize(3, 4);
+    s.control << 0, 20, 0, 20, 0, 0, 20, 20, 0, 0, 0, 0;
+    s.weight.setOnes(4);
+    return s;
+}
+
+TrimLoop triangular_hole()
+{
+    PlaneCurve curve{1, {0, 0, 0.3, 0.6, 1, 1}, Eigen::Matrix2Xd(2, 4)};
+    curve.control << 0.3, 0.5, 0.7, 0.3, 0.3, 0.7, 0.3, 0.3;
+    return {curve};
+}
+
+template <class Write> std::string written(const char* ending, const Write& write)
+{
+    const fs::path path = fs::temp_directory_path() / ("spia-seed-" + std::to_string(::getpid()) + ending);
+    write(path);
+    std::ifstream file(path, std::ios::binary);
+    std::string content{std::istreambuf_iterator<char>(file), {}};
+    fs::remove(path);
+    return content;
+}
+
+const std::vector<std::string> numbers = {"-1",    "0",          "7",   "99999999", "4294967296", "1e999", "1e300",
+                                          "-1e-9", "1.5",        "nan", "inf",      "\n",         "\t",    "\xff\xfe",
+                                          "1e9",   "2147483648", " ",   ",",        ";",          "(",     ")"};
+
+std::vector<std::string> with_numbers(std::vector<std::string> words)
+{
+    words.insert(words.end(), numbers.begin(), numbers.end());
+    return words;
+}
+
+std::vector<CadTarget> make_targets()
+{
+    const std::vector<NurbsSurface> arch = {quarter()}; // as short as can be: the longer, the fewer can be tried
+    const std::vector<std::vector<TrimLoop>> hole = {{triangular_hole()}};
+    const auto step = [&](const fs::path& path) { write_step(path, arch); };
+    const auto step_hole = [&](const fs::path& path) { write_step(path, {{square()}}, "a", LengthUnit::inch, hole); };
+    const auto iges = [&](const fs::path& path) { write_iges(path, arch); };
+    const auto iges_hole = [&](const fs::path& path) { write_iges(path, {{square()}}, "a", LengthUnit::inch, hole); };
+    return {
+        {"step",
+         {written(".step", step), written(".step", step_hole)},
+         with_numbers({"#1", "#99", "$", "*", ".T.", ".UNSPECIFIED.", "PLANE", "CARTESIAN_POINT", "EDGE_LOOP", "(#12)",
+                       "B_SPLINE_CURVE_WITH_KNOTS", "ENDSEC;\n", "DATA;\n", "SI_UNIT(.MILLI.,.METRE.)", "/*", "'"})},
+        {"igs",
+         {written(".igs", iges), written(".igs", iges_hole)},
+         with_numbers({"128", "144,", "142,", "102,", "126,", "314", "S      1\n", "P      2\n", "D      3\n", "1H,,",
+                       "4HINCH", "99999999999999H", "     128", "1.D0", "0D0"})},
+        {"brep",
+         {written(".brep", [](const fs::path& path) { write_two_squares(path, ThirdFace::sliver); }),
+          written(".brep", [](const fs::path& path) { write_swept_cylinder(path, Swept::line_up); })},
+         with_numbers({"CASCADE Topology V1, (c) Matra-Datavision\n", "Locations 0\n", "Curves 1\n", "Surfaces 9\n",
+                       "Polygon3D 1\n", "TShapes 5\n", "Fa\n", "Ed\n", "Ve\n", "+1 0", "-7 0", "*\n", "1111111\n"})},
+    };
+}
+
+} // namespace
+
+const CadTarget& cad_target(std::string_view name)
+{
+    static const std::vector<CadTarget> targets = make_targets();
+    for (const CadTarget& target : targets)
+        if (target.name == name)
+            return target;
+    throw std::out_of_range("no CAD format of this name: " + std::string(name));
+}
+
+bool read_and_examine(const fs::path& file)
+{
+    constexpr int most = 2000; // larger ones would take the time of the readers, which are what is searched here
+    try {
+        const CadContent cad = read_cad_unguarded(file);
+        require_sound(cad);
+        if (cad.soup.polygons() <= most) {
+            PartFile part = examine_soup(cad.soup);
+            report_cad(cad, part);
+            if (!part.doctor.healthy())
+                return false;
+            require(part.mesh.triangles() > 0, "a part without a triangle was accepted");
+            require(part.mesh.position.allFinite(), "a place that is no number was accepted");
+        }
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+} // namespace spia::fuzz
