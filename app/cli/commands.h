@@ -33,6 +33,8 @@ struct RunArguments {
     std::string grid;                                ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction;
+    double to_bends = 0; ///< share of the lines of the grid
+    bool square_cells = false;
     std::string grid_method = "automatic", ends = "averaged", fit_parameters = "blank";
     std::optional<double> tolerance;  ///< mm, of the surface; not given: it runs through the grid
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
@@ -123,7 +125,7 @@ struct FitArguments {
 /// Fits the hardening laws to a tensile test, prints them and writes a material file. @returns 0
 int fit_material(const FitArguments& arguments);
 
-/// Not given unless it is wanted.
+/// Whether the part is remeshed, and what its triangles should be like.
 void set_remeshing(ReadOptions& options, const RemeshArguments& arguments);
 MeshTargets mesh_targets(const RemeshArguments& arguments);
 

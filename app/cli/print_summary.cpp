@@ -76,8 +76,9 @@ void print_summary(const Session& session)
     print_limits(*session.limits, *session.part);
     if (session.grid) {
         const GridResult& grid = session.grid->result;
-        say("grid      {} x {} cells, {}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
-            grid.planar.rows, name(grid.route), grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
+        say("grid      {} x {} cells, {}{}{}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
+            grid.planar.rows, name(grid.route), grid.spaced ? ", spaced by bends" : "",
+            grid.squared ? ", evened out" : "", grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
     }
     if (!session.surface)
         return;

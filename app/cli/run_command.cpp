@@ -76,6 +76,8 @@ SessionOptions options(const RunArguments& arguments)
     result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
                          : arguments.grid_method == "harmonic" ? GridMethod::harmonic
                                                                : GridMethod::automatic;
+    result.grid.to_bends = arguments.to_bends;
+    result.grid.square_cells = arguments.square_cells;
     if (arguments.ends == "natural")
         result.interpolate.ends = CurveEnds::natural;
     if (arguments.ends == "clamped")
@@ -85,7 +87,7 @@ SessionOptions options(const RunArguments& arguments)
     result.tolerance = arguments.tolerance;
     result.patches = patch_layout(arguments.patches);
     if (arguments.smooth_joins && !result.patches)
-        throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it away");
+        throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it out");
     if (arguments.smooth_joins)
         result.patches->smooth_joins = true;
     if (result.patches && arguments.degree.front() != arguments.degree.back())

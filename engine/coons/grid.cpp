@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/coons/adapt_grid.h"
 #include "engine/coons/blank_search.h"
 #include "engine/coons/border_check.h"
 #include "engine/coons/find_nodes.h"
@@ -269,12 +270,10 @@ std::string_view name(GridRoute route)
     return "";
 }
 
-GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBoundary& boundary,
-                      const GridOptions& options, const Progress& progress)
+namespace {
+
+GridResult sound_grid(Workshop& shop, const GridOptions& options, const Progress& progress)
 {
-    auto filled = std::make_shared<const FilledMesh>(fill_holes(part, blank.position, progress.part(0, 0.1)));
-    progress.checkpoint(0.1, "searching the blank");
-    Workshop shop{filled, boundary, BlankSearch(*filled)};
     int columns = 0, rows = 0;
     choose_counts(shop, options, columns, rows);
 
@@ -297,6 +296,27 @@ GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBounda
             return grid;
     }
     throw_impossible(shop, grid, options.file_number);
+}
+
+} // namespace
+
+GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBoundary& boundary,
+                      const GridOptions& options, const Progress& progress)
+{
+    if (!(options.to_bends >= 0 && options.to_bends <= 0.9))
+        throw InputError("the share of the lines that go to bends must be from 0 to 0.9");
+    auto filled = std::make_shared<const FilledMesh>(fill_holes(part, blank.position, progress.part(0, 0.1)));
+    progress.checkpoint(0.1, "searching the blank");
+    Workshop shop{filled, boundary, BlankSearch(*filled)};
+    const bool adapt = options.to_bends > 0 || options.square_cells;
+    GridResult grid = sound_grid(shop, options, adapt ? progress.part(0, 0.7) : progress);
+    if (is_sound(grid)) { // the Coons patch may be asked for as it is
+        if (options.to_bends > 0)
+            space_lines(shop.blank, boundary, options.to_bends, grid, progress.part(0.7, 0.8));
+        if (options.square_cells)
+            square_cells(shop.blank, grid, progress.part(0.8, 1));
+    }
+    return grid;
 }
 
 } // namespace spia

@@ -26,6 +26,8 @@ struct GridOptions {
     int cells = 40;     ///< on the longer sides, where columns or rows is 0
     int smoothing = 50; ///< the most Laplacian sweeps over a Coons patch that folds
     GridMethod method = GridMethod::automatic;
+    double to_bends = 0;       ///< share of the lines that go where the part bends, 0 to 0.9: see space_lines()
+    bool square_cells = false; ///< right angles and even sizes inside, where the grid stays sound: see square_cells()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 };
 
@@ -42,6 +44,7 @@ struct GridResult {
     int refinements = 0;   ///< how often an automatic cell count was doubled to get there
     bool border_slid =
         false; ///< the border nodes do not divide the sides evenly: see slid_border(), or the sides of opened_map()
+    bool spaced = false, squared = false; ///< done as the options ask; else the grid would not have stayed sound
     /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
     std::array<Eigen::VectorXd, 4> border;
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside
@@ -52,7 +55,7 @@ struct GridResult {
 /// by length. Inside: bilinearly blended Coons patch (eq. 25); if a cell folds or a node misses the blank,
 /// Laplacian smoothing; then the harmonic map of the blank onto the unit square, inverted at the grid nodes;
 /// then untangling, from the harmonic map or from one that gives lobes their area (opened_map()), on a finer grid if the
-/// cell counts are automatic. Holes of the part are filled for this.
+/// cell counts are automatic. Holes of the part are filled for this. A sound grid is then adapted as the options ask.
 /// @param boundary of the same blank, see split_boundary()
 /// @throws InputError if every way folds a cell; the message says at which corner, and what to choose instead;
 ///         also if the part is not one piece without handles

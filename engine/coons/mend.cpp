@@ -83,13 +83,14 @@ Eigen::Vector2d way_back(const BlankSearch& blank, const GridResult& grid, int n
 
 } // namespace
 
-void mend(const BlankSearch& blank, GridResult& grid, const Progress& progress)
+void mend(const BlankSearch& blank, GridResult& grid, const Progress& progress, const UntangleOptions& options)
 {
     grid.route = GridRoute::untangled;
     std::vector<Pull> pulls;
     std::vector<int> pull_of(size_t(grid.planar.nodes()), -1);
     for (int round = 0; round < most_rounds; ++round) {
-        untangle(grid.planar, pulls, {}, progress.part(double(round) / most_rounds, double(round + 1) / most_rounds));
+        untangle(grid.planar, pulls, options,
+                 progress.part(double(round) / most_rounds, double(round + 1) / most_rounds));
         find_nodes(blank, grid);
         if (is_sound(grid) || grid.quality.folded_cells > 0)
             return;

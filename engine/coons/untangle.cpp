@@ -7,11 +7,21 @@ namespace spia {
 
 namespace {
 
+double cell_width(const QuadGrid& grid, int i, int j)
+{
+    return (grid.position.col(grid.node(i + 1, j)) - grid.position.col(grid.node(i, j))).norm();
+}
+
+double cell_height(const QuadGrid& grid, int i, int j)
+{
+    return (grid.position.col(grid.node(i, j + 1)) - grid.position.col(grid.node(i, j))).norm();
+}
+
 double row_length(const QuadGrid& grid, int j)
 {
     double sum = 0;
     for (int i = 0; i < grid.columns; ++i)
-        sum += (grid.position.col(grid.node(i + 1, j)) - grid.position.col(grid.node(i, j))).norm();
+        sum += cell_width(grid, i, j);
     return sum;
 }
 
@@ -19,7 +29,7 @@ double column_length(const QuadGrid& grid, int i)
 {
     double sum = 0;
     for (int j = 0; j < grid.rows; ++j)
-        sum += (grid.position.col(grid.node(i, j + 1)) - grid.position.col(grid.node(i, j))).norm();
+        sum += cell_height(grid, i, j);
     return sum;
 }
 
@@ -36,7 +46,7 @@ double doubled_area(const QuadGrid& grid)
     return sum;
 }
 
-/// Width and height of the cells that are wanted.
+/// Width and height of the cells that are wanted, the mean of all.
 Eigen::Vector2d wanted_cell(const QuadGrid& grid)
 {
     Eigen::Vector2d size((row_length(grid, 0) + row_length(grid, grid.rows)) / (2 * grid.columns),
@@ -46,7 +56,27 @@ Eigen::Vector2d wanted_cell(const QuadGrid& grid)
     return size;
 }
 
-PlanarElements cell_corners(const QuadGrid& grid, const Eigen::Vector2d& size)
+/// Per column the width and per row the height of the cells that are wanted.
+struct WantedCells {
+    Eigen::VectorXd width, height;
+};
+
+WantedCells wanted_cells(const QuadGrid& grid, const Eigen::Vector2d& mean, bool keep_spacing)
+{
+    WantedCells cells{Eigen::VectorXd::Constant(grid.columns, mean.x()),
+                      Eigen::VectorXd::Constant(grid.rows, mean.y())};
+    if (!keep_spacing)
+        return cells;
+    for (int i = 0; i < grid.columns; ++i)
+        cells.width[i] = cell_width(grid, i, 0) + cell_width(grid, i, grid.rows);
+    for (int j = 0; j < grid.rows; ++j)
+        cells.height[j] = cell_height(grid, 0, j) + cell_height(grid, grid.columns, j);
+    cells.width *= mean.x() / cells.width.mean();
+    cells.height *= mean.y() / cells.height.mean();
+    return cells;
+}
+
+PlanarElements cell_corners(const QuadGrid& grid, const WantedCells& wanted)
 {
     const int cells = grid.columns * grid.rows;
     PlanarElements elements;
@@ -56,9 +86,11 @@ PlanarElements cell_corners(const QuadGrid& grid, const Eigen::Vector2d& size)
     for (int j = 1; j < grid.rows; ++j)
         for (int i = 1; i < grid.columns; ++i)
             elements.fixed.col(grid.node(i, j)).setZero();
-    const Eigen::Matrix2d even = size.cwiseInverse().asDiagonal(), odd = size.reverse().cwiseInverse().asDiagonal();
     for (int j = 0; j < grid.rows; ++j)
         for (int i = 0; i < grid.columns; ++i) {
+            const Eigen::Vector2d size(wanted.width[i], wanted.height[j]);
+            const Eigen::Matrix2d even = size.cwiseInverse().asDiagonal(),
+                                  odd = size.reverse().cwiseInverse().asDiagonal();
             const std::array<int, 4> node = {grid.node(i, j), grid.node(i + 1, j), grid.node(i + 1, j + 1),
                                              grid.node(i, j + 1)};
             for (size_t k = 0; k < 4; ++k) {
@@ -83,7 +115,8 @@ void untangle(QuadGrid& planar, const std::vector<Pull>& pulls, const UntangleOp
     unfold.most_steps = options.most_steps;
     unfold.area_weight = options.area_weight;
     unfold.element_area = size.prod();
-    unfold_elements(position, cell_corners(planar, size), pulls, unfold, progress);
+    unfold_elements(position, cell_corners(planar, wanted_cells(planar, size, options.keep_spacing)), pulls, unfold,
+                    progress);
     planar.position.topRows(2) = position;
 }
 

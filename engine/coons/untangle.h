@@ -9,7 +9,9 @@ namespace spia {
 
 struct UntangleOptions {
     int most_steps = 100;      ///< Newton steps
-    double area_weight = 0.05; ///< of equal cell areas against good cell shapes
+    double area_weight = 0.05; ///< of the wanted cell areas against good cell shapes
+    bool keep_spacing =
+        false; ///< cells are wanted as wide as the border cells of their column and row are, not all alike
 };
 
 /// Moves the inner nodes of a planar grid until every cell turns the right way, and on to well shaped cells; the nodes

@@ -349,6 +349,8 @@ Json grid_json(const Session& session)
             {"rows", grid.planar.rows},
             {"folded_cells", grid.quality.folded_cells},
             {"method", name(grid.route)},
+            {"spaced", grid.spaced},
+            {"squared", grid.squared},
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
             {"worst_cell", worst_cell(grid.planar)},
             {"corners", corners},
@@ -412,6 +414,22 @@ std::vector<std::string> idle_process(const Session& session)
     return list;
 }
 
+std::vector<std::string> grid_shortcomings(const Session& session)
+{
+    std::vector<std::string> list;
+    if (!session.grid)
+        return list;
+    const GridResult& grid = session.grid->result;
+    if (session.options.grid.to_bends > 0 && !grid.spaced)
+        list.push_back(
+            "the lines of the grid lie evenly, not at the bends: there they would fold cells or leave the blank; "
+            "give fewer of them to bends, or choose more cells");
+    if (session.options.grid.square_cells && !grid.squared)
+        list.push_back("the inner nodes of the grid were not moved towards right angles: they would leave the blank; "
+                       "choose more cells");
+    return list;
+}
+
 } // namespace
 
 std::vector<std::string> shortcomings(const Session& session)
@@ -465,6 +483,8 @@ std::vector<std::string> shortcomings(const Session& session)
                         quality.folded_cells == 1 ? "1 cell" : fmt::format("{} cells", quality.folded_cells),
                         quality.folded_cells == 1 ? "is" : "are", column, row, quality.min_scaled_jacobian));
     }
+    for (std::string& lack : grid_shortcomings(session))
+        list.push_back(std::move(lack));
     if (session.surface && session.surface->fit) {
         const FitReport& fit = *session.surface->fit;
         if (!fit.reached)

@@ -100,10 +100,14 @@ inline constexpr auto members_of<MaterialFitOptions> =
                member("r90", &MaterialFitOptions::r90, Between{1e-3, 99})};
 
 template <>
-inline constexpr auto members_of<GridOptions> = std::tuple{
-    member("columns", &GridOptions::columns, Between{0, 2000}), member("rows", &GridOptions::rows, Between{0, 2000}),
-    member("cells", &GridOptions::cells, Between{1, 2000}),
-    member("smoothing", &GridOptions::smoothing, Between{0, 100000}), member("method", &GridOptions::method)};
+inline constexpr auto members_of<GridOptions> =
+    std::tuple{member("columns", &GridOptions::columns, Between{0, 2000}),
+               member("rows", &GridOptions::rows, Between{0, 2000}),
+               member("cells", &GridOptions::cells, Between{1, 2000}),
+               member("smoothing", &GridOptions::smoothing, Between{0, 100000}),
+               member("method", &GridOptions::method),
+               member("to_bends", &GridOptions::to_bends, Between{0, 0.9}),
+               member("square_cells", &GridOptions::square_cells)};
 
 template <>
 inline constexpr auto members_of<FitChoice> =

@@ -259,6 +259,16 @@ void grid_step(Frame& frame)
         grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
         tooltip("The most Laplacian sweeps over a Coons patch that folds");
     }
+    double percent = 100 * grid.to_bends;
+    ImGui::SetNextItemWidth(width);
+    if (typed_number(frame, "Lines to bends, %", percent, "%.0f")) {
+        grid.to_bends = std::clamp(percent / 100, 0., 0.9);
+        changed = true;
+    }
+    tooltip(
+        "This share of the lines goes where the part bends, the others lie evenly. 50 suits a flat part with narrow bends.");
+    changed |= ImGui::Checkbox("Even out inside", &grid.square_cells);
+    tooltip("Moves the inner nodes towards right angles; no cell folds on the way");
     if (changed)
         frame.actions.push(SetGrid{grid});
     if (session.grid) {

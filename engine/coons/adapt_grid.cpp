@@ -1,0 +1,163 @@
+#include "engine/coons/adapt_grid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/coons/find_nodes.h"
+#include "engine/coons/lift.h"
+#include "engine/coons/line_spacing.h"
+#include "engine/coons/mend.h"
+#include "engine/coons/place_border.h"
+#include "engine/coons/untangle.h"
+
+namespace spia {
+namespace {
+
+constexpr int attempts = 3;   // each with half the share
+constexpr int looks = 3;      // the first grid sees a narrow bend as one turn between two lines
+constexpr double flat = 1e-6; // of the diagonal; chords that are off by less bend by rounding
+
+/// Of the lifted grid at each node, unit length; zero where it has none.
+Eigen::Matrix3Xd normals(const QuadGrid& lifted)
+{
+    Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, lifted.nodes());
+    const auto at = [&](int i, int j) {
+        return lifted.position.col(lifted.node(std::clamp(i, 0, lifted.columns), std::clamp(j, 0, lifted.rows)));
+    };
+    for (int j = 0; j <= lifted.rows; ++j)
+        for (int i = 0; i <= lifted.columns; ++i) {
+            const Eigen::Vector3d along_u = at(i + 1, j) - at(i - 1, j), along_v = at(i, j + 1) - at(i, j - 1);
+            normal.col(lifted.node(i, j)) = along_u.cross(along_v).stableNormalized();
+        }
+    return normal;
+}
+
+/// Per interval between columns (or rows) the turn of the normal from one to the other, the largest of all rows; its root, for
+/// chords are off by the curvature times their length squared.
+Eigen::VectorXd turns(const LiftResult& lift, bool along_u)
+{
+    const QuadGrid& grid = lift.lifted;
+    const Eigen::Matrix3Xd normal = normals(grid);
+    const int intervals = along_u ? grid.columns : grid.rows, lines = along_u ? grid.rows : grid.columns;
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(intervals);
+    for (int k = 0; k < intervals; ++k)
+        for (int l = 0; l <= lines; ++l) {
+            const int a = along_u ? grid.node(k, l) : grid.node(l, k),
+                      b = along_u ? grid.node(k + 1, l) : grid.node(l, k + 1);
+            if (lift.on_fill[size_t(a)] || lift.on_fill[size_t(b)])
+                continue; // what fills a hole is no part
+            const double turn = std::atan2(normal.col(a).cross(normal.col(b)).norm(), normal.col(a).dot(normal.col(b)));
+            const double length = (grid.position.col(b) - grid.position.col(a)).norm();
+            result[k] = std::max(result[k], turn * length);
+        }
+    const double diagonal = (grid.position.rowwise().maxCoeff() - grid.position.rowwise().minCoeff()).norm();
+    if (result.maxCoeff() / 8 < flat * diagonal) // of an arc, the chord is off by an eighth of turn times length
+        result.setZero();
+    return result.cwiseSqrt();
+}
+
+/// The value between those at whole numbers.
+double between(const Eigen::VectorXd& value, double at)
+{
+    const Eigen::Index k = std::clamp(Eigen::Index(at), Eigen::Index(0), value.size() - 2);
+    return value[k] + (at - double(k)) * (value[k + 1] - value[k]);
+}
+
+/// Of a weight per interval between lines at rising places in [0, 1], the weight over even intervals.
+Eigen::VectorXd over_even(const Eigen::VectorXd& weight, const Eigen::VectorXd& line)
+{
+    constexpr int fine = 16;
+    Eigen::VectorXd result(fine * weight.size());
+    Eigen::Index k = 0;
+    for (Eigen::Index s = 0; s < result.size(); ++s) {
+        const double at = (double(s) + 0.5) / double(result.size());
+        while (k + 1 < weight.size() && line[k + 1] < at)
+            ++k;
+        result[s] = weight[k] / (line[k + 1] - line[k]);
+    }
+    return result;
+}
+
+/// The grid at places u x v of its own lines, both from 0 to 1.
+GridResult at_lines(const BlankSearch& blank, const BlankBoundary& boundary, const GridResult& grid,
+                    const Eigen::VectorXd& u, const Eigen::VectorXd& v)
+{
+    GridResult result = grid;
+    const int m = grid.planar.columns, n = grid.planar.rows;
+    const Eigen::VectorXd at_u = u * m, at_v = v * n;
+    for (size_t k = 0; k < 4; ++k) {
+        const Eigen::VectorXd& at = k % 2 == 0 ? at_u : at_v;
+        const Eigen::Index last = at.size() - 1;
+        for (Eigen::Index i = 1; i < last; ++i)
+            result.border[k][i] = between(grid.border[k], k < 2 ? at[i] : at[last] - at[last - i]);
+    }
+    place_border(*grid.filled, boundary, result.border, result.planar, result.place);
+    for (int j = 1; j < n; ++j)
+        for (int i = 1; i < m; ++i) {
+            const int a = std::min(int(at_u[i]), m - 1), b = std::min(int(at_v[j]), n - 1);
+            const double s = at_u[i] - a, t = at_v[j] - b;
+            const auto node = [&](int di, int dj) {
+                return grid.planar.position.col(grid.planar.node(a + di, b + dj));
+            };
+            result.planar.position.col(result.planar.node(i, j)) =
+                (1 - t) * ((1 - s) * node(0, 0) + s * node(1, 0)) + t * ((1 - s) * node(0, 1) + s * node(1, 1));
+        }
+    find_nodes(blank, result);
+    return result;
+}
+
+/// Sound, or what could not be made so.
+GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, double share, const GridResult& grid,
+                       const Progress& progress)
+{
+    const int m = grid.planar.columns, n = grid.planar.rows;
+    Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(m + 1, 0, 1), v = Eigen::VectorXd::LinSpaced(n + 1, 0, 1);
+    UntangleOptions untangling;
+    untangling.keep_spacing = true;
+    GridResult spaced = grid;
+    for (int look = 0; look < looks && is_sound(spaced); ++look) {
+        const Progress here = progress.part(double(look) / looks, double(look + 1) / looks);
+        here.checkpoint(0, "spacing the lines of the grid");
+        const LiftResult lifted = lift(spaced);
+        u = spaced_lines(over_even(turns(lifted, true), u), m, share);
+        v = spaced_lines(over_even(turns(lifted, false), v), n, share);
+        spaced = at_lines(blank, boundary, grid, u, v);
+        if (!is_sound(spaced))
+            mend(blank, spaced, here, untangling);
+    }
+    return spaced;
+}
+
+} // namespace
+
+bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double share, GridResult& grid,
+                 const Progress& progress)
+{
+    for (int attempt = 0; attempt < attempts; ++attempt, share /= 2) {
+        const Progress here = progress.part(double(attempt) / attempts, double(attempt + 1) / attempts);
+        GridResult spaced = spaced_grid(blank, boundary, share, grid, here);
+        if (is_sound(spaced)) {
+            spaced.spaced = true;
+            grid = std::move(spaced);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool square_cells(const BlankSearch& blank, GridResult& grid, const Progress& progress)
+{
+    GridResult squared = grid;
+    UntangleOptions options;
+    options.keep_spacing = true;
+    mend(blank, squared, progress, options);
+    if (!is_sound(squared))
+        return false;
+    squared.route = grid.route; // nothing had to be untangled
+    squared.squared = true;
+    grid = std::move(squared);
+    return true;
+}
+
+} // namespace spia

@@ -1,0 +1,222 @@
+#include "engine/coons/adapt_grid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "engine/coons/boundary.h"
+#include "engine/coons/lift.h"
+#include "engine/core/error.h"
+#include "tests/support/check_grid.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/coons/outlines.h"
+
+namespace spia {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double length = 100, width = 40, radius = 2, bend_at = 60; // mm
+
+/// The strip bent by a right angle: of its middle line at the arc length s.
+Eigen::Vector2d profile(double s)
+{
+    const double angle = std::clamp((s - bend_at) / radius, 0.0, pi / 2);
+    const double after = std::max(0.0, s - bend_at - radius * pi / 2);
+    return {std::min(s, bend_at) + radius * std::sin(angle), radius * (1 - std::cos(angle)) + after};
+}
+
+TriMesh bent(const TriMesh& flat)
+{
+    TriMesh part = flat;
+    for (int v = 0; v < part.vertices(); ++v) {
+        const Eigen::Vector2d p = profile(flat.position(0, v));
+        part.position.col(v) << p.x(), flat.position(1, v), p.y();
+    }
+    return part;
+}
+
+struct Strip {
+    TriMesh flat = shapes::rectangle(length, width, 800, 8);
+    TriMesh part = bent(flat);
+    Blank blank{flat.position.topRows(2)};
+    BlankBoundary boundary = split_boundary(blank, part, corners());
+
+    std::array<int, 4> corners() const
+    {
+        std::array<int, 4> vertex;
+        const std::array<Eigen::Vector2d, 4> place = {Eigen::Vector2d(0, 0), Eigen::Vector2d(length, 0),
+                                                      Eigen::Vector2d(length, width), Eigen::Vector2d(0, width)};
+        for (size_t k = 0; k < 4; ++k)
+            vertex[k] = outlines::nearest_vertex(flat, place[k]);
+        return vertex;
+    }
+    GridResult grid(double to_bends) const
+    {
+        GridOptions options;
+        options.columns = 40;
+        options.rows = 10;
+        options.to_bends = to_bends;
+        return coons_grid(part, blank, boundary, options);
+    }
+};
+
+/// How far the straight edges along u are from the strip.
+double chord_height(const GridResult& grid)
+{
+    double greatest = 0;
+    const QuadGrid& planar = grid.planar;
+    for (int i = 0; i < planar.columns; ++i) {
+        const double a = planar.position(0, planar.node(i, 3)), b = planar.position(0, planar.node(i + 1, 3));
+        const Eigen::Vector2d chord = profile(b) - profile(a);
+        for (int k = 1; k < 50; ++k) {
+            const Eigen::Vector2d way = profile(a + (b - a) * k / 50) - profile(a);
+            greatest = std::max(greatest, std::abs(way.x() * chord.y() - way.y() * chord.x()) / chord.norm());
+        }
+    }
+    return greatest;
+}
+
+TEST(SpaceLines, GoToTheBendOfAStrip)
+{
+    const Strip strip;
+    const GridResult even = strip.grid(0), spaced = strip.grid(0.5);
+    EXPECT_FALSE(even.spaced);
+    EXPECT_TRUE(spaced.spaced);
+    EXPECT_EQ(shapes::fault_of(spaced, strip.boundary), "");
+    EXPECT_LT(chord_height(spaced), chord_height(even) / 8);
+    int inside = 0; // 1.3 of an even grid
+    for (int i = 0; i <= 40; ++i) {
+        const double s = spaced.planar.position(0, spaced.planar.node(i, 5));
+        inside += s > bend_at && s < bend_at + radius * pi / 2;
+    }
+    EXPECT_GE(inside, 10);
+    // Nothing bends across the other lines: they stay.
+    for (int j = 0; j <= 10; ++j)
+        EXPECT_NEAR(spaced.planar.position(1, spaced.planar.node(20, j)), 4 * j, 1e-9);
+}
+
+TEST(SpaceLines, MoreOfThemTheLargerTheShare)
+{
+    const Strip strip;
+    double before = chord_height(strip.grid(0));
+    for (const double share : {0.2, 0.5, 0.8}) {
+        const double now = chord_height(strip.grid(share));
+        EXPECT_LT(now, before) << share;
+        before = now;
+    }
+}
+
+TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
+{
+    // A flat plate with a hole: its fill is as flat as it, whatever its triangles.
+    const TriMesh plate = shapes::plate();
+    const Blank blank{plate.position.topRows(2)};
+    const BlankBoundary boundary = split_boundary(blank, plate, propose_corners(blank, plate));
+    GridOptions options;
+    const GridResult even = coons_grid(plate, blank, boundary, options);
+    options.to_bends = 0.6;
+    const GridResult spaced = coons_grid(plate, blank, boundary, options);
+    EXPECT_LT((spaced.planar.position - even.planar.position).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(SpaceLines, RefusesAShareWithoutSense)
+{
+    const Strip strip;
+    EXPECT_THROW(strip.grid(-0.1), InputError);
+    EXPECT_THROW(strip.grid(0.95), InputError);
+    EXPECT_THROW(strip.grid(std::nan("")), InputError);
+}
+
+/// A plate whose upper side is a wave: the lines of its Coons patch are not at right angles.
+struct Wave {
+    TriMesh flat;
+    Blank blank;
+    BlankBoundary boundary;
+
+    Wave()
+    {
+        outlines::Points outline;
+        for (int k = 0; k < 50; ++k)
+            outline.emplace_back(2 * k, 0);
+        outline.emplace_back(100, 0);
+        for (int k = 1; k < 20; ++k)
+            outline.emplace_back(100, 2 * k);
+        for (int k = 50; k >= 0; --k)
+            outline.emplace_back(2 * k, 40 + 12 * std::sin(3 * pi * k / 50));
+        for (int k = 19; k > 0; --k)
+            outline.emplace_back(0, 2 * k);
+        flat = outlines::part(outline);
+        blank = outlines::as_blank(flat);
+        std::array<int, 4> corner;
+        const std::array<Eigen::Vector2d, 4> place = {Eigen::Vector2d(0, 0), Eigen::Vector2d(100, 0),
+                                                      Eigen::Vector2d(100, 40), Eigen::Vector2d(0, 40)};
+        for (size_t k = 0; k < 4; ++k)
+            corner[k] = outlines::nearest_vertex(flat, place[k]);
+        boundary = split_boundary(blank, flat, corner);
+    }
+};
+
+TEST(SquareCells, AreNearerToRightAnglesAndSound)
+{
+    const Wave wave;
+    GridOptions options;
+    const GridResult plain = coons_grid(wave.flat, wave.blank, wave.boundary, options);
+    options.square_cells = true;
+    const GridResult squared = coons_grid(wave.flat, wave.blank, wave.boundary, options);
+    EXPECT_EQ(plain.route, squared.route);
+    EXPECT_TRUE(squared.squared);
+    EXPECT_EQ(shapes::fault_of(squared, wave.boundary), "");
+    const auto mean_off = [](const GridResult& grid) { return 1 - scaled_jacobians(grid.planar).mean(); };
+    EXPECT_LT(mean_off(squared), mean_off(plain) * 0.8);
+    for (int i = 0; i <= plain.planar.columns; ++i)
+        for (const int j : {0, plain.planar.rows})
+            EXPECT_EQ(squared.planar.position.col(squared.planar.node(i, j)),
+                      plain.planar.position.col(plain.planar.node(i, j)));
+}
+
+TEST(SquareCells, KeepTheSpacingOfTheLines)
+{
+    const Strip strip;
+    GridOptions options;
+    options.columns = 40;
+    options.rows = 10;
+    options.to_bends = 0.5;
+    const GridResult spaced = coons_grid(strip.part, strip.blank, strip.boundary, options);
+    options.square_cells = true;
+    const GridResult both = coons_grid(strip.part, strip.blank, strip.boundary, options);
+    EXPECT_TRUE(both.spaced && both.squared);
+    EXPECT_LT((both.planar.position - spaced.planar.position).cwiseAbs().maxCoeff(), 1e-3)
+        << "rectangles have right angles";
+}
+
+class AdaptedOutline : public testing::TestWithParam<int> {};
+
+/// Outlines by lot, with waves across them for the part, as if they had been formed.
+TEST_P(AdaptedOutline, HasAGridWithoutAFold)
+{
+    for (int number = 0; number < 4; ++number) {
+        const shapes::OutlineByLot lot = shapes::outline_by_lot(GetParam(), number);
+        TriMesh part = lot.part;
+        const double size = (part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff()).norm();
+        for (int v = 0; v < part.vertices(); ++v)
+            part.position(2, v) = 0.05 * size * std::tanh(60 * (part.position(0, v) + part.position(1, v)) / size);
+        const Blank blank{lot.part.position.topRows(2)};
+        const BlankBoundary boundary = split_boundary(blank, part, lot.corner);
+        GridOptions options;
+        options.to_bends = 0.6;
+        options.square_cells = number % 2 == 0;
+        const GridResult grid = coons_grid(part, blank, boundary, options);
+        EXPECT_EQ(shapes::fault_of(grid, boundary), "") << lot.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ByLot, AdaptedOutline, testing::Values(0, 1, 2, 3, 5, 6, 7), [](const auto& param) {
+    std::string name(shapes::outline_kind(param.param));
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+});
+
+} // namespace
+} // namespace spia
