@@ -73,7 +73,15 @@ int info(const InfoArguments& arguments)
         say("file            {} ({})\n", arguments.part.string(), part.format);
     else
         say("file            {} ({}, 1 unit = {} mm)\n", arguments.part.string(), part.format, millimetres(part.unit));
-    say("{:<15} {} vertices, {} faces\n", part.deck ? "taken" : "in the file", part.file_vertices, part.file_faces);
+    if (part.cad && part.remeshed) // what is numbered are the new ones
+        say("{:<15} {} vertices, {} triangles, remeshed\n", "of its faces", part.remeshed->original->vertices(),
+            part.remeshed->original->triangles());
+    else
+        say("{:<15} {} vertices, {} {}\n",
+            part.deck  ? "taken"
+            : part.cad ? "of its faces"
+                       : "in the file",
+            part.file_vertices, part.file_faces, part.cad ? "triangles" : "faces");
     if (part.deck)
         print_parts(*part.deck);
     if (part.cad)

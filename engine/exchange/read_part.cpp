@@ -239,6 +239,10 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
         part.notes.push_back("triangles of its CAD faces were needles on a surface that does not unroll, whose "
                              "chords are taken for strain; they can be kept (--no-remesh)");
     } catch (const InputError& error) {
+        for (Finding& finding : part.doctor.findings)
+            if (finding.fault == Fault::sliver)
+                finding.advice = "strains there mean little; remeshing failed (see the notes), but may do with another "
+                                 "size or tolerance (--remesh-size or --remesh-tolerance)";
         part.notes.push_back(fmt::format("the triangles of its CAD faces are needles on a surface that does not "
                                          "unroll, so that strains there mean little; they were not remeshed: {}",
                                          error.what()));

@@ -46,8 +46,8 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
             top.member("smooth_joins").fail("must be true or false");
         layout.smooth_joins = smooth->get<bool>();
     }
-    if (layout.cuts.empty() && layout.corners.empty())
-        top.fail("must have cuts or corners; --patches auto needs no file");
+    if (layout.cuts.empty() && layout.corners.empty() && !layout.smooth_joins)
+        top.fail("must have cuts, corners or smooth_joins; --patches auto needs no file");
     return layout;
 }
 

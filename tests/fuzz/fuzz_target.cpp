@@ -203,7 +203,8 @@ bool read_cuts(std::string_view content)
     try {
         const Held file(".json", content);
         const std::optional<LayoutOptions> layout = patch_layout(file.path().string());
-        require(layout && (!layout->cuts.empty() || !layout->corners.empty()), "a layout of nothing was accepted");
+        require(layout && (!layout->cuts.empty() || !layout->corners.empty() || layout->smooth_joins),
+                "a layout of nothing was accepted");
         for (const LayoutCut& cut : layout->cuts)
             for (const int v : cut)
                 require(v >= 0, "a cut through no vertex was accepted");

@@ -13,6 +13,7 @@ std::string in_viewer_words(std::string text)
         {"--unit", "in the step Part"},
         {"--skin", "\"Skin\" in the step Part"},
         {"--skip-bad-faces", "\"Leave out faces that cannot be meshed\" in \"Choose in the file...\""},
+        {"--remesh-size or --remesh-tolerance", "the fields of \"Remesh\" in the step Part"},
         {"--no-remesh", "\"Remesh\" in the step Part"},
         {"--remesh", "\"Remesh\" in the step Part"},
         {"take one patch (--patches one)", "choose \"one patch\" in the step NURBS surface"},

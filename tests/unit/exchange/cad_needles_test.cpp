@@ -52,6 +52,21 @@ TEST(CadNeedles, OnADrawnPartAreRemeshedUnasked)
     EXPECT_EQ(wrong, 0) << "each triangle lies on the CAD face that it is said to be of";
 }
 
+TEST(CadNeedles, AreReplacedWithinTheDeflectionThatWasGiven)
+{
+    const ScratchFolder folder;
+    write_cup_quarter(folder / "cup.brep");
+    ReadOptions options;
+    options.cad.deflection = 0.05;
+    const PartFile part = read_part(folder / "cup.brep", options);
+    ASSERT_TRUE(part.remeshed);
+    EXPECT_EQ(part.remeshed->tolerance, 0.05);
+    options.cad.deflection = 5; // coarser than remeshing is by default
+    const PartFile coarse = read_part(folder / "cup.brep", options);
+    ASSERT_TRUE(coarse.remeshed);
+    EXPECT_NEAR(coarse.remeshed->tolerance, 1e-3 * bounding_diagonal(*coarse.remeshed->original), 1e-9);
+}
+
 TEST(CadNeedles, OnABentPartStayAndAreNoFault)
 {
     const ScratchFolder folder;
