@@ -92,9 +92,12 @@ TEST(SpaceLines, GoToTheBendOfAStrip)
         inside += s > bend_at && s < bend_at + radius * pi / 2;
     }
     EXPECT_GE(inside, 10);
-    // Nothing bends across the other lines: they stay.
     for (int j = 0; j <= 10; ++j)
-        EXPECT_NEAR(spaced.planar.position(1, spaced.planar.node(20, j)), 4 * j, 1e-9);
+        for (int i = 0; i <= 40; ++i) {
+            const Eigen::Vector3d node = spaced.planar.position.col(spaced.planar.node(i, j));
+            EXPECT_NEAR(node.x(), spaced.planar.position(0, spaced.planar.node(i, 5)), 1e-9) << "they stay straight";
+            EXPECT_NEAR(node.y(), 4 * j, 1e-9) << "nothing bends across these lines";
+        }
 }
 
 TEST(SpaceLines, MoreOfThemTheLargerTheShare)
@@ -108,17 +111,38 @@ TEST(SpaceLines, MoreOfThemTheLargerTheShare)
     }
 }
 
-TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
+/// How far lines of a plate with two holes go from even ones, in cells.
+double farthest_line(const TriMesh& part)
 {
-    // A flat plate with a hole: its fill is as flat as it, whatever its triangles.
     const TriMesh plate = shapes::plate();
     const Blank blank{plate.position.topRows(2)};
-    const BlankBoundary boundary = split_boundary(blank, plate, propose_corners(blank, plate));
+    const BlankBoundary boundary = split_boundary(blank, part, propose_corners(blank, part));
     GridOptions options;
-    const GridResult even = coons_grid(plate, blank, boundary, options);
+    const GridResult even = coons_grid(part, blank, boundary, options);
     options.to_bends = 0.6;
-    const GridResult spaced = coons_grid(plate, blank, boundary, options);
-    EXPECT_LT((spaced.planar.position - even.planar.position).cwiseAbs().maxCoeff(), 1e-9);
+    const GridResult spaced = coons_grid(part, blank, boundary, options);
+    EXPECT_TRUE(spaced.spaced);
+    return (spaced.planar.position - even.planar.position).cwiseAbs().maxCoeff() / (120. / even.planar.columns);
+}
+
+TEST(SpaceLines, StayWhereNothingBends)
+{
+    TriMesh part = shapes::plate();
+    EXPECT_LT(farthest_line(part), 1e-9);
+    for (int v = 0; v < part.vertices(); ++v) // slips of the last digits
+        part.position(2, v) += 1e-12 * (v % 7);
+    EXPECT_LT(farthest_line(part), 1e-9);
+}
+
+TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
+{
+    TriMesh part = shapes::plate();
+    for (int v = 0; v < part.vertices(); ++v) { // rolled up evenly: what fills its holes is flatter than it
+        const double angle = part.position(0, v) / 60;
+        part.position(0, v) = 60 * std::sin(angle);
+        part.position(2, v) = -60 * std::cos(angle);
+    }
+    EXPECT_LT(farthest_line(part), 1.0);
 }
 
 TEST(SpaceLines, RefusesAShareWithoutSense)
