@@ -34,7 +34,7 @@ struct RunArguments {
     std::vector<int> corners;
     std::vector<double> direction;
     double to_bends = 0; ///< share of the lines of the grid
-    bool square_cells = false;
+    bool even_cells = false;
     std::string grid_method = "automatic", ends = "averaged", fit_parameters = "blank";
     std::optional<double> tolerance;  ///< mm, of the surface; not given: it runs through the grid
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v

@@ -191,7 +191,7 @@ int main(int count, char** values)
         ->check(CLI::Range(0., 0.9))
         ->type_name("0-0.9")
         ->capture_default_str();
-    run_command->add_flag("--square-cells", run.square_cells,
+    run_command->add_flag("--even-cells", run.even_cells,
                           "move the inner nodes of the grid towards right angles; no cell folds on the way");
     run_command
         ->add_option("--corners", run.corners, "four vertices of the outer boundary, numbers as in the file, from 0")

@@ -76,8 +76,10 @@ SessionOptions options(const RunArguments& arguments)
     result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
                          : arguments.grid_method == "harmonic" ? GridMethod::harmonic
                                                                : GridMethod::automatic;
+    if (!(arguments.to_bends >= 0 && arguments.to_bends <= 0.9)) // a NaN passes the check of the option
+        throw InputError("--to-bends is a share of the lines, from 0 to 0.9");
     result.grid.to_bends = arguments.to_bends;
-    result.grid.square_cells = arguments.square_cells;
+    result.grid.even_cells = arguments.even_cells;
     if (arguments.ends == "natural")
         result.interpolate.ends = CurveEnds::natural;
     if (arguments.ends == "clamped")
@@ -93,12 +95,15 @@ SessionOptions options(const RunArguments& arguments)
     if (result.patches && arguments.degree.front() != arguments.degree.back())
         throw InputError("patches of a layout have one degree along u and v; give --degree one number");
     if (result.patches && arguments.fit_parameters == "corrected")
-        throw InputError("patches of a layout keep the places of the blank; leave --fit-parameters corrected away");
+        throw InputError("patches of a layout keep the places of the blank; leave --fit-parameters corrected out");
     if (result.patches && arguments.ends != "averaged")
-        throw InputError("patches of a layout have averaged knots at their ends; leave --ends away");
+        throw InputError("patches of a layout have averaged knots at their ends; leave --ends out");
     if (result.patches && (!arguments.corners.empty() || !arguments.grid.empty()))
         throw InputError(
             "--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
+    if (result.patches && (arguments.to_bends > 0 || arguments.even_cells))
+        throw InputError(
+            "--to-bends and --even-cells are for the grid of one patch; take --patches one, or leave them out");
     if (arguments.fit_parameters == "corrected")
         result.fit_parameters = FitParameters::corrected;
     result.max_control_points = arguments.max_control_points;

@@ -33,8 +33,8 @@ Eigen::Matrix3Xd normals(const QuadGrid& lifted)
     return normal;
 }
 
-/// Per interval between columns (or rows) the turn of the normal from one to the other, the largest of all rows; its root, for
-/// chords are off by the curvature times their length squared.
+/// Per interval between columns (or rows) the root of the length times the turn of the normal from one to the other, the largest of all
+/// rows: lines that share it out evenly have chords that are off alike, by an eighth of its square.
 Eigen::VectorXd turns(const LiftResult& lift, bool along_u)
 {
     const QuadGrid& grid = lift.lifted;
@@ -68,13 +68,13 @@ double between(const Eigen::VectorXd& value, double at)
 Eigen::VectorXd over_even(const Eigen::VectorXd& weight, const Eigen::VectorXd& line)
 {
     constexpr int fine = 16;
-    Eigen::VectorXd result(fine * weight.size());
-    Eigen::Index k = 0;
-    for (Eigen::Index s = 0; s < result.size(); ++s) {
-        const double at = (double(s) + 0.5) / double(result.size());
-        while (k + 1 < weight.size() && line[k + 1] < at)
-            ++k;
-        result[s] = weight[k] / (line[k + 1] - line[k]);
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(fine * weight.size());
+    const double width = 1. / double(result.size());
+    for (Eigen::Index k = 0; k < weight.size(); ++k) {
+        const double density = weight[k] / (line[k + 1] - line[k]);
+        for (auto s = Eigen::Index(line[k] / width); s < result.size() && double(s) * width < line[k + 1]; ++s)
+            result[s] +=
+                density * (std::min(line[k + 1], double(s + 1) * width) - std::max(line[k], double(s) * width));
     }
     return result;
 }
@@ -107,7 +107,13 @@ GridResult at_lines(const BlankSearch& blank, const BlankBoundary& boundary, con
     return result;
 }
 
-/// Sound, or what could not be made so.
+/// Worse than half as good as before.
+bool is_spoilt(const GridResult& grid, const GridResult& before)
+{
+    return !is_sound(grid) || grid.quality.min_scaled_jacobian < before.quality.min_scaled_jacobian / 2;
+}
+
+/// The last look that did not spoil the grid; the grid itself if none.
 GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, double share, const GridResult& grid,
                        const Progress& progress)
 {
@@ -115,18 +121,22 @@ GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, 
     Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(m + 1, 0, 1), v = Eigen::VectorXd::LinSpaced(n + 1, 0, 1);
     UntangleOptions untangling;
     untangling.keep_spacing = true;
-    GridResult spaced = grid;
-    for (int look = 0; look < looks && is_sound(spaced); ++look) {
+    GridResult best = grid;
+    for (int look = 0; look < looks; ++look) {
         const Progress here = progress.part(double(look) / looks, double(look + 1) / looks);
         here.checkpoint(0, "spacing the lines of the grid");
-        const LiftResult lifted = lift(spaced);
+        const LiftResult lifted = lift(best);
         u = spaced_lines(over_even(turns(lifted, true), u), m, share);
         v = spaced_lines(over_even(turns(lifted, false), v), n, share);
-        spaced = at_lines(blank, boundary, grid, u, v);
+        GridResult spaced = at_lines(blank, boundary, grid, u, v);
         if (!is_sound(spaced))
             mend(blank, spaced, here, untangling);
+        if (is_spoilt(spaced, grid))
+            break;
+        spaced.to_bends = share;
+        best = std::move(spaced);
     }
-    return spaced;
+    return best;
 }
 
 } // namespace
@@ -137,8 +147,7 @@ bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double
     for (int attempt = 0; attempt < attempts; ++attempt, share /= 2) {
         const Progress here = progress.part(double(attempt) / attempts, double(attempt + 1) / attempts);
         GridResult spaced = spaced_grid(blank, boundary, share, grid, here);
-        if (is_sound(spaced)) {
-            spaced.spaced = true;
+        if (spaced.to_bends > 0) {
             grid = std::move(spaced);
             return true;
         }
@@ -146,17 +155,17 @@ bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double
     return false;
 }
 
-bool square_cells(const BlankSearch& blank, GridResult& grid, const Progress& progress)
+bool even_cells(const BlankSearch& blank, GridResult& grid, const Progress& progress)
 {
-    GridResult squared = grid;
+    GridResult evened = grid;
     UntangleOptions options;
     options.keep_spacing = true;
-    mend(blank, squared, progress, options);
-    if (!is_sound(squared))
+    mend(blank, evened, progress, options);
+    if (is_spoilt(evened, grid))
         return false;
-    squared.route = grid.route; // nothing had to be untangled
-    squared.squared = true;
-    grid = std::move(squared);
+    evened.route = grid.route; // nothing had to be untangled
+    evened.evened = true;
+    grid = std::move(evened);
     return true;
 }
 

@@ -308,13 +308,13 @@ GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBounda
     auto filled = std::make_shared<const FilledMesh>(fill_holes(part, blank.position, progress.part(0, 0.1)));
     progress.checkpoint(0.1, "searching the blank");
     Workshop shop{filled, boundary, BlankSearch(*filled)};
-    const bool adapt = options.to_bends > 0 || options.square_cells;
+    const bool adapt = options.to_bends > 0 || options.even_cells;
     GridResult grid = sound_grid(shop, options, adapt ? progress.part(0, 0.7) : progress);
     if (is_sound(grid)) { // the Coons patch may be asked for as it is
         if (options.to_bends > 0)
             space_lines(shop.blank, boundary, options.to_bends, grid, progress.part(0.7, 0.8));
-        if (options.square_cells)
-            square_cells(shop.blank, grid, progress.part(0.8, 1));
+        if (options.even_cells)
+            even_cells(shop.blank, grid, progress.part(0.8, 1));
     }
     return grid;
 }

@@ -26,8 +26,8 @@ struct GridOptions {
     int cells = 40;     ///< on the longer sides, where columns or rows is 0
     int smoothing = 50; ///< the most Laplacian sweeps over a Coons patch that folds
     GridMethod method = GridMethod::automatic;
-    double to_bends = 0;       ///< share of the lines that go where the part bends, 0 to 0.9: see space_lines()
-    bool square_cells = false; ///< right angles and even sizes inside, where the grid stays sound: see square_cells()
+    double to_bends = 0;     ///< share of the lines that go where the part bends, 0 to 0.9: see space_lines()
+    bool even_cells = false; ///< right angles and even sizes inside, where the grid stays sound: see even_cells()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 };
 
@@ -44,7 +44,8 @@ struct GridResult {
     int refinements = 0;   ///< how often an automatic cell count was doubled to get there
     bool border_slid =
         false; ///< the border nodes do not divide the sides evenly: see slid_border(), or the sides of opened_map()
-    bool spaced = false, squared = false; ///< done as the options ask; else the grid would not have stayed sound
+    double to_bends = 0; ///< share of the lines that went there; less than asked for where cells would have folded
+    bool evened = false; ///< inside; not, though asked for, where nodes would have left the blank
     /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
     std::array<Eigen::VectorXd, 4> border;
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside

@@ -6,6 +6,7 @@
 #include <Standard_Failure.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/core.h>
 #include <set>
@@ -176,15 +177,26 @@ template <class Work> CadContent in_our_words(const Work& work)
     try {
         return work();
     } catch (const Standard_Failure& failure) {
-        throw InputError(
-            fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", failure.GetMessageString()));
+        const std::string why = failure.GetMessageString();
+        throw InputError(why.find_first_not_of(' ') == std::string::npos
+                             ? "OpenCASCADE gives up on it without a reason; export it again"
+                             : fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", why));
     } catch (const std::length_error& error) { // a count in a damaged file
         throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
     }
 }
 
+/// Those that were measured take 30 s per MB at most; damaged ones may be healed without an end.
+std::chrono::seconds long_enough(const std::filesystem::path& path, const CadOptions& options)
+{
+    constexpr double least = 60, most = 600, per_byte = 2e-4;
+    std::error_code none;
+    const double bytes = double(std::filesystem::file_size(path, none));
+    return std::chrono::seconds(int(none || options.deflection ? most : std::min(most, least + per_byte * bytes)));
+}
+
 /// In a process of its own.
-template <class Work> CadContent apart(const Work& work, const Progress& progress)
+template <class Work> CadContent apart(const Work& work, std::chrono::seconds busy, const Progress& progress)
 {
     const OcctSession session; // held here for as long as the child works
     const auto in_it = [&](const Progress& told, const ChildLog& log) {
@@ -192,7 +204,7 @@ template <class Work> CadContent apart(const Work& work, const Progress& progres
         return packed(in_our_words([&] { return work(told); }));
     };
     const auto log = [](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); };
-    return unpacked(in_child(in_it, log, progress));
+    return unpacked(in_child(in_it, log, progress, {busy}));
 }
 
 } // namespace
@@ -214,7 +226,7 @@ CadContent read_cad(const std::filesystem::path& path, const CadOptions& options
                 scale(shape, *unit);
             return content_of(shape, options, wanted, told.part(0.4, 1));
         },
-        progress);
+        long_enough(path, options), progress);
 }
 
 CadContent read_cad_unguarded(const std::filesystem::path& path)
@@ -233,7 +245,7 @@ CadContent preview_cad(const std::filesystem::path& path, const Progress& progre
             CadShape shape = read_cad_shape(path, told.part(0, 0.6));
             return coarse(shape, told.part(0.6, 1));
         },
-        progress);
+        long_enough(path, {}), progress);
 }
 
 } // namespace spia

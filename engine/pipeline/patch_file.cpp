@@ -47,7 +47,7 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
         layout.smooth_joins = smooth->get<bool>();
     }
     if (layout.cuts.empty() && layout.corners.empty() && !layout.smooth_joins)
-        top.fail("must have cuts, corners or smooth_joins; --patches auto needs no file");
+        top.fail("must have cuts, corners or \"smooth_joins\": true; --patches auto needs no file");
     return layout;
 }
 

@@ -349,8 +349,8 @@ Json grid_json(const Session& session)
             {"rows", grid.planar.rows},
             {"folded_cells", grid.quality.folded_cells},
             {"method", name(grid.route)},
-            {"spaced", grid.spaced},
-            {"squared", grid.squared},
+            {"to_bends", grid.to_bends},
+            {"evened", grid.evened},
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
             {"worst_cell", worst_cell(grid.planar)},
             {"corners", corners},
@@ -420,11 +420,17 @@ std::vector<std::string> grid_shortcomings(const Session& session)
     if (!session.grid)
         return list;
     const GridResult& grid = session.grid->result;
-    if (session.options.grid.to_bends > 0 && !grid.spaced)
+    const bool asked_for = session.options.grid.to_bends > 0 || session.options.grid.even_cells;
+    if (asked_for && grid.quality.folded_cells > 0) {
+        list.push_back("no line of the grid went to bends and no cell was evened out, for it folds before that");
+        return list;
+    }
+    if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
         list.push_back(
-            "the lines of the grid lie evenly, not at the bends: there they would fold cells or leave the blank; "
-            "give fewer of them to bends, or choose more cells");
-    if (session.options.grid.square_cells && !grid.squared)
+            fmt::format("{:.3g} % of the lines of the grid went to bends, not {:.3g} %: with more of them cells "
+                        "would fold or leave the blank; choose more cells",
+                        100 * grid.to_bends, 100 * asked));
+    if (session.options.grid.even_cells && !grid.evened)
         list.push_back("the inner nodes of the grid were not moved towards right angles: they would leave the blank; "
                        "choose more cells");
     return list;

@@ -1,5 +1,6 @@
 #include "tests/fuzz/cad_search.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <random>
 #include <stdexcept>
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "engine/core/error.h"
@@ -25,7 +27,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int in_one_process = 1000;
-constexpr unsigned enough = 2; // seconds for one file of a few kilobytes
+constexpr int enough = 2; // seconds for one file of a few kilobytes
 
 /// How far a child is; outlives it.
 class SharedCounts {
@@ -88,7 +90,8 @@ CadSearch search_cad(std::string_view format, int first, int files)
         const auto read_them = [&](const Progress&, const ChildLog&) -> std::string {
             for (int number = next; number < end; ++number) {
                 put(number);
-                ::alarm(enough); // ends this process
+                const itimerval most{{}, {enough, 0}};    // of computing
+                ::setitimer(ITIMER_PROF, &most, nullptr); // ends this process
                 try {
                     shared->accepted += read_and_examine(file);
                     shared->at = number + 1;

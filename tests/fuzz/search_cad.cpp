@@ -1,4 +1,4 @@
-// A long search through damaged CAD files: spia-fuzz-cad FORMAT FILES [FIRST]. With KEEP as the fourth argument it only writes them:
+// A long search through damaged CAD files: spia-fuzz-cad FORMAT COUNT [FIRST]. With KEEP as the fourth argument it only writes them:
 // into files KEEP-NUMBER.FORMAT.
 #include <algorithm>
 #include <cstdio>
@@ -12,10 +12,18 @@
 int main(int count, char** values)
 {
     if (count < 3) {
-        std::fputs("usage: spia-fuzz-cad step|igs|brep FILES [FIRST [KEEP]]\n", stderr);
+        std::fputs("usage: spia-fuzz-cad step|igs|brep COUNT [FIRST [KEEP]]\n", stderr);
         return 2;
     }
-    const int files = std::atoi(values[2]), first = count > 3 ? std::atoi(values[3]) : 0;
+    const auto whole = [&](int k) {
+        int number = 0, read = 0;
+        return k >= count ? 0 : std::sscanf(values[k], "%9d%n", &number, &read) == 1 && !values[k][read] ? number : -1;
+    };
+    const int files = whole(2), first = whole(3);
+    if (files < 1 || first < 0) {
+        std::fputs("spia-fuzz-cad: how many files, and from which number on? e.g. spia-fuzz-cad step 1000 0\n", stderr);
+        return 2;
+    }
     if (count > 4) {
         for (int number = first; number < first + files; ++number)
             std::ofstream(fmt::format("{}-{}.{}", values[4], number, values[1]), std::ios::binary)

@@ -107,7 +107,7 @@ inline constexpr auto members_of<GridOptions> =
                member("smoothing", &GridOptions::smoothing, Between{0, 100000}),
                member("method", &GridOptions::method),
                member("to_bends", &GridOptions::to_bends, Between{0, 0.9}),
-               member("square_cells", &GridOptions::square_cells)};
+               member("even_cells", &GridOptions::even_cells)};
 
 template <>
 inline constexpr auto members_of<FitChoice> =

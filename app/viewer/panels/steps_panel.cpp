@@ -267,7 +267,7 @@ void grid_step(Frame& frame)
     }
     tooltip(
         "This share of the lines goes where the part bends, the others lie evenly. 50 suits a flat part with narrow bends.");
-    changed |= ImGui::Checkbox("Even out inside", &grid.square_cells);
+    changed |= ImGui::Checkbox("Even out inside", &grid.even_cells);
     tooltip("Moves the inner nodes towards right angles; no cell folds on the way");
     if (changed)
         frame.actions.push(SetGrid{grid});
