@@ -186,7 +186,7 @@ template <class Work> CadContent in_our_words(const Work& work)
     }
 }
 
-/// Those that were measured take 30 s per MB at most; damaged ones may be healed without an end.
+/// Those that were measured take 2 s per MB at most; damaged ones may be healed without an end.
 std::chrono::seconds long_enough(const std::filesystem::path& path, const CadOptions& options)
 {
     constexpr double least = 60, most = 600, per_byte = 2e-4;
