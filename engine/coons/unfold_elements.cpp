@@ -84,8 +84,12 @@ private:
     double smallest_determinant() const
     {
         double smallest = std::numeric_limits<double>::infinity();
-        for (size_t k = 0; k < value_.size(); ++k)
-            smallest = std::min(smallest, determinant(jacobian(k, position_)));
+        for (size_t k = 0; k < value_.size(); ++k) {
+            const double here = determinant(jacobian(k, position_));
+            if (std::isnan(here))
+                return here;
+            smallest = std::min(smallest, here);
+        }
         return smallest;
     }
 
