@@ -84,7 +84,7 @@ Document picked(const fs::path& part, Stage last)
     options.read.unit = LengthUnit::mm;
     options.flatten.thickness = 0.8;
     options.flatten.direction = Eigen::Vector3d(0.1, 0.2, 0.97);
-    options.grid = {30, 20, 50, 3, GridMethod::harmonic};
+    options.grid = {30, 20, 50, 3, GridMethod::harmonic, 0.4, true};
     options.interpolate.ends = CurveEnds::clamped;
     options.interpolate.degree_u = 5;
     options.tolerance = 0.035;

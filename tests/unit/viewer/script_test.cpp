@@ -63,7 +63,7 @@ std::vector<Action> every_action()
         set(SetThickness{0.8});
         set(SetDirection{Eigen::Vector3d(0.1, 0.2, -1)});
         set(SetCorner{3, 17, true});
-        set(SetGrid{{30, 0, 12, 5, GridMethod::harmonic}});
+        set(SetGrid{{30, 0, 12, 5, GridMethod::harmonic, 0.4, true}});
         set(SelectFaces{{3, 1, 2}, PickMode::remove});
         set(PickAt{View::blank, pixel, size, PickMode::add, 12.0, true});
         set(PickHandle{HandleKind::lattice, pixel, size, PickMode::add, 20});
