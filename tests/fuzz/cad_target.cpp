@@ -1,6 +1,7 @@
 #include "tests/fuzz/cad_target.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -77,13 +78,74 @@ TrimLoop triangular_hole()
     return {curve};
 }
 
+/// A plane square of 20 mm, as short as STEP can be.
+const char* const step_square = R"(ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));
+ENDSEC;
+DATA;
+#1=APPLICATION_CONTEXT('');
+#2=PRODUCT_CONTEXT('',#1,'');
+#3=PRODUCT('a','a','',(#2));
+#4=PRODUCT_DEFINITION_FORMATION('','',#3);
+#5=PRODUCT_DEFINITION_CONTEXT('',#1,'');
+#6=PRODUCT_DEFINITION('','',#4,#5);
+#7=PRODUCT_DEFINITION_SHAPE('','',#6);
+#8=SHAPE_DEFINITION_REPRESENTATION(#7,#9);
+#9=MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',(#10),#50);
+#10=SHELL_BASED_SURFACE_MODEL('',(#11));
+#11=OPEN_SHELL('',(#12));
+#12=ADVANCED_FACE('',(#13),#40,.T.);
+#13=FACE_OUTER_BOUND('',#14,.T.);
+#14=EDGE_LOOP('',(#15,#16,#17,#18));
+#15=ORIENTED_EDGE('',*,*,#19,.T.);
+#16=ORIENTED_EDGE('',*,*,#20,.T.);
+#17=ORIENTED_EDGE('',*,*,#21,.F.);
+#18=ORIENTED_EDGE('',*,*,#22,.F.);
+#19=EDGE_CURVE('',#23,#24,#31,.T.);
+#20=EDGE_CURVE('',#24,#25,#32,.T.);
+#21=EDGE_CURVE('',#26,#25,#33,.T.);
+#22=EDGE_CURVE('',#23,#26,#34,.T.);
+#23=VERTEX_POINT('',#27);
+#24=VERTEX_POINT('',#28);
+#25=VERTEX_POINT('',#29);
+#26=VERTEX_POINT('',#30);
+#27=CARTESIAN_POINT('',(0.,0.,0.));
+#28=CARTESIAN_POINT('',(20.,0.,0.));
+#29=CARTESIAN_POINT('',(20.,20.,0.));
+#30=CARTESIAN_POINT('',(0.,20.,0.));
+#31=LINE('',#27,#35);
+#32=LINE('',#28,#36);
+#33=LINE('',#30,#35);
+#34=LINE('',#27,#36);
+#35=VECTOR('',#37,1.);
+#36=VECTOR('',#38,1.);
+#37=DIRECTION('',(1.,0.,0.));
+#38=DIRECTION('',(0.,1.,0.));
+#39=DIRECTION('',(0.,0.,1.));
+#40=PLANE('',#41);
+#41=AXIS2_PLACEMENT_3D('',#27,#39,#37);
+#50=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#51,#52,#53))REPRESENTATION_CONTEXT('',''));
+#51=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));
+#52=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));
+#53=(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT());
+ENDSEC;
+END-ISO-10303-21;
+)";
+
+/// The same every time: neither the date nor the name of the file are those of this run.
 template <class Write> std::string written(const char* ending, const Write& write)
 {
-    const fs::path path = fs::temp_directory_path() / ("spia-seed-" + std::to_string(::getpid()) + ending);
+    const fs::path folder = fs::temp_directory_path() / ("spia-seeds-" + std::to_string(::getpid()));
+    const fs::path path = folder / (std::string("seed") + ending);
+    fs::create_directories(folder);
+    ::setenv("SOURCE_DATE_EPOCH", "0", 1);
     write(path);
     std::ifstream file(path, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(file), {}};
-    fs::remove(path);
+    fs::remove_all(folder);
     return content;
 }
 
@@ -107,7 +169,7 @@ std::vector<CadTarget> make_targets()
     const auto iges_hole = [&](const fs::path& path) { write_iges(path, {{square()}}, "a", LengthUnit::inch, hole); };
     return {
         {"step",
-         {written(".step", step), written(".step", step_hole)},
+         {step_square, written(".step", step), step_square, written(".step", step_hole)},
          with_numbers({"#1", "#99", "$", "*", ".T.", ".UNSPECIFIED.", "PLANE", "CARTESIAN_POINT", "EDGE_LOOP", "(#12)",
                        "B_SPLINE_CURVE_WITH_KNOTS", "ENDSEC;\n", "DATA;\n", "SI_UNIT(.MILLI.,.METRE.)", "/*", "'"})},
         {"igs",
