@@ -16,6 +16,7 @@
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
+#include "engine/pipeline/shortcomings.h"
 
 namespace spia::cli {
 namespace {

@@ -23,6 +23,7 @@
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
+#include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
 #include "engine/pipeline/unfold_shortcomings.h"

@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "engine/coons/cell_quality.h"
 #include "engine/exchange/vertex_numbers.h"
 #include "engine/forming/material_text.h"
-#include "engine/forming/membrane_law.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -18,7 +16,9 @@
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
+#include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/surface_report.h"
+#include "engine/pipeline/worst_cell.h"
 
 namespace spia {
 namespace {
@@ -219,14 +219,6 @@ Json result_json(const FlattenResult& flat)
             {"volume_error", flat.volume_error}};
 }
 
-/// Column and row of the cell with the smallest scaled Jacobian.
-std::array<int, 2> worst_cell(const QuadGrid& planar)
-{
-    int cell = 0;
-    scaled_jacobians(planar).minCoeff(&cell);
-    return {cell % planar.columns, cell / planar.columns};
-}
-
 Json zones_json(const LimitsResult& limits)
 {
     Json json = Json::object();
@@ -358,161 +350,6 @@ Json grid_json(const Session& session)
 }
 
 } // namespace
-
-namespace {
-
-/// What was given may be meant in another unit.
-std::vector<std::string> unlikely_input(const FlattenOptions& options)
-{
-    std::vector<std::string> list;
-    constexpr double least_MPa = 10, greatest_MPa = 2500; // lead; the strongest press-hardened steels stay below
-    const auto check = [&](const Material& material) {
-        const double yields = MembraneLaw(material).curve().yield_stress();
-        if (yields < least_MPa || yields > greatest_MPa)
-            list.push_back(fmt::format("{} yields at {:.3g} MPa: are its stresses in MPa?", material.name, yields));
-    };
-    check(options.material);
-    for (const TailoredPiece& piece : options.process.tailored)
-        check(piece.material);
-    const auto gauge = [&](const std::string& what, double thickness) {
-        constexpr double thinnest = 0.02, thickest = 20; // foil; plate, which no membrane stands for
-        if (thickness < thinnest || thickness > thickest)
-            list.push_back(fmt::format("{} is {:.3g} mm thick: is that in mm?", what, thickness));
-    };
-    gauge("the sheet", options.thickness);
-    for (const TailoredPiece& piece : options.process.tailored)
-        gauge(piece.name, piece.thickness);
-    for (const ContactRegion& region : options.process.contact)
-        if (region.friction > 1)
-            list.push_back(fmt::format("the friction coefficient of {} is {:.3g}: tools rub by less than 1",
-                                       region.name, region.friction));
-    for (const Drawbead& bead : options.process.drawbeads)
-        if (const double lock = lock_force(options.material, options.thickness); bead.force_N_mm > lock)
-            list.push_back(
-                fmt::format("the drawbead {} holds by {:.4g} N/mm, more than the {:.4g} N/mm that tear the sheet",
-                            bead.name, bead.force_N_mm, lock));
-        else if (bead.force_N_mm == 0)
-            list.push_back(fmt::format("the drawbead {} does nothing: it is too shallow to bend the sheet", bead.name));
-    return list;
-}
-
-/// What was asked for and does not act as it was meant.
-std::vector<std::string> idle_process(const Session& session)
-{
-    std::vector<std::string> list;
-    if (session.options.flatten.process.edge_restraint == 0)
-        return list;
-    constexpr double much = 0.1;
-    const AppliedProcess process = applied_process(session);
-    if (process.held_mm == 0)
-        list.push_back("the edge restraint holds nothing: all of the outer edge is a seam");
-    else if (process.upright_mm > much * process.held_mm)
-        list.push_back(fmt::format(
-            "on {:.4g} of {:.4g} mm of the edge the sheet stands along the stamping direction: slip cannot be seen there, and the "
-            "restraint may push instead of pull; give another direction",
-            process.upright_mm, process.held_mm));
-    return list;
-}
-
-std::vector<std::string> grid_shortcomings(const Session& session)
-{
-    std::vector<std::string> list;
-    if (!session.grid)
-        return list;
-    const GridResult& grid = session.grid->result;
-    const bool asked_for = session.options.grid.to_bends > 0 || session.options.grid.even_cells;
-    if (asked_for && grid.quality.folded_cells > 0) {
-        list.push_back("no line of the grid went to bends and no cell was evened out, for it folds before that");
-        return list;
-    }
-    if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
-        list.push_back(
-            fmt::format("{:.3g} % of the lines of the grid went to bends, not {:.3g} %: with more of them cells "
-                        "would fold or leave the blank; choose more cells",
-                        100 * grid.to_bends, 100 * asked));
-    if (session.options.grid.even_cells && !grid.evened)
-        list.push_back("the inner nodes of the grid were not moved towards right angles: they would leave the blank; "
-                       "choose more cells");
-    return list;
-}
-
-} // namespace
-
-std::vector<std::string> shortcomings(const Session& session)
-{
-    std::vector<std::string> list;
-    if (session.part)
-        list = session.part->doubts;
-    if (session.blank) {
-        for (std::string& line : unlikely_input(session.options.flatten))
-            list.push_back(std::move(line));
-        for (std::string& line : idle_process(session))
-            list.push_back(std::move(line));
-        const FlattenResult& flat = *session.blank;
-        if (!flat.report.whole())
-            list.push_back(flat.report.reason);
-        if (flat.necking_triangles > 0)
-            list.push_back(
-                fmt::format("{} strained beyond {:.2f}{}",
-                            counted(flat.necking_triangles, "triangle is", "triangles are"), flat.report.trusted_strain,
-                            session.options.flatten.process.tailored.empty() ? ""
-                                                                             : " (other grades beyond their own)") +
-                (flat.report.trusted_strain < session.options.flatten.curve.trusted_strain
-                     ? ": there the hardening curve is extrapolated, and in tension the sheet necks"
-                     : ": extrapolated, the sheet would neck or tear there"));
-        if (flat.flipped_triangles > 0)
-            list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
-        if (const auto& crossing = flat.overlap.crossings; !crossing.empty()) {
-            const Eigen::Vector2d at = flat.blank.position.col(crossing[0].edge[0]);
-            list.push_back(fmt::format(
-                "the outline of the blank crosses itself at {} places, the first near {:.4g}, {:.4g} mm: the flat "
-                "sheet would overlap; cut the part or unfold it in steps",
-                crossing.size(), at[0], at[1]));
-        }
-        if (const auto& wound = flat.overlap.wound; !wound.empty())
-            list.push_back(fmt::format(
-                "the blank winds around {} more than once (first: vertex {}): the flat sheet would "
-                "overlap; cut the part open to there",
-                counted(int(wound.size()), "vertex", "vertices"), session.part->source_vertex[size_t(wound[0])]));
-    }
-    if (session.blank && session.blank->skins && session.blank->skins->sharp_faces > 0)
-        list.push_back(fmt::format(
-            "{} bent sharper than a radius of one thickness: the skin strains there are those of that radius",
-            session.blank->skins->sharp_faces == 1 ? "1 face is"
-                                                   : fmt::format("{} faces are", session.blank->skins->sharp_faces)));
-    if (session.grid && session.grid->result.quality.folded_cells > 0) {
-        const CellQuality& quality = session.grid->result.quality;
-        const auto [column, row] = worst_cell(session.grid->result.planar);
-        list.push_back(
-            fmt::format("{} of the grid {} folded, worst the cell in column {}, row {} (scaled Jacobian {:.2f}); "
-                        "choose other corners or the harmonic method",
-                        quality.folded_cells == 1 ? "1 cell" : fmt::format("{} cells", quality.folded_cells),
-                        quality.folded_cells == 1 ? "is" : "are", column, row, quality.min_scaled_jacobian));
-    }
-    for (std::string& lack : grid_shortcomings(session))
-        list.push_back(std::move(lack));
-    if (session.surface && session.surface->fit) {
-        const FitReport& fit = *session.surface->fit;
-        if (!fit.reached)
-            list.push_back(fit.shortfall.text);
-        else if (session.surface->deviation.max() > fit.tolerance)
-            list.push_back(fmt::format(
-                "the surface is within {:.3g} mm of the remeshed part, but up to {:.3g} mm from the part that was read: give the "
-                "remeshing a smaller tolerance",
-                fit.tolerance, session.surface->deviation.max()));
-    }
-    if (session.surface)
-        for (const HoleLeftFilled& hole : session.surface->trim.left_filled)
-            list.push_back(
-                fmt::format("the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other "
-                            "corners may part them",
-                            session.part->source_vertex[size_t(hole.vertex)], hole.why));
-    if (session.deformed && session.surface->certificate.suited() && !session.deformed->certificate.suited())
-        list.push_back(
-            fmt::format("the deformation spoils the surface, which had no fold before: {}; move its points less",
-                        unsuited(session.deformed->certificate).value_or("")));
-    return list;
-}
 
 std::string report_json(const Session& session, const std::vector<std::filesystem::path>& files, double write_seconds,
                         const std::optional<Failure>& failure)

@@ -8,9 +8,6 @@
 
 namespace spia {
 
-/// What makes a result poorer than it should be, in words; empty if nothing does. (Command line: exit 1 with --strict.)
-std::vector<std::string> shortcomings(const Session& session);
-
 /// The stage that could not be run, and why not.
 struct Failure {
     Stage stage;

@@ -2,18 +2,7 @@
 # usage: grid.sh SPIA FOLDER ASSETS - the grid and the patches on the command line
 set -euo pipefail
 spia=$1 out=$2 parts=$3/parts
-[ ! -e "$out" ] || [ -e "$out/.made_by_a_test" ] || { echo "FAILED: $out is no folder of an earlier run"; exit 2; }
-rm -rf "$out"
-mkdir -p "$out"
-touch "$out/.made_by_a_test"
-fail() { echo "FAILED: $*"; exit 1; }
-expect() { # CODE WORDS COMMAND...
-    local wanted=$1 words=$2 got=0
-    shift 2
-    "$@" > "$out/log" 2>&1 || got=$?
-    [ "$got" = "$wanted" ] || { cat "$out/log"; fail "exit $got, not $wanted: $*"; }
-    grep -q -- "$words" "$out/log" || { cat "$out/log"; fail "no '$words': $*"; }
-}
+. "$(dirname "$0")/common.sh"
 run() { # CODE WORDS ARGUMENT...
     local code=$1 words=$2
     shift 2

@@ -10,6 +10,7 @@
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/text_encoding.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/shortcomings.h"
 
 namespace spia::viewer {
 namespace {

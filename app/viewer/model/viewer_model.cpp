@@ -13,6 +13,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/shortcomings.h"
 
 namespace spia::viewer {
 

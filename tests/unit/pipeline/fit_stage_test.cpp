@@ -10,6 +10,7 @@
 #include "engine/nurbs/evaluate.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/session.h"
+#include "engine/pipeline/shortcomings.h"
 
 namespace spia {
 namespace {

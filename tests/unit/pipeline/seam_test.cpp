@@ -11,6 +11,7 @@
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
+#include "engine/pipeline/shortcomings.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"

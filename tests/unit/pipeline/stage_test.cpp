@@ -10,6 +10,7 @@
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/session.h"
+#include "engine/pipeline/shortcomings.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
