@@ -93,12 +93,29 @@ std::string word_at(std::string_view content, size_t at)
     return word;
 }
 
+/// The kernel takes what stands before such a sign for the number.
+void refuse_other_numbers(std::string_view content)
+{
+    const auto is_digit = [&](size_t at) { return at < content.size() && content[at] >= '0' && content[at] <= '9'; };
+    for (size_t at = content.find_first_of(",dD"); at != std::string_view::npos;
+         at = content.find_first_of(",dD", at + 1)) {
+        const bool sign = at + 1 < content.size() && (content[at + 1] == '+' || content[at + 1] == '-');
+        if (at == 0 || !(is_digit(at - 1) || content[at - 1] == '.') || !is_digit(at + 1 + sign))
+            continue;
+        const size_t begin = content.find_last_of(" \t\r\n", at) + 1; // 0 if there is none
+        refuse(fmt::format("at byte {} stands '{}': BREP numbers have a decimal point, and an E before the exponent; "
+                           "export it again with these",
+                           begin, word_at(content, begin)));
+    }
+}
+
 void read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
     const std::string content = file_content(path);
     if (content.substr(0, 200).find("DBRep_DrawableShape") == std::string::npos &&
         content.substr(0, 200).find("CASCADE Topology") == std::string::npos)
         refuse("it is no BREP file in text form");
+    refuse_other_numbers(content);
     std::istringstream stream(content);
     // Left to itself the kernel reads on where there is nothing any more, and some of its loops never end then.
     stream.exceptions(std::ios::failbit | std::ios::badbit);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string refusal(const fs::path& file, const CadOptions& options)
+std::string refusal(const fs::path& file, const CadOptions& options = {})
 {
     try {
         read_cad(file, options);
@@ -116,6 +116,27 @@ TEST(CadFaults, ASweptCylinderIsMeshedAlongItsStraightLines)
         }
         EXPECT_NEAR(angle, 1, 1e-6) << "the same part of the circle";
     }
+}
+
+TEST(CadFaults, BrepNumbersAreNotReadInPart)
+{
+    const ScratchFolder folder;
+    const fs::path file = folder / "swept.brep";
+    write_swept_cylinder(file, Swept::line_up);
+    const std::string whole = content_of(file);
+    EXPECT_EQ(refusal(file), "");
+    const size_t point = whole.find("5.403"); // of a pole of its surface
+    ASSERT_NE(point, std::string::npos);
+    const size_t begin = whole.find_last_of(" \n", point) + 1;
+    for (const std::string wrong : {"-1,5", "1D0", "1.d-3", "10,2"}) {
+        std::ofstream(file, std::ios::binary)
+            << whole.substr(0, begin) << wrong << whole.substr(whole.find_first_of(" \n", begin));
+        EXPECT_NE(refusal(file).find("byte " + std::to_string(begin) + " stands '" + wrong + "'"), std::string::npos)
+            << refusal(file);
+    }
+    std::ofstream(file, std::ios::binary)
+        << whole.substr(0, begin) << "5.403E+00" << whole.substr(whole.find_first_of(" \n", begin));
+    EXPECT_EQ(refusal(file).find("stands"), std::string::npos);
 }
 
 TEST(CadFaults, OptionsWithoutSenseAreRefusedInWords)
