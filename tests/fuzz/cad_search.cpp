@@ -49,6 +49,19 @@ private:
     void* counts_;
 };
 
+/// Gone with this.
+struct ScratchFile {
+    fs::path path;
+    explicit ScratchFile(fs::path at) : path(std::move(at)) {}
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ~ScratchFile()
+    {
+        std::error_code gone;
+        fs::remove(path, gone);
+    }
+};
+
 /// As users read it.
 void read_guarded(const fs::path& file, int number, CadSearch& search)
 {
@@ -79,7 +92,8 @@ std::string damaged_cad_file(std::string_view format, int number)
 
 CadSearch search_cad(std::string_view format, int first, int files)
 {
-    const fs::path file = fs::temp_directory_path() / fmt::format("spia-search-{}.{}", ::getpid(), format);
+    const ScratchFile scratch(fs::temp_directory_path() / fmt::format("spia-search-{}.{}", ::getpid(), format));
+    const fs::path& file = scratch.path;
     const auto put = [&](int number) { std::ofstream(file, std::ios::binary) << damaged_cad_file(format, number); };
     const SharedCounts shared;
     CadSearch search;
@@ -122,7 +136,6 @@ CadSearch search_cad(std::string_view format, int first, int files)
             ++next;
         }
     }
-    fs::remove(file);
     return search;
 }
 
