@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/coons/find_nodes.h"
@@ -18,17 +19,24 @@ constexpr int attempts = 3;   // each with half the share
 constexpr int looks = 3;      // the first grid sees a narrow bend as one turn between two lines
 constexpr double flat = 1e-6; // of the diagonal; chords that are off by less bend by rounding
 
-/// Of the lifted grid at each node, unit length; zero where it has none.
-Eigen::Matrix3Xd normals(const QuadGrid& lifted)
+/// Of the lifted grid at each node, unit length; zero where it has none, and beside what fills a hole: that is no part, and a difference
+/// to one side only would be seen as a turn against the next line.
+Eigen::Matrix3Xd normals(const LiftResult& lift)
 {
-    Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, lifted.nodes());
-    const auto at = [&](int i, int j) {
-        return lifted.position.col(lifted.node(std::clamp(i, 0, lifted.columns), std::clamp(j, 0, lifted.rows)));
-    };
-    for (int j = 0; j <= lifted.rows; ++j)
-        for (int i = 0; i <= lifted.columns; ++i) {
-            const Eigen::Vector3d along_u = at(i + 1, j) - at(i - 1, j), along_v = at(i, j + 1) - at(i, j - 1);
-            normal.col(lifted.node(i, j)) = along_u.cross(along_v).stableNormalized();
+    const QuadGrid& grid = lift.lifted;
+    Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, grid.nodes());
+    for (int j = 0; j <= grid.rows; ++j)
+        for (int i = 0; i <= grid.columns; ++i) {
+            const auto node = [&](int a, int b) {
+                return grid.node(std::clamp(a, 0, grid.columns), std::clamp(b, 0, grid.rows));
+            };
+            const std::array<int, 5> around = {node(i - 1, j), node(i + 1, j), node(i, j - 1), node(i, j + 1),
+                                               node(i, j)};
+            if (std::any_of(around.begin(), around.end(), [&](int n) { return lift.on_fill[size_t(n)]; }))
+                continue;
+            const Eigen::Vector3d along_u = grid.position.col(around[1]) - grid.position.col(around[0]),
+                                  along_v = grid.position.col(around[3]) - grid.position.col(around[2]);
+            normal.col(around[4]) = along_u.cross(along_v).stableNormalized();
         }
     return normal;
 }
@@ -38,15 +46,15 @@ Eigen::Matrix3Xd normals(const QuadGrid& lifted)
 Eigen::VectorXd turns(const LiftResult& lift, bool along_u)
 {
     const QuadGrid& grid = lift.lifted;
-    const Eigen::Matrix3Xd normal = normals(grid);
+    const Eigen::Matrix3Xd normal = normals(lift);
     const int intervals = along_u ? grid.columns : grid.rows, lines = along_u ? grid.rows : grid.columns;
     Eigen::VectorXd result = Eigen::VectorXd::Zero(intervals);
     for (int k = 0; k < intervals; ++k)
         for (int l = 0; l <= lines; ++l) {
             const int a = along_u ? grid.node(k, l) : grid.node(l, k),
                       b = along_u ? grid.node(k + 1, l) : grid.node(l, k + 1);
-            if (lift.on_fill[size_t(a)] || lift.on_fill[size_t(b)])
-                continue; // what fills a hole is no part
+            if (normal.col(a).isZero(0) || normal.col(b).isZero(0))
+                continue;
             const double turn = std::atan2(normal.col(a).cross(normal.col(b)).norm(), normal.col(a).dot(normal.col(b)));
             const double length = (grid.position.col(b) - grid.position.col(a)).norm();
             result[k] = std::max(result[k], turn * length);
@@ -131,6 +139,7 @@ GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, 
         GridResult spaced = at_lines(blank, boundary, grid, u, v);
         if (!is_sound(spaced))
             mend(blank, spaced, here, untangling);
+        spaced.route = grid.route; // its cells are those of that way
         if (is_spoilt(spaced, grid))
             break;
         spaced.to_bends = share;
@@ -139,11 +148,22 @@ GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, 
     return best;
 }
 
+/// Whether the part bends between lines that can move.
+bool has_bends(const GridResult& grid)
+{
+    const LiftResult lifted = lift(grid);
+    return (grid.planar.columns > 1 && turns(lifted, true).maxCoeff() > 0) ||
+           (grid.planar.rows > 1 && turns(lifted, false).maxCoeff() > 0);
+}
+
 } // namespace
 
 bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double share, GridResult& grid,
                  const Progress& progress)
 {
+    grid.no_bends = !has_bends(grid);
+    if (grid.no_bends)
+        return false;
     for (int attempt = 0; attempt < attempts; ++attempt, share /= 2) {
         const Progress here = progress.part(double(attempt) / attempts, double(attempt + 1) / attempts);
         GridResult spaced = spaced_grid(blank, boundary, share, grid, here);
@@ -157,6 +177,8 @@ bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double
 
 bool even_cells(const BlankSearch& blank, GridResult& grid, const Progress& progress)
 {
+    if (grid.planar.columns < 2 || grid.planar.rows < 2)
+        return false;
     GridResult evened = grid;
     UntangleOptions options;
     options.keep_spacing = true;

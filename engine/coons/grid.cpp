@@ -174,7 +174,6 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const Progress& 
         const BorderParameters border =
             reach > 0 ? slid_border(*shop.filled, shop.boundary, columns, rows, reach) : even_border(columns, rows);
         grid = mended_grid(*shop.harmonic, shop, columns, rows, border, progress.part(0.2, 1));
-        grid.border_slid = reach > 0;
         if (is_sound(grid) || border_is_possible(grid, shop))
             break;
     }
@@ -193,7 +192,6 @@ GridResult opened_grid(const Workshop& shop, int columns, int rows, GridResult b
         const SquareMap map(std::move(*opened), GridRoute::opened);
         GridResult grid = mended_grid(map, shop, columns, rows, border_of_map(map.map, shop.boundary, columns, rows),
                                       here.part(0.5, 1));
-        grid.border_slid = slide;
         if (is_sound(grid))
             return grid;
         if (!border_is_possible(best, shop) && border_is_possible(grid, shop))

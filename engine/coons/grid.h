@@ -42,10 +42,9 @@ struct GridResult {
     CellQuality quality;   ///< no folded cell but with GridMethod::coons
     int nodes_outside = 0; ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
     int refinements = 0;   ///< how often an automatic cell count was doubled to get there
-    bool border_slid =
-        false; ///< the border nodes do not divide the sides evenly: see slid_border(), or the sides of opened_map()
-    double to_bends = 0; ///< share of the lines that went there; less than asked for where cells would have folded
-    bool evened = false; ///< inside; not, though asked for, where nodes would have left the blank
+    double to_bends = 0;   ///< share of the lines that went there; less than asked for where cells would have folded
+    bool no_bends = false; ///< lines were to go there, but nothing bends between them
+    bool evened = false;   ///< inside; not, though asked for, where nodes would have left the blank
     /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
     std::array<Eigen::VectorXd, 4> border;
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside

@@ -135,7 +135,6 @@ GridResult BlankChart::refined(const std::vector<double>& u, const std::vector<d
 {
     GridResult result;
     result.route = grid_.route;
-    result.border_slid = grid_.border_slid;
     result.filled = grid_.filled;
     result.border = {between_nodes(grid_.border[0], u), between_nodes(grid_.border[1], v),
                      between_nodes(grid_.border[2], mirrored(u)), between_nodes(grid_.border[3], mirrored(v))};

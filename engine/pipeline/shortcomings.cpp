@@ -74,14 +74,18 @@ std::vector<std::string> grid_shortcomings(const Session& session)
         list.push_back("no line of the grid went to bends and no cell was evened out, for it folds before that");
         return list;
     }
-    if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
+    if (grid.no_bends)
+        list.push_back("no line of the grid went to bends, for nothing bends between them");
+    else if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
         list.push_back(
             fmt::format("{:.3g} % of the lines of the grid went to bends, not {:.3g} %: with more of them cells "
                         "would fold or leave the blank; choose more cells",
                         100 * grid.to_bends, 100 * asked));
     if (session.options.grid.even_cells && !grid.evened)
-        list.push_back("the inner nodes of the grid were not moved towards right angles: they would leave the blank; "
-                       "choose more cells");
+        list.push_back(grid.planar.columns < 2 || grid.planar.rows < 2
+                           ? "the grid has no inner nodes that could be moved towards right angles; choose more cells"
+                           : "the inner nodes of the grid were not moved towards right angles: they would leave the "
+                             "blank; choose more cells");
     return list;
 }
 

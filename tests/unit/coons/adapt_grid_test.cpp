@@ -112,7 +112,7 @@ TEST(SpaceLines, MoreOfThemTheLargerTheShare)
 }
 
 /// How far lines of a plate with two holes go from even ones, in cells.
-double farthest_line(const TriMesh& part)
+double farthest_line(const TriMesh& part, bool bends)
 {
     const TriMesh plate = shapes::plate();
     const Blank blank{plate.position.topRows(2)};
@@ -121,17 +121,33 @@ double farthest_line(const TriMesh& part)
     const GridResult even = coons_grid(part, blank, boundary, options);
     options.to_bends = 0.6;
     const GridResult spaced = coons_grid(part, blank, boundary, options);
-    EXPECT_GT(spaced.to_bends, 0);
+    EXPECT_EQ(spaced.to_bends > 0, bends);
+    EXPECT_EQ(spaced.no_bends, !bends);
     return (spaced.planar.position - even.planar.position).cwiseAbs().maxCoeff() / (120. / even.planar.columns);
 }
 
 TEST(SpaceLines, StayWhereNothingBends)
 {
     TriMesh part = shapes::plate();
-    EXPECT_LT(farthest_line(part), 1e-9);
+    EXPECT_EQ(farthest_line(part, false), 0);
     for (int v = 0; v < part.vertices(); ++v) // slips of the last digits
         part.position(2, v) += 1e-12 * (v % 7);
-    EXPECT_LT(farthest_line(part), 1e-9);
+    EXPECT_EQ(farthest_line(part, false), 0);
+}
+
+TEST(SpaceLines, CannotMoveWhereThereAreNone)
+{
+    Strip strip;
+    GridOptions options;
+    options.columns = options.rows = 1;
+    options.to_bends = 0.5;
+    for (int v = 0; v < strip.part.vertices(); ++v) // twisted: the normals of the only cell's corners differ
+        strip.part.position(2, v) += 1e-3 * strip.flat.position(0, v) * strip.flat.position(1, v);
+    options.even_cells = true;
+    const GridResult one = coons_grid(strip.part, strip.blank, strip.boundary, options);
+    EXPECT_TRUE(one.no_bends);
+    EXPECT_EQ(one.to_bends, 0);
+    EXPECT_FALSE(one.evened);
 }
 
 TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
@@ -142,7 +158,7 @@ TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
         part.position(0, v) = 60 * std::sin(angle);
         part.position(2, v) = -60 * std::cos(angle);
     }
-    EXPECT_LT(farthest_line(part), 1.0);
+    EXPECT_LT(farthest_line(part, true), 0.3);
 }
 
 TEST(SpaceLines, RefusesAShareWithoutSense)
