@@ -14,6 +14,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <array>
+#include <cmath>
 
 #include "engine/exchange/cad_sewing.h"
 #include "engine/exchange/occt_progress.h"
@@ -105,6 +106,16 @@ private:
     }
 };
 
+bool is_finite(const Poly_Triangulation& triangles, const gp_Trsf& place)
+{
+    for (int k = 1; k <= triangles.NbNodes(); ++k) {
+        const gp_Pnt p = triangles.Node(k).Transformed(place);
+        if (!std::isfinite(p.X()) || !std::isfinite(p.Y()) || !std::isfinite(p.Z()))
+            return false;
+    }
+    return true;
+}
+
 } // namespace
 
 FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress)
@@ -116,7 +127,7 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
     for (size_t f = 0; f < faces.size(); ++f) {
         TopLoc_Location place;
         const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
-        if (triangles.IsNull())
+        if (triangles.IsNull() || !is_finite(*triangles, place.Transformation()))
             continue;
         for (int t = 1; t <= triangles->NbTriangles(); ++t) {
             std::array<int, 3> node{}, corner{};

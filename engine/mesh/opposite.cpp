@@ -23,7 +23,7 @@ int cuts(const TriMesh& mesh, int face, double spacing)
         longest = std::max(
             longest,
             (mesh.position.col(mesh.triangle((k + 1) % 3, face)) - mesh.position.col(mesh.triangle(k, face))).norm());
-    return std::clamp(int(std::ceil(longest / spacing)), 1, most_cuts);
+    return int(std::clamp(std::ceil(longest / spacing), 1., double(most_cuts)));
 }
 
 /// Middles of the n * n similar parts of each triangle.

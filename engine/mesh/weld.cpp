@@ -85,8 +85,12 @@ public:
 private:
     std::array<int64_t, 3> cube(const Vector3d& p) const
     {
-        return {int64_t(std::floor(p.x() / cell_)), int64_t(std::floor(p.y() / cell_)),
-                int64_t(std::floor(p.z() / cell_))};
+        const auto along =
+            [&](double x) { // where that many do not fit into a number, doubles do not tell them apart either
+                constexpr double most = 1e18;
+                return int64_t(std::clamp(std::floor(x / cell_), -most, most));
+            };
+        return {along(p.x()), along(p.y()), along(p.z())};
     }
     static uint64_t key(const std::array<int64_t, 3>& c) // cubes that collide only cost a comparison
     {

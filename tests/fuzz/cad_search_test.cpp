@@ -40,7 +40,7 @@ TEST_P(Cad, SeedsAreGood)
 }
 
 /// Files that once kept the program busy without end, or broke it: tests/fuzz/found/NAME, with the ending of its format.
-TEST_P(Cad, WhatOnceBrokeItIsRefusedAtOnce)
+TEST_P(Cad, WhatOnceBrokeItIsAnsweredAtOnce)
 {
     const std::string ending = std::string(".") + GetParam();
     for (const auto& entry : std::filesystem::directory_iterator(SPIA_SOURCE_DIR "/tests/fuzz/found"))
@@ -53,7 +53,11 @@ TEST_P(Cad, WhatOnceBrokeItIsRefusedAtOnce)
                     *stop = std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
                 },
                 stop);
-            EXPECT_THROW(read_cad(entry.path(), {}, {}, {}, patience), InputError);
+            try {
+                for (const Eigen::Vector3d& place : read_cad(entry.path(), {}, {}, {}, patience).soup.position)
+                    ASSERT_TRUE(place.allFinite());
+            } catch (const InputError&) {
+            }
         }
 }
 
