@@ -62,8 +62,9 @@ struct ScratchFile {
     }
 };
 
-/// As users read it.
-void read_guarded(const fs::path& file, int number, CadSearch& search)
+} // namespace
+
+bool is_answered(const fs::path& file)
 {
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     const auto start = Clock::now();
@@ -73,15 +74,12 @@ void read_guarded(const fs::path& file, int number, CadSearch& search)
         read_cad(file, {}, {}, {}, patience);
     } catch (const InputError&) {
     } catch (const Cancelled&) {
-        ++search.endless;
         if (seconds() > 2 * enough)
-            throw std::logic_error(fmt::format("file {}: it could not be cancelled", number));
-        return;
+            throw std::logic_error("it could not be cancelled");
+        return false;
     }
-    ++search.crashed;
+    return true;
 }
-
-} // namespace
 
 std::string damaged_cad_file(std::string_view format, int number)
 {
@@ -131,7 +129,11 @@ CadSearch search_cad(std::string_view format, int first, int files)
         next = shared->at;
         if (ended) {
             put(next);
-            read_guarded(file, next, search);
+            try {
+                ++(is_answered(file) ? search.crashed : search.endless);
+            } catch (const std::logic_error& fault) {
+                throw std::logic_error(fmt::format("file {}: {}", next, fault.what()));
+            }
             ++search.files;
             ++next;
         }

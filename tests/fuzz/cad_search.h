@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,5 +22,10 @@ struct CadSearch {
 /// process ends or does not, the file is read as users do, by read_cad(), which has to come back with an answer.
 /// @throws std::logic_error, naming the file's number, if one is accepted that makes no sense, or read_cad() does not do as it should
 CadSearch search_cad(std::string_view format, int first, int files);
+
+/// Reads a file as users do, by read_cad(), which has to come back with an answer or to be cancelled at once.
+/// @returns whether it has been answered within seconds; else it was cancelled
+/// @throws std::logic_error if it could not be
+bool is_answered(const std::filesystem::path& file);
 
 } // namespace spia::fuzz

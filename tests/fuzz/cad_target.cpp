@@ -34,6 +34,8 @@ void require_sound(const CadContent& cad)
     for (int t = 0; t < cad.soup.polygons(); ++t)
         for (const int v : cad.soup.polygon(t))
             require(v >= 0 && v < cad.soup.vertices(), "a corner that is not there");
+    for (const Eigen::Vector3d& place : cad.soup.position)
+        require(place.allFinite(), "a place that is no number");
     require(cad.tree.body_of.size() == size_t(cad.faces), "faces of no body");
     for (const CadGap& gap : cad.gaps)
         for (const int face : gap.face)
@@ -185,6 +187,8 @@ std::vector<CadTarget> make_targets()
 }
 
 } // namespace
+
+bool is_cad_target(std::string_view name) { return name == "step" || name == "igs" || name == "brep"; }
 
 const CadTarget& cad_target(std::string_view name)
 {

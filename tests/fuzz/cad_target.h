@@ -13,6 +13,8 @@ struct CadTarget {
     std::vector<std::string> spice; ///< words that mean something to the reader, and numbers that are too large
 };
 
+bool is_cad_target(std::string_view name);
+
 /// @throws std::out_of_range if there is none
 const CadTarget& cad_target(std::string_view name);
 
