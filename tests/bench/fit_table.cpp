@@ -12,7 +12,7 @@
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/interpolate.h"
-#include "tests/support/known_sheets.h"
+#include "tests/support/meshed_sheet.h"
 
 using namespace spia;
 
@@ -39,13 +39,7 @@ double distance_from(const shapes::KnownSheet& sheet, const NurbsSurface& surfac
 std::string uniform_interpolation(const shapes::KnownSheet& sheet, const TriMesh& mesh, double tolerance)
 {
     for (int cells = 3; cells <= 200; cells += 1 + cells / 20) {
-        QuadGrid grid;
-        grid.columns = grid.rows = cells;
-        grid.position.resize(3, grid.nodes());
-        for (int j = 0; j <= cells; ++j)
-            for (int i = 0; i <= cells; ++i)
-                grid.position.col(grid.node(i, j)) =
-                    shapes::on_mesh(mesh, mesh_cells, double(i) / cells, double(j) / cells);
+        const QuadGrid grid = shapes::even_grid(mesh, mesh_cells, cells);
         const InterpolateOptions options{.parameters = InterpolateOptions::Parameters::uniform};
         if (distance_from(sheet, interpolate(grid, options).surface) <= tolerance)
             return fmt::format("{}", (cells + 1) * (cells + 1));
@@ -53,16 +47,15 @@ std::string uniform_interpolation(const shapes::KnownSheet& sheet, const TriMesh
     return "> 40000";
 }
 
-std::string open_cascade(const shapes::KnownSheet& sheet, const FitSource& source, const FitResult& fitted, double tolerance,
-                         double wanted)
+std::string open_cascade(const shapes::KnownSheet& sheet, const FitSource& source, const FitResult& fitted,
+                         double tolerance, double wanted)
 {
     const Eigen::Matrix3Xd points = source.at(fitted.u, fitted.v);
     const int n = int(fitted.u.size()), m = int(fitted.v.size());
     TColgp_Array2OfPnt array(1, n, 1, m);
     for (int j = 0; j < m; ++j)
         for (int i = 0; i < n; ++i)
-            array.SetValue(i + 1, j + 1,
-                           gp_Pnt(points(0, i + j * n), points(1, i + j * n), points(2, i + j * n)));
+            array.SetValue(i + 1, j + 1, gp_Pnt(points(0, i + j * n), points(1, i + j * n), points(2, i + j * n)));
     // It takes its tolerance for a mean: it is asked for less until what is measured is as little as was wanted.
     try {
         double asked = tolerance;
@@ -96,8 +89,9 @@ int main(int count, char** values)
 {
     const std::string only = count > 1 ? values[1] : ""; // a sheet
 
-    fmt::print("| sheet | tolerance / size | mm | fit: control points (measured) | s | corrected parameters | uniform interpolation | OpenCASCADE "
-               "(measured, s) |\n|---|---|---|---|---|---|---|---|\n");
+    fmt::print(
+        "| sheet | tolerance / size | mm | fit: control points (measured) | s | corrected parameters | uniform interpolation | OpenCASCADE "
+        "(measured, s) |\n|---|---|---|---|---|---|---|---|\n");
     for (const shapes::KnownSheet& sheet : shapes::known_sheets()) {
         if (!only.empty() && sheet.name != only)
             continue;
@@ -124,8 +118,8 @@ int main(int count, char** values)
                                    result.surface.control.cols(), result.report.reached ? "" : " NOT reached",
                                    distance_from(sheet, result.surface));
             };
-            fmt::print("| {} | {:.0e} | {:.4g} | {} | {:.2f} | {} | {} | {} |\n", sheet.name, relative, options.tolerance,
-                       counts(fitted), seconds, counts(corrected),
+            fmt::print("| {} | {:.0e} | {:.4g} | {} | {:.2f} | {} | {} | {} |\n", sheet.name, relative,
+                       options.tolerance, counts(fitted), seconds, counts(corrected),
                        uniform_interpolation(sheet, mesh, options.tolerance + chord),
                        open_cascade(sheet, source, fitted, options.tolerance, options.tolerance + chord));
             std::fflush(stdout);

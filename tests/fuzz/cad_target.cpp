@@ -13,18 +13,14 @@
 #include "engine/exchange/read_part.h"
 #include "engine/exchange/write_iges.h"
 #include "engine/exchange/write_step.h"
+#include "tests/fuzz/require.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/sample_faces.h"
 
 namespace spia::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-
-void require(bool sound, const char* what)
-{
-    if (!sound)
-        throw std::logic_error(what);
-}
 
 void require_sound(const CadContent& cad)
 {
@@ -42,35 +38,6 @@ void require_sound(const CadContent& cad)
             require(face >= 0 && face < cad.faces, "a gap between faces that are not there");
     for (const CadSliver& sliver : cad.slivers)
         require(sliver.face >= 0 && sliver.face < cad.faces, "a sliver that is no face");
-}
-
-/// A quarter of a cylinder, 10 mm high and of 20 mm radius.
-NurbsSurface quarter()
-{
-    NurbsSurface s;
-    s.degree_u = 2;
-    s.degree_v = 1;
-    s.count_u = 3;
-    s.count_v = 2;
-    s.knots_u = {0, 0, 0, 1, 1, 1};
-    s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 6);
-    s.control << 20, 20, 0, 20, 20, 0, 0, 20, 20, 0, 20, 20, 0, 0, 0, 10, 10, 10;
-    s.weight.resize(6);
-    s.weight << 1, std::sqrt(0.5), 1, 1, std::sqrt(0.5), 1;
-    return s;
-}
-
-NurbsSurface square()
-{
-    NurbsSurface s;
-    s.degree_u = s.degree_v = 1;
-    s.count_u = s.count_v = 2;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 4);
-    s.control << 0, 20, 0, 20, 0, 0, 20, 20, 0, 0, 0, 0;
-    s.weight.setOnes(4);
-    return s;
 }
 
 TrimLoop triangular_hole()
@@ -163,12 +130,14 @@ std::vector<std::string> with_numbers(std::vector<std::string> words)
 
 std::vector<CadTarget> make_targets()
 {
-    const std::vector<NurbsSurface> arch = {quarter()}; // as short as can be: the longer, the fewer can be tried
+    const std::vector<NurbsSurface> arch = {
+        surfaces::quarter_cylinder(20, 10)}; // as short as can be: the longer, the fewer can be tried
+    const std::vector<NurbsSurface> square = {surfaces::bilinear({0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {20, 20, 0})};
     const std::vector<std::vector<TrimLoop>> hole = {{triangular_hole()}};
     const auto step = [&](const fs::path& path) { write_step(path, arch); };
-    const auto step_hole = [&](const fs::path& path) { write_step(path, {{square()}}, "a", LengthUnit::inch, hole); };
+    const auto step_hole = [&](const fs::path& path) { write_step(path, square, "a", LengthUnit::inch, hole); };
     const auto iges = [&](const fs::path& path) { write_iges(path, arch); };
-    const auto iges_hole = [&](const fs::path& path) { write_iges(path, {{square()}}, "a", LengthUnit::inch, hole); };
+    const auto iges_hole = [&](const fs::path& path) { write_iges(path, square, "a", LengthUnit::inch, hole); };
     return {
         {"step",
          {step_square, written(".step", step), step_square, written(".step", step_hole)},

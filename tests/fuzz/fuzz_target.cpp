@@ -19,6 +19,7 @@
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/unfold_file.h"
+#include "tests/fuzz/require.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/sample_meshes.h"
@@ -27,12 +28,6 @@ namespace spia::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-
-void require(bool sound, const char* what)
-{
-    if (!sound)
-        throw std::logic_error(what);
-}
 
 void require_finite(const std::vector<Eigen::Vector3d>& places)
 {

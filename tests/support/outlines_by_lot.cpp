@@ -203,19 +203,6 @@ Points divided(const Points& corners, double spacing)
     return result;
 }
 
-TriMesh meshed(const Points& outline)
-{
-    Eigen::Matrix2Xd points(2, outline.size());
-    for (size_t i = 0; i < outline.size(); ++i)
-        points.col(Eigen::Index(i)) = outline[i];
-    const PlanarMesh mesh = mesh_polygon(points);
-    TriMesh part;
-    part.position = Eigen::Matrix3Xd::Zero(3, mesh.position.cols());
-    part.position.topRows(2) = mesh.position;
-    part.triangle = mesh.triangle;
-    return part;
-}
-
 /// Each triangle in four, twice: fine enough for small holes.
 TriMesh divided(const TriMesh& mesh, int times)
 {
@@ -378,6 +365,19 @@ std::array<int, 4> corners_by_lot(const TriMesh& part, Lots& lots)
 
 } // namespace
 
+TriMesh meshed_outline(const std::vector<Eigen::Vector2d>& outline)
+{
+    Eigen::Matrix2Xd points(2, outline.size());
+    for (size_t i = 0; i < outline.size(); ++i)
+        points.col(Eigen::Index(i)) = outline[i];
+    const PlanarMesh mesh = mesh_polygon(points);
+    TriMesh part;
+    part.position = Eigen::Matrix3Xd::Zero(3, mesh.position.cols());
+    part.position.topRows(2) = mesh.position;
+    part.triangle = mesh.triangle;
+    return part;
+}
+
 std::string_view outline_kind(int kind)
 {
     constexpr std::array<std::string_view, outline_kinds> names = {"star",   "L",     "U",    "comb",
@@ -395,7 +395,7 @@ OutlineByLot outline_by_lot(int kind, int number)
     const Points corners = turned_and_stretched(draw[size_t(kind)](lots), lots);
     // mesh_polygon() refuses some outlines with many points on a straight line that rounding has bent: other points then.
     for (int pieces = pieces_of_outline; result.part.triangles() == 0; pieces += 7)
-        result.part = meshed(divided(corners, length(corners) / pieces));
+        result.part = meshed_outline(divided(corners, length(corners) / pieces));
     if (kind == outline_kinds - 1)
         result.part = with_holes(divided(result.part, 1), 1 + number % 20, lots);
     result.corner = corners_by_lot(result.part, lots);

@@ -2,11 +2,15 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/mesh/tri_mesh.h"
 
 /// Flat parts with outlines and corners drawn by lot. They are their own blank.
 namespace spia::shapes {
+
+/// A counter-clockwise outline, meshed, z = 0. Vertices 0, 1, ... are those of the outline.
+TriMesh meshed_outline(const std::vector<Eigen::Vector2d>& outline);
 
 struct OutlineByLot {
     std::string name; ///< kind and number: "comb 17"

@@ -8,75 +8,22 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/interpolate.h"
-#include "tests/support/known_sheets.h"
+#include "tests/support/meshed_sheet.h"
 
 namespace spia {
 namespace {
 
 using Eigen::Vector3d;
+using shapes::even_grid;
+using shapes::independent_deviation;
 using shapes::KnownSheet;
-
-/// The nodes of even lines on the mesh of a sheet.
-QuadGrid even_grid(const TriMesh& mesh, int mesh_cells, int cells)
-{
-    QuadGrid grid;
-    grid.columns = grid.rows = cells;
-    grid.position.resize(3, grid.nodes());
-    for (int j = 0; j <= cells; ++j)
-        for (int i = 0; i <= cells; ++i)
-            grid.position.col(grid.node(i, j)) =
-                shapes::on_mesh(mesh, mesh_cells, double(i) / cells, double(j) / cells);
-    return grid;
-}
-
-/// The mesh of a sheet as a source that is known everywhere.
-struct MeshedSheet {
-    TriMesh mesh;
-    FitSource source;
-
-    MeshedSheet(const KnownSheet& sheet, int cells) : mesh(shapes::mesh_of(sheet, cells))
-    {
-        source.at = [this, cells](const std::vector<double>& u, const std::vector<double>& v) {
-            Eigen::Matrix3Xd points(3, Eigen::Index(u.size() * v.size()));
-            for (size_t j = 0; j < v.size(); ++j)
-                for (size_t i = 0; i < u.size(); ++i)
-                    points.col(Eigen::Index(i + j * u.size())) = shapes::on_mesh(mesh, cells, u[i], v[j]);
-            return points;
-        };
-    }
-    MeshedSheet(const MeshedSheet&) = delete;
-};
+using shapes::MeshedSheet;
 
 FitOptions within(double tolerance)
 {
     FitOptions options;
     options.tolerance = tolerance;
     return options;
-}
-
-/// How far the surface is from the sheet, by its closed form, at places that are no borders of spans.
-double distance_from_sheet(const NurbsSurface& surface, const KnownSheet& sheet)
-{
-    double largest = 0;
-    const int n = 301; // no multiple of a dyadic number of spans
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i)
-            largest = std::max(largest, sheet.distance(evaluate(surface, double(i) / n, double(j) / n).position));
-    return largest;
-}
-
-/// Both ways, none by the code under test: the other way from dense places of the sheet to fine triangles of the surface.
-double independent_deviation(const NurbsSurface& surface, const KnownSheet& sheet)
-{
-    const int cells = 400, m = 90; // the triangles' sag is 2e-4 mm on these sheets
-    const KnownSheet itself{
-        "", [&](double s, double t) { return evaluate(surface, s, t).position; }, {}, 0};
-    const ClosestPointSearch search(shapes::mesh_of(itself, cells));
-    double largest = distance_from_sheet(surface, sheet);
-    for (int j = 0; j <= m; ++j)
-        for (int i = 0; i <= m; ++i)
-            largest = std::max(largest, search.nearest(sheet.place(double(i) / m, double(j) / m)).distance - 2e-4);
-    return largest;
 }
 
 } // namespace
@@ -86,7 +33,9 @@ TEST(Fit, KnownSurfacesStayWithinTheToleranceAndTheChordErrorOfTheMesh)
     for (const KnownSheet& sheet : shapes::known_sheets()) {
         int before = 0;
         for (const double relative : {1e-1, 1e-2, 1e-3, 1e-4}) {
-            const int mesh_cells = relative < 5e-4 ? 250 : relative < 5e-3 ? 100 : 50; // facets well below the tolerance
+            const int mesh_cells = relative < 5e-4   ? 250
+                                   : relative < 5e-3 ? 100
+                                                     : 50; // facets well below the tolerance
             const MeshedSheet meshed(sheet, mesh_cells);
             const double chord = shapes::chord_error(sheet, meshed.mesh);
             const double tolerance = relative * sheet.size;

@@ -200,15 +200,7 @@ TEST(CoonsGrid, CellsCoverTheOutlineOnce)
 
 TEST(CoonsGrid, ABlankThatOverlapsItselfIsFilledLayerByLayer)
 {
-    // A band that winds around by 8 radians: its ends lie on top of each other, but belong to different ends of the
-    // strip.
-    const TriMesh strip = shapes::rectangle(0.5, 8, 8, 128);
-    Blank blank;
-    blank.position.resize(2, strip.vertices());
-    for (int v = 0; v < strip.vertices(); ++v) {
-        const auto w = std::exp(std::complex<double>(strip.position(0, v), strip.position(1, v)));
-        blank.position.col(v) << w.real(), w.imag();
-    }
+    const auto [strip, blank] = outlines::WoundBand();
     for (const GridMethod method : {GridMethod::automatic, GridMethod::harmonic}) {
         const GridResult grid = grid_of(strip, blank, {.method = method});
         expect_sound(grid, "winding band");

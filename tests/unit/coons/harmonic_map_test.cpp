@@ -73,14 +73,7 @@ TEST(HarmonicMap, IsOneToOneOnDifficultOutlines)
 
 TEST(HarmonicMap, IsOneToOneForABlankThatOverlapsItself)
 {
-    // exp(x + i y) winds more than once around the origin: the ends of the band lie on top of each other.
-    const TriMesh strip = shapes::rectangle(0.5, 8, 8, 128);
-    Blank blank;
-    blank.position.resize(2, strip.vertices());
-    for (int v = 0; v < strip.vertices(); ++v) {
-        const auto w = std::exp(std::complex<double>(strip.position(0, v), strip.position(1, v)));
-        blank.position.col(v) << w.real(), w.imag();
-    }
+    const auto [strip, blank] = outlines::WoundBand();
     const HarmonicMap map = map_of(strip, blank);
     EXPECT_GT(smallest_area(map), 0);
     EXPECT_NEAR(total_area(map), 1, 1e-12);

@@ -1,13 +1,15 @@
 #pragma once
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <random>
 #include <vector>
 
 #include "engine/forming/blank.h"
-#include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/tri_mesh.h"
+#include "tests/support/outlines_by_lot.h"
+#include "tests/support/shapes.h"
 
 /// Flat parts with difficult outlines. They are their own blank.
 namespace spia::outlines {
@@ -33,19 +35,22 @@ inline Points divided(const Points& corners, double spacing)
     return result;
 }
 
-/// A counter-clockwise outline, meshed. Vertices 0, 1, ... are those of the outline.
-inline TriMesh part(const Points& outline)
-{
-    Eigen::Matrix2Xd points(2, outline.size());
-    for (size_t i = 0; i < outline.size(); ++i)
-        points.col(Eigen::Index(i)) = outline[i];
-    const PlanarMesh mesh = mesh_polygon(points);
-    TriMesh result;
-    result.position = Eigen::Matrix3Xd::Zero(3, mesh.position.cols());
-    result.position.topRows(2) = mesh.position;
-    result.triangle = mesh.triangle;
-    return result;
-}
+inline TriMesh part(const Points& outline) { return shapes::meshed_outline(outline); }
+
+/// A band that winds around by 8 radians: its ends lie on top of each other, but belong to different ends of the strip.
+struct WoundBand {
+    TriMesh strip = shapes::rectangle(0.5, 8, 8, 128);
+    Blank blank;
+
+    WoundBand()
+    {
+        blank.position.resize(2, strip.vertices());
+        for (int v = 0; v < strip.vertices(); ++v) {
+            const auto w = std::exp(std::complex<double>(strip.position(0, v), strip.position(1, v)));
+            blank.position.col(v) << w.real(), w.imag();
+        }
+    }
+};
 
 inline Blank as_blank(const TriMesh& part) { return {part.position.topRows(2)}; }
 

@@ -15,6 +15,7 @@
 #include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/weld.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -22,24 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
+using surfaces::bilinear;
 
 const fs::path cad_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data/cad";
 constexpr double pi = std::numbers::pi;
-
-NurbsSurface bilinear(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d)
-{
-    NurbsSurface s;
-    s.degree_u = s.degree_v = 1;
-    s.count_u = s.count_v = 2;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 4);
-    s.control.col(s.index(0, 0)) = a;
-    s.control.col(s.index(1, 0)) = b;
-    s.control.col(s.index(0, 1)) = c;
-    s.control.col(s.index(1, 1)) = d;
-    s.weight.setOnes(4);
-    return s;
-}
 
 NurbsSurface rectangle(double x0, double x1, double y0, double y1)
 {
@@ -48,27 +35,7 @@ NurbsSurface rectangle(double x0, double x1, double y0, double y1)
 
 constexpr double radius = 50, height = 80;
 
-/// Exactly the cylinder about z between two angles.
-NurbsSurface cylinder(double from, double to)
-{
-    NurbsSurface s;
-    s.degree_u = 2;
-    s.degree_v = 1;
-    s.count_u = 3;
-    s.count_v = 2;
-    s.knots_u = {0, 0, 0, 1, 1, 1};
-    s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 6);
-    s.weight.resize(6);
-    for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 3; ++i) {
-            const double angle = from + (to - from) * i / 2, cosine = i == 1 ? std::cos((to - from) / 2) : 1;
-            s.control.col(s.index(i, j)) << radius / cosine * std::cos(angle), radius / cosine * std::sin(angle),
-                height * j;
-            s.weight[s.index(i, j)] = cosine;
-        }
-    return s;
-}
+NurbsSurface cylinder(double from, double to) { return surfaces::cylinder(radius, height, from, to); }
 
 /// A quarter cylinder in two faces.
 std::vector<NurbsSurface> quarter_cylinder() { return {cylinder(0, pi / 4), cylinder(pi / 4, pi / 2)}; }

@@ -10,7 +10,7 @@
 #include "engine/nurbs/bezier.h"
 #include "engine/nurbs/evaluate.h"
 #include "tests/support/joined_patches.h"
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
 
 namespace spia {
 namespace {

@@ -7,8 +7,8 @@
 #include "engine/core/error.h"
 #include "engine/nurbs/interpolate.h"
 #include "engine/nurbs/tessellate.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/support/shapes.h"
-#include "tests/unit/nurbs/known_surfaces.h"
 
 namespace spia {
 
@@ -233,13 +233,10 @@ TEST(Deviation, NormalsAreComparedWhicheverWayTheSurfaceLooks)
         mesh.position(2, v) = x < 0 ? std::tan(gentle) * x : -std::tan(steep) * x;
     }
     for (const bool turned_round : {false, true}) {
-        const NurbsSurface surface = interpolate(surfaces::grid(8, 8,
-                                                                [&](double s, double t) {
-                                                                    return turned_round
-                                                                               ? Eigen::Vector3d(100 * t, 100 * s, 0)
-                                                                               : Eigen::Vector3d(100 * s, 100 * t, 0);
-                                                                }))
-                                         .surface;
+        const NurbsSurface surface =
+            interpolate(surfaces::grid(8, 8, [&](double s, double t) {
+                return turned_round ? Eigen::Vector3d(100 * t, 100 * s, 0) : Eigen::Vector3d(100 * s, 100 * t, 0);
+            })).surface;
         DeviationOptions options;
         options.sharp_angle = 0.4;
         const Deviation d = deviation(surface, mesh, options);
@@ -271,11 +268,10 @@ TEST(Deviation, FacesWithASharpEdgeAreLeftOutOfTheGreatestSmoothAngle)
 TEST(Deviation, FoldedSurfaceLooksTheOtherWayWhereItRunsBack)
 {
     // Along u it goes to 60, back to 40 and on: a fifth of its length, over flat ground.
-    const NurbsSurface surface =
-        interpolate(surfaces::grid(70, 4, [](double s, double t) {
-            const double x = 140 * s;
-            return Eigen::Vector3d(x < 60 ? x : x < 80 ? 120 - x : x - 40, 100 * t, 0);
-        })).surface;
+    const NurbsSurface surface = interpolate(surfaces::grid(70, 4, [](double s, double t) {
+                                     const double x = 140 * s;
+                                     return Eigen::Vector3d(x < 60 ? x : x < 80 ? 120 - x : x - 40, 100 * t, 0);
+                                 })).surface;
     DeviationOptions options;
     options.tolerance = 1;
     const Deviation d = deviation(surface, shapes::rectangle(100, 100, 20, 20), options);

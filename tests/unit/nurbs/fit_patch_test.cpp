@@ -8,7 +8,7 @@
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/span_borders.h"
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
 
 namespace spia {
 

@@ -11,64 +11,24 @@
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/interpolate.h"
-#include "tests/support/known_sheets.h"
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
+#include "tests/support/meshed_sheet.h"
 
 namespace spia {
 
 namespace {
 
 using Eigen::Vector3d;
+using shapes::distance_from_sheet;
+using shapes::independent_deviation;
 using shapes::KnownSheet;
-
-/// The mesh of a sheet as a source that is known everywhere.
-struct MeshedSheet {
-    TriMesh mesh;
-    FitSource source;
-
-    MeshedSheet(const KnownSheet& sheet, int cells) : mesh(shapes::mesh_of(sheet, cells))
-    {
-        source.at = [this, cells](const std::vector<double>& u, const std::vector<double>& v) {
-            Eigen::Matrix3Xd points(3, Eigen::Index(u.size() * v.size()));
-            for (size_t j = 0; j < v.size(); ++j)
-                for (size_t i = 0; i < u.size(); ++i)
-                    points.col(Eigen::Index(i + j * u.size())) = shapes::on_mesh(mesh, cells, u[i], v[j]);
-            return points;
-        };
-    }
-    MeshedSheet(const MeshedSheet&) = delete;
-};
+using shapes::MeshedSheet;
 
 FitOptions within(double tolerance)
 {
     FitOptions options;
     options.tolerance = tolerance;
     return options;
-}
-
-/// How far the surface is from the sheet, by its closed form, at places that are no borders of spans.
-double distance_from_sheet(const NurbsSurface& surface, const KnownSheet& sheet)
-{
-    double largest = 0;
-    const int n = 301; // no multiple of a dyadic number of spans
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i)
-            largest = std::max(largest, sheet.distance(evaluate(surface, double(i) / n, double(j) / n).position));
-    return largest;
-}
-
-/// Both ways, none by the code under test: the other way from dense places of the sheet to fine triangles of the surface.
-double independent_deviation(const NurbsSurface& surface, const KnownSheet& sheet)
-{
-    const int cells = 400, m = 90; // the triangles' sag is 2e-4 mm on these sheets
-    const KnownSheet itself{
-        "", [&](double s, double t) { return evaluate(surface, s, t).position; }, {}, 0};
-    const ClosestPointSearch search(shapes::mesh_of(itself, cells));
-    double largest = distance_from_sheet(surface, sheet);
-    for (int j = 0; j <= m; ++j)
-        for (int i = 0; i <= m; ++i)
-            largest = std::max(largest, search.nearest(sheet.place(double(i) / m, double(j) / m)).distance - 2e-4);
-    return largest;
 }
 
 /// A roof of two planes at a right angle, its ridge askew of the grid lines.
@@ -230,7 +190,8 @@ TEST(Fit, CornerOfTheOutlineIsNamed)
     ASSERT_FALSE(result.report.reached);
     ASSERT_EQ(result.report.shortfall.reason, FitShortfall::Reason::outline_corner) << result.report.shortfall.text;
     const Vector3d corner = meshed.mesh.position.col(result.report.shortfall.a);
-    EXPECT_TRUE(std::abs(corner.x() - 30) < 1e-9 || std::abs(corner.x() - 40) < 1e-9 || std::abs(corner.x() - 50) < 1e-9)
+    EXPECT_TRUE(std::abs(corner.x() - 30) < 1e-9 || std::abs(corner.x() - 40) < 1e-9 ||
+                std::abs(corner.x() - 50) < 1e-9)
         << corner.transpose();
     EXPECT_GT(result.report.shortfall.angle, 1);
 }
@@ -246,7 +207,8 @@ TEST(Fit, DataOfAFixedGridRunOutBeforeTheSystemIsSingular)
     EXPECT_LE(result.surface.count_u, 21);
     // No worse than the surface through all of the nodes.
     const NurbsSurface through =
-        interpolate(surfaces::grid(20, 20, bump.place), {.parameters = InterpolateOptions::Parameters::uniform}).surface;
+        interpolate(surfaces::grid(20, 20, bump.place), {.parameters = InterpolateOptions::Parameters::uniform})
+            .surface;
     EXPECT_LE(result.deviation.max(), 1.001 * deviation(through, meshed.mesh).max());
 }
 
@@ -258,7 +220,9 @@ TEST(Fit, CorrectedParametersNeedFewerKnotsWhereTheParametersRunUnevenly)
         const double x = 100 * s + 2 * std::sin(40 * s) * std::sin(std::numbers::pi * t), y = 100 * t;
         return Vector3d(x, y, 10 * std::sin(x / 40) * std::cos(y / 50));
     };
-    jerky.distance = [](const Vector3d& p) { return std::abs(p.z() - 10 * std::sin(p.x() / 40) * std::cos(p.y() / 50)); };
+    jerky.distance = [](const Vector3d& p) {
+        return std::abs(p.z() - 10 * std::sin(p.x() / 40) * std::cos(p.y() / 50));
+    };
     const MeshedSheet meshed(jerky, 120);
     FitOptions options = within(0.02);
     const FitResult blank = fit(meshed.source, meshed.mesh, options);

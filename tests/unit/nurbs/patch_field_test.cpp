@@ -8,7 +8,7 @@
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/interpolate.h"
 #include "tests/support/joined_patches.h"
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
 
 namespace spia {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/tessellate.h"
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
 
 namespace spia {
 

@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
 
 namespace spia {
 

@@ -1,6 +1,7 @@
-#include "tests/unit/nurbs/known_surfaces.h"
+#include "tests/support/known_surfaces.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace spia::surfaces {
 
@@ -16,7 +17,7 @@ QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double 
     return grid;
 }
 
-NurbsSurface quarter_cylinder(double radius, double length)
+NurbsSurface cylinder(double radius, double height, double from, double to)
 {
     NurbsSurface s;
     s.degree_u = 2;
@@ -27,13 +28,41 @@ NurbsSurface quarter_cylinder(double radius, double length)
     s.knots_v = {0, 0, 1, 1};
     s.control.resize(3, 6);
     s.weight.resize(6);
-    for (int j = 0; j < 2; ++j) {
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 3; ++i) {
+            const double angle = from + (to - from) * i / 2, cosine = i == 1 ? std::cos((to - from) / 2) : 1;
+            s.control.col(s.index(i, j)) << radius / cosine * std::cos(angle), radius / cosine * std::sin(angle),
+                height * j;
+            s.weight[s.index(i, j)] = cosine;
+        }
+    return s;
+}
+
+NurbsSurface quarter_cylinder(double radius, double length)
+{
+    NurbsSurface s = cylinder(radius, length, 0, std::numbers::pi / 2);
+    for (int j = 0; j < 2; ++j) { // about y, and without the slips of sines
         s.control.col(s.index(0, j)) << 0, j * length, radius;
         s.control.col(s.index(1, j)) << radius, j * length, radius;
         s.control.col(s.index(2, j)) << radius, j * length, 0;
-        for (int i = 0; i < 3; ++i)
-            s.weight[s.index(i, j)] = i == 1 ? std::sqrt(0.5) : 1;
+        s.weight[s.index(1, j)] = std::sqrt(0.5);
     }
+    return s;
+}
+
+NurbsSurface bilinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                      const Eigen::Vector3d& d)
+{
+    NurbsSurface s;
+    s.degree_u = s.degree_v = 1;
+    s.count_u = s.count_v = 2;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.control.resize(3, 4);
+    s.control.col(s.index(0, 0)) = a;
+    s.control.col(s.index(1, 0)) = b;
+    s.control.col(s.index(0, 1)) = c;
+    s.control.col(s.index(1, 1)) = d;
+    s.weight.setOnes(4);
     return s;
 }
 

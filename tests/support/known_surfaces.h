@@ -13,6 +13,13 @@ QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double 
 /// A quarter of a cylinder about the y axis, exactly round by its weights; S_u x S_v points away from the axis.
 NurbsSurface quarter_cylinder(double radius, double length);
 
+/// Exactly the cylinder about the z axis between two angles, less than pi apart, from z = 0 up; S_u x S_v points away from the axis.
+NurbsSurface cylinder(double radius, double height, double from, double to);
+
+/// Between the corners (0, 0), (1, 0), (0, 1) and (1, 1) of its parameters.
+NurbsSurface bilinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                      const Eigen::Vector3d& d);
+
 /// The part of a sphere about the origin between 45 degrees left and right of the x axis (u) and 45 degrees
 /// below and above it (v), exactly round; S_u x S_v points outwards.
 NurbsSurface sphere_patch(double radius);
