@@ -35,6 +35,21 @@ void triangulate(const TopoDS_Compound& shape, double deflection, double angle, 
     const BRepMesh_IncrementalMesh mesh(shape, parameters, passed_on->Start());
 }
 
+/// Of damaged faces points may be no numbers, and triangles may have corners that are no points.
+bool is_sound(const Poly_Triangulation& triangles, const gp_Trsf& place)
+{
+    for (int k = 1; k <= triangles.NbNodes(); ++k) {
+        const gp_Pnt p = triangles.Node(k).Transformed(place);
+        if (!std::isfinite(p.X()) || !std::isfinite(p.Y()) || !std::isfinite(p.Z()))
+            return false;
+    }
+    for (int t = 1; t <= triangles.NbTriangles(); ++t)
+        for (int k = 1; k <= 3; ++k)
+            if (const int node = triangles.Triangle(t).Value(k); node < 1 || node > triangles.NbNodes())
+                return false;
+    return true;
+}
+
 /// The points of all faces in a row, and which of them are one because an edge or a vertex of the shape is.
 class SharedNodes {
 public:
@@ -73,7 +88,11 @@ private:
                 continue;
             std::vector<int> nodes;
             for (int k = 1; k <= polygon->NbNodes(); ++k)
-                nodes.push_back(first + polygon->Node(k) - 1);
+                if (const int node = polygon->Node(k);
+                    node >= 1 && node <= triangles->NbNodes()) // not on damaged edges
+                    nodes.push_back(first + node - 1);
+            if (nodes.empty())
+                continue;
             if (BRep_Tool::Degenerated(edge)) // a pole
                 for (const int node : nodes)
                     same_.join(nodes.front(), node);
@@ -106,16 +125,6 @@ private:
     }
 };
 
-bool is_finite(const Poly_Triangulation& triangles, const gp_Trsf& place)
-{
-    for (int k = 1; k <= triangles.NbNodes(); ++k) {
-        const gp_Pnt p = triangles.Node(k).Transformed(place);
-        if (!std::isfinite(p.X()) || !std::isfinite(p.Y()) || !std::isfinite(p.Z()))
-            return false;
-    }
-    return true;
-}
-
 } // namespace
 
 FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress)
@@ -127,7 +136,7 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
     for (size_t f = 0; f < faces.size(); ++f) {
         TopLoc_Location place;
         const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
-        if (triangles.IsNull() || !is_finite(*triangles, place.Transformation()))
+        if (triangles.IsNull() || !is_sound(*triangles, place.Transformation()))
             continue;
         for (int t = 1; t <= triangles->NbTriangles(); ++t) {
             std::array<int, 3> node{}, corner{};
