@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -30,14 +31,17 @@
 extern "C" __attribute__((visibility("hidden"))) std::uint8_t __start___sancov_cntrs[], __stop___sancov_cntrs[];
 
 /// A name for each place in a report would take longer than a thousand files; what is found is read again with them.
-extern "C" const char* __asan_default_options() { return "detect_leaks=0:allocator_may_return_null=1:symbolize=0"; }
+extern "C" const char* __asan_default_options()
+{
+    return "detect_leaks=0:allocator_may_return_null=1:symbolize=0:malloc_context_size=1:quarantine_size_mb=8";
+}
 
 namespace spia::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int enough = 4;                  // seconds of computing for one file of a few kilobytes
+constexpr int enough = 2;                  // seconds of computing for one file of a few kilobytes
 constexpr rlim_t memory = rlim_t(4) << 30; // more than there is in use
 constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
@@ -78,8 +82,9 @@ Owner owner_of(const void* code)
         return Owner::opencascade;
     if (std::strstr(info.dli_fname, ".so"))
         return Owner::unknown;
-    // This program holds the sanitizers' functions and templates of other libraries besides; functions without a name here are our own.
-    return !info.dli_sname || std::strstr(info.dli_sname, "4spia") ? Owner::reader : Owner::unknown;
+    // This program holds the sanitizers' functions and templates of other libraries besides. What has no name here is the sanitizers', or
+    // the reader's own and called by what has one.
+    return info.dli_sname && std::strstr(info.dli_sname, "4spia") ? Owner::reader : Owner::unknown;
 }
 
 /// The innermost one on the stack.
@@ -156,6 +161,14 @@ Outcome outcome_here(const fs::path& file)
     }
 }
 
+/// libFuzzer looks at the clock now and then.
+template <class Call> auto in_spite_of_alarms(const Call& call)
+{
+    for (;;)
+        if (const auto result = call(); result >= 0 || errno != EINTR)
+            return result;
+}
+
 /// A copy of this process that reads one file after the other until one ends it: to copy takes longer than to read.
 class Reader {
 public:
@@ -178,7 +191,8 @@ public:
             start();
         ++files_;
         char outcome = 0;
-        if (::write(to_, "g", 1) == 1 && ::read(from_, &outcome, 1) == 1)
+        if (in_spite_of_alarms([&] { return ::write(to_, "g", 1); }) == 1 &&
+            in_spite_of_alarms([&] { return ::read(from_, &outcome, 1); }) == 1)
             return Outcome(outcome);
         return end();
     }
@@ -215,15 +229,14 @@ private:
         ::close(to_);
         ::close(from_);
         int status = 0;
-        while (::waitpid(copy_, &status, 0) < 0 && errno == EINTR) {
-        }
+        in_spite_of_alarms([&] { return ::waitpid(copy_, &status, 0); });
         copy_ = -1;
         if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
             return endless;
         if (WIFEXITED(status) && WEXITSTATUS(status) >= refused && WEXITSTATUS(status) < fault)
             return Outcome(WEXITSTATUS(status));
-        if (WIFSIGNALED(status))
-            std::fprintf(stderr, "a copy was ended by signal %d\n", WTERMSIG(status));
+        if (status != 0)
+            std::fprintf(stderr, "a copy ended with status %d\n", status);
         return fault;
     }
 
@@ -257,7 +270,7 @@ private:
 
 /// What became of all files. Told at the end.
 struct Tally {
-    long files = 0, cancelled = 0, disturbed = 0;
+    long files = 0, ended = 0, again = 0, cancelled = 0, disturbed = 0;
     std::array<long, fault - refused> of{}; ///< by Outcome
     fs::path file;
 
@@ -280,10 +293,10 @@ struct Tally {
         const auto count = [&](Outcome outcome) { return of[size_t(outcome - refused)]; };
         std::fprintf(
             stderr,
-            "files: %ld, accepted %ld, refused %ld; OpenCASCADE crashed on %ld, needed too much memory for %ld and did not end "
-            "on %ld: read again as users do all were answered, %ld by a cancellation; %ld faults that a new copy did not repeat\n",
-            files, count(accepted), count(refused), count(crashed), count(too_much), count(endless), cancelled,
-            disturbed);
+            "files: %ld, accepted %ld, refused %ld; OpenCASCADE crashed on %ld, needed too much memory for %ld and did not end on %ld; %ld of "
+            "these were read again as users do, %ld were answered and %ld cancelled; %ld faults that a new copy did not repeat\n",
+            files, count(accepted), count(refused), count(crashed), count(too_much), count(endless), again,
+            again - cancelled, cancelled, disturbed);
         std::error_code gone;
         fs::remove(file, gone);
     }
@@ -297,7 +310,9 @@ void fuzz_cad(const CadTarget& target, std::string_view content)
     static SharedCoverage coverage;
     static Reader reader(tally.file);
     std::ofstream(tally.file, std::ios::binary) << content;
+    const auto start = std::chrono::steady_clock::now();
     Outcome outcome = reader.read();
+    const bool slow = std::chrono::steady_clock::now() - start > std::chrono::milliseconds(50);
     if (outcome == fault && !reader.is_new()) {
         outcome = Reader(tally.file).read();
         tally.disturbed += outcome != fault; // what OpenCASCADE had done before was the reason
@@ -306,10 +321,15 @@ void fuzz_cad(const CadTarget& target, std::string_view content)
         std::abort(); // libFuzzer keeps the file
     ++tally.files;
     ++tally.of[size_t(outcome - refused)];
-    if (outcome == accepted || outcome == refused)
+    const bool ended = outcome != accepted && outcome != refused;
+    if (ended || slow) // else most of the next ones would be made from such files, and the search would crawl
+        coverage.forget();
+    if (!ended)
         return;
-    coverage
-        .forget(); // else most of the next ones would be made from what OpenCASCADE crashes on, and each takes a new copy
+    constexpr int each = 10; // to read all of them again would take most of the time; spia-fuzz-cad does
+    if (++tally.ended % each != 1)
+        return;
+    ++tally.again;
     const PlainSignals plain;
     tally.cancelled += !is_answered(tally.file);
 }

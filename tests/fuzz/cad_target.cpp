@@ -170,7 +170,7 @@ const CadTarget& cad_target(std::string_view name)
 
 bool read_and_examine(const fs::path& file)
 {
-    constexpr int most = 2000; // larger ones would take the time of the readers, which are what is searched here
+    constexpr int most = 100; // larger ones would take the time of the readers, which are what is searched here
     try {
         const CadContent cad = read_cad_unguarded(file);
         require_sound(cad);
