@@ -29,11 +29,12 @@ void require_complete(const ExportScene& scene)
             throw InputError(fmt::format("{} normals for {} vertices of the surface, or one that is not finite",
                                          scene.surface_normal->cols(), surface->vertices()));
     }
-    if (const NurbsSurface* net = scene.control_net;
-        net && (net->count_u < 2 || net->count_v < 2 ||
-                net->control.cols() != Eigen::Index(net->count_u) * net->count_v || !net->control.allFinite()))
-        throw InputError(fmt::format("the control net does not have {} x {} finite points; interpolate or fit it again",
-                                     net->count_u, net->count_v));
+    for (const NurbsSurface& net : scene.control_nets)
+        if (net.count_u < 2 || net.count_v < 2 || net.control.cols() != Eigen::Index(net.count_u) * net.count_v ||
+            !net.control.allFinite())
+            throw InputError(
+                fmt::format("a control net does not have {} x {} finite points; interpolate or fit it again",
+                            net.count_u, net.count_v));
 }
 
 TriMesh triangles_of(const QuadGrid& grid)

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 
 #include "engine/coons/quad_grid.h"
@@ -20,8 +21,8 @@ struct ExportScene {
     const TriMesh* surface = nullptr;    ///< the NURBS surface in triangles
     const Eigen::Matrix3Xd* surface_normal =
         nullptr; ///< its unit normals, one per vertex of surface; null: from the triangles
-    const NurbsSurface* control_net = nullptr; ///< whose control points are drawn
-    const Zones* zones = nullptr;              ///< per face of the part
+    std::span<const NurbsSurface> control_nets = {}; ///< the patches whose control points are drawn
+    const Zones* zones = nullptr;                    ///< per face of the part
 };
 
 /// @throws InputError naming what is missing, does not match or is not finite

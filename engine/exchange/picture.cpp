@@ -209,7 +209,8 @@ public:
     explicit Picture(const ExportScene& scene)
         : scene_(scene), range_(central_range(scene.fields->thinning)), levels_(round_values(range_)),
           view_(view_of(*scene.part, false)), lift_(0.004 * bounding_diagonal(*scene.part)),
-          canvas_((2 + (scene.quad_mesh ? 1 : 0) + (scene.surface || scene.control_net ? 1 : 0)) * panel_width,
+          canvas_((2 + (scene.quad_mesh ? 1 : 0) + (scene.surface || !scene.control_nets.empty() ? 1 : 0)) *
+                      panel_width,
                   panel_height + legend_height)
     {
     }
@@ -220,7 +221,7 @@ public:
         draw_blank();
         if (scene_.quad_mesh)
             draw_quad_mesh(*scene_.quad_mesh);
-        if (scene_.surface || scene_.control_net)
+        if (scene_.surface || !scene_.control_nets.empty())
             draw_surface();
         draw_legend();
         return canvas_.png();
@@ -287,7 +288,13 @@ private:
             draw_faces(panel, *scene_.surface,
                        scene_.surface_normal ? *scene_.surface_normal : vertex_normals(*scene_.surface),
                        [](const auto&, const auto&) { return surface_colour; });
-        if (const NurbsSurface* net = scene_.control_net) {
+        if (scene_.control_nets.size() > 1) { // their nets would hide the surface
+            Eigen::Index points = 0;
+            for (const NurbsSurface& net : scene_.control_nets)
+                points += net.control.cols();
+            sizes = fmt::format("{} patches with {} control points", scene_.control_nets.size(), points);
+        } else if (!scene_.control_nets.empty()) {
+            const NurbsSurface* const net = &scene_.control_nets.front();
             const int step = stride(std::max(net->count_u, net->count_v), 40);
             for (const bool hidden : {false, true}) // faintly behind the surface, clearly before it
                 draw_net(panel, net->control, net->count_u, net->count_v, step,

@@ -127,8 +127,8 @@ public:
             add_quad_mesh(*scene_.quad_mesh);
         if (scene_.surface && wanted_.surface)
             add_surface(*scene_.surface);
-        if (scene_.control_net && wanted_.control_net)
-            add_control_net(*scene_.control_net);
+        if (!scene_.control_nets.empty() && wanted_.control_net)
+            add_control_nets(scene_.control_nets);
         return std::move(model_);
     }
 
@@ -286,17 +286,22 @@ private:
         add_node(mesh, centre_);
     }
 
-    void add_control_net(const NurbsSurface& net)
+    void add_control_nets(std::span<const NurbsSurface> nets)
     {
         tinygltf::Mesh mesh;
         mesh.name = "control_net";
-        mesh.extras = Value(Value::Object{{"count_u", Value(net.count_u)},
-                                          {"count_v", Value(net.count_v)},
-                                          {"degree_u", Value(net.degree_u)},
-                                          {"degree_v", Value(net.degree_v)}});
-        mesh.primitives = {primitive(TINYGLTF_MODE_LINE, buffer_.indices(net_lines(net.count_u, net.count_v)),
-                                     {{"POSITION", points(net.control)}},
-                                     material(model_, "control net", {0.78, 0.2, 0.12}))};
+        const int red = material(model_, "control net", {0.78, 0.2, 0.12});
+        for (const NurbsSurface& net : nets) {
+            mesh.primitives.push_back(primitive(TINYGLTF_MODE_LINE,
+                                                buffer_.indices(net_lines(net.count_u, net.count_v)),
+                                                {{"POSITION", points(net.control)}}, red));
+            mesh.primitives.back().extras = Value(Value::Object{{"count_u", Value(net.count_u)},
+                                                                {"count_v", Value(net.count_v)},
+                                                                {"degree_u", Value(net.degree_u)},
+                                                                {"degree_v", Value(net.degree_v)}});
+        }
+        if (nets.size() == 1)
+            mesh.extras = mesh.primitives.front().extras;
         add_node(mesh, centre_);
     }
 

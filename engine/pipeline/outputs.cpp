@@ -184,8 +184,7 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
         tessellation = tessellation_of(surface);
         scene.surface = &tessellation.mesh;
         scene.surface_normal = &tessellation.normal;
-        if (surface.patch.size() == 1)
-            scene.control_net = &surface.patch.front();
+        scene.control_nets = surface.patch;
     }
 
     const std::string_view blank_from = spia::name(session.options.steps);

@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/colour_map.h"
 #include "engine/exchange/write_gltf.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -189,9 +190,36 @@ TEST_P(Gltf, LinesAndTrianglesJoinTheRightNeighbours)
         const int a = int(ends.data()[2 * l]), b = int(ends.data()[2 * l + 1]);
         EXPECT_EQ(std::abs(a % 9 - b % 9) + std::abs(a / 9 - b / 9), 1); // neighbours in a net of 9 x 7
     }
+    EXPECT_EQ(mesh(model, "control_net").primitives.size(), 1u);
+    EXPECT_EQ(mesh(model, "control_net").extras.Get("count_u").GetNumberAsInt(), 9);
     ASSERT_EQ(mesh(model, "quad_mesh").primitives.size(), 2u);
     EXPECT_EQ(model.accessors[size_t(mesh(model, "quad_mesh").primitives[0].indices)].count, size_t(3 * 2 * 8 * 6));
     EXPECT_EQ(mesh(model, "quad_mesh").extras.Get("columns").GetNumberAsInt(), 8);
+}
+
+TEST_P(Gltf, HasTheNetOfEveryPatch)
+{
+    const ScratchFolder folder;
+    const samples::Chain chain = samples::chain();
+    ExportScene scene = chain.scene();
+    std::vector<NurbsSurface> patches = {chain.net, surfaces::bilinear({0, 0, 0}, {9, 0, 0}, {0, 5, 1}, {9, 5, 2})};
+    scene.control_nets = patches;
+    write_gltf(folder / GetParam(), scene);
+    const tinygltf::Model model = read(folder / GetParam());
+    const auto& nets = mesh(model, "control_net").primitives;
+    ASSERT_EQ(nets.size(), 2u);
+    for (size_t p = 0; p < 2; ++p) {
+        EXPECT_EQ(nets[p].mode, TINYGLTF_MODE_LINE);
+        EXPECT_EQ(nets[p].extras.Get("count_u").GetNumberAsInt(), patches[p].count_u);
+        EXPECT_EQ(nets[p].extras.Get("degree_v").GetNumberAsInt(), patches[p].degree_v);
+        EXPECT_EQ(model.accessors[size_t(nets[p].attributes.at("POSITION"))].count, size_t(patches[p].control.cols()));
+    }
+    EXPECT_EQ(values<unsigned>(model, nets[1].indices).size(), 2 * 4); // the sides of the second one
+    const auto place = values<float>(model, nets[1].attributes.at("POSITION"));
+    const Eigen::Vector3d last = in_metres(model, node(model, "control_net"), Eigen::Vector3f(place.data() + 9));
+    EXPECT_LT((last - Eigen::Vector3d(9e-3, 2e-3, -5e-3)).norm(), 5e-7); // float32, 2 m from the centre
+    patches[1].control(0, 0) = std::nan("");
+    EXPECT_THROW(write_gltf(folder / GetParam(), scene), InputError);
 }
 
 TEST_P(Gltf, ColoursAreThinningInTheMapAndRangeNamedInExtras)
@@ -254,7 +282,7 @@ TEST_P(Gltf, WhatIsMissingIsLeftOutAndWhatIsWrongIsRefused)
     ExportScene scene = chain.scene();
     scene.quad_mesh = nullptr;
     scene.surface = nullptr;
-    scene.control_net = nullptr;
+    scene.control_nets = {};
     write_gltf(folder / GetParam(), scene);
     EXPECT_EQ(read(folder / GetParam()).nodes.size(), 3u); // root, part, blank
     std::filesystem::remove(folder / GetParam());

@@ -15,7 +15,7 @@ struct Chain {
     TriMesh surface;
     NurbsSurface net;
 
-    ExportScene scene() const { return {"left door", &part, &blank, &node, &quads, &surface, nullptr, &net}; }
+    ExportScene scene() const { return {"left door", &part, &blank, &node, &quads, &surface, nullptr, {&net, 1}}; }
 };
 
 inline SheetFields smooth_fields(int count)
