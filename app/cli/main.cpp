@@ -208,7 +208,7 @@ int main(int count, char** values)
         ->add_option(
             "--patches", run.patches,
             "one patch over the blank with its holes filled, auto: four-sided patches around the holes, which share their "
-            "sides, or a file of cuts {\"cuts\": [[12, 40], ...], \"corners\": [...]}, vertices of the file")
+            "sides, or a file {\"cuts\": [[12, 40], ...], \"corners\": [...], \"smooth_joins\": true}, vertices of the file")
         ->type_name("auto|one|FILE")
         ->capture_default_str();
     run_command->add_flag(

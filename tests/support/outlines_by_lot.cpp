@@ -203,7 +203,7 @@ Points divided(const Points& corners, double spacing)
     return result;
 }
 
-/// Each triangle in four, twice: fine enough for small holes.
+/// Each triangle in four, as often as is said.
 TriMesh divided(const TriMesh& mesh, int times)
 {
     if (times == 0)
@@ -296,7 +296,7 @@ TriMesh with_holes(const TriMesh& mesh, int wanted, Lots& lots)
             const Eigen::Vector3i t = mesh.triangle.col(f);
             removed[size_t(f)] |= char(hole[size_t(t[0])] && hole[size_t(t[1])] && hole[size_t(t[2])]);
         }
-        if (boundary_loops(without(mesh, removed)).size() != size_t(cut + 2)) { // it left an island: take that as well
+        if (boundary_loops(without(mesh, removed)).size() != size_t(cut + 2)) { // it would leave an island: not there
             for (int f = 0; f < mesh.triangles(); ++f) {
                 const Eigen::Vector3i t = mesh.triangle.col(f);
                 if (hole[size_t(t[0])] && hole[size_t(t[1])] && hole[size_t(t[2])])

@@ -44,7 +44,8 @@ TEST(CadNeedles, OnADrawnPartAreRemeshedUnasked)
     int clear = 0, wrong = 0; // triangles may reach over the borders, which are smooth
     for (int f = 0; f < part.mesh.triangles(); ++f) {
         const Eigen::Vector3d middle = part.mesh.position(Eigen::all, part.mesh.triangle.col(f)).rowwise().mean();
-        const bool bottom = middle.head<2>().norm()<90, round = middle.z()> 1 && middle.z()<3, wall = middle.z()> 8;
+        const double radius = middle.head<2>().norm(), z = middle.z();
+        const bool bottom = radius<90, round = z> 1 && z<3, wall = z> 8;
         clear += bottom || round || wall;
         wrong += (bottom || round || wall) && cad_face[size_t(f)] != (bottom ? 0 : round ? 1 : 2);
     }
