@@ -10,6 +10,7 @@
 #include "engine/exchange/canvas.h"
 #include "engine/exchange/colour_map.h"
 #include "engine/mesh/topology.h"
+#include "engine/nurbs/evaluate.h"
 
 namespace spia {
 namespace {
@@ -152,6 +153,23 @@ void draw_net(const Panel& panel, const Matrix3Xd& points, int count_u, int coun
     }
 }
 
+/// The four sides of a patch.
+void draw_sides(const Panel& panel, const NurbsSurface& patch, double lift)
+{
+    constexpr int pieces = 16; // of a side
+    Matrix3Xd side(3, pieces + 1);
+    for (const bool along_u : {true, false})
+        for (const double across : {0., 1.}) {
+            for (int k = 0; k <= pieces; ++k) {
+                const double along = double(k) / pieces;
+                side.col(k) = evaluate(patch, along_u ? along : across, along_u ? across : along).position;
+            }
+            const Matrix3Xd p = panel.on_canvas(side);
+            for (int k = 0; k < pieces; ++k)
+                panel.canvas.line(p.col(k), p.col(k + 1), {.colour = net_colour, .width = 1.1, .lift = lift});
+        }
+}
+
 /// Round values (1, 2 or 5 times a power of ten apart) within the range, six to twelve of them as a rule.
 std::vector<double> round_values(const ColourRange& range)
 {
@@ -290,8 +308,10 @@ private:
                        [](const auto&, const auto&) { return surface_colour; });
         if (scene_.control_nets.size() > 1) { // their nets would hide the surface
             Eigen::Index points = 0;
-            for (const NurbsSurface& net : scene_.control_nets)
+            for (const NurbsSurface& net : scene_.control_nets) {
                 points += net.control.cols();
+                draw_sides(panel, net, lift_on(panel));
+            }
             sizes = fmt::format("{} patches with {} control points", scene_.control_nets.size(), points);
         } else if (!scene_.control_nets.empty()) {
             const NurbsSurface* const net = &scene_.control_nets.front();

@@ -13,6 +13,7 @@
 #include "engine/exchange/canvas.h"
 #include "engine/exchange/colour_map.h"
 #include "engine/exchange/stroke_font.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -189,6 +190,46 @@ TEST(Picture, HasAPanelForEachShapeAndTheSameBytesTwice)
     scene.quad_mesh = nullptr;
     write_picture(folder / "x.png", scene);
     EXPECT_EQ(decoded(content_of(folder / "x.png")).width, 3 * 500);
+}
+
+TEST(Picture, ShowsWherePatchesMeet)
+{
+    const ScratchFolder folder;
+    const TriMesh part = shapes::rectangle(400, 200, 40, 20);
+    Blank blank{part.position.topRows(2)};
+    const SheetFields fields = samples::smooth_fields(part.vertices());
+    const auto patch = [](double from, double to) {
+        return surfaces::bilinear({from, 0, 0}, {to, 0, 0}, {from, 200, 0}, {to, 200, 0});
+    };
+    ExportScene scene{"rectangle", &part, &blank, &fields, nullptr, &part};
+    const auto divided_at = [&](double x) {
+        const std::vector<NurbsSurface> patches = {patch(0, x), patch(x, 400)};
+        scene.control_nets = patches;
+        write_picture(folder / "x.png", scene);
+        return decoded(content_of(folder / "x.png"));
+    };
+    const Image left = divided_at(150), right = divided_at(250);
+    struct Line { // what is red
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        int pixels = 0;
+        Eigen::Vector2d middle() const { return sum / pixels; }
+    };
+    std::array<Line, 4> line; // in neither, in one, in the other, in both
+    const auto red = [](const Image& image, int x, int y) {
+        return image.colour(x, y)[0] - image.colour(x, y)[1] > 0.3;
+    };
+    for (int y = 80; y < 450; ++y)
+        for (int x = 2 * 500; x < 3 * 500; ++x) {
+            Line& here = line[size_t(red(left, x, y)) + 2 * size_t(red(right, x, y))];
+            here.sum += Eigen::Vector2d(x, y);
+            ++here.pixels;
+        }
+    EXPECT_GT(line[1].pixels, 80);
+    EXPECT_NEAR(line[2].pixels, line[1].pixels, 0.1 * line[1].pixels);
+    EXPECT_GT(line[3].pixels, 4 * line[1].pixels) << "the border is six times as long";
+    EXPECT_LT(((line[1].middle() + line[2].middle()) / 2 - line[3].middle()).norm(), 3)
+        << "about the middle of the sheet";
+    EXPECT_GT((line[2].middle() - line[1].middle()).norm(), 40);
 }
 
 TEST(Picture, DoesNotDependOnWhereThePartLies)
