@@ -35,19 +35,35 @@ void triangulate(const TopoDS_Compound& shape, double deflection, double angle, 
     const BRepMesh_IncrementalMesh mesh(shape, parameters, passed_on->Start());
 }
 
-/// Of damaged faces points may be no numbers, and triangles may have corners that are no points.
-bool is_sound(const Poly_Triangulation& triangles, const gp_Trsf& place)
+/// Those of a face, and where it stands; none if a point is no number or a corner no point, as on damaged faces.
+Handle(Poly_Triangulation) sound_triangles(const TopoDS_Face& face, TopLoc_Location& place)
 {
-    for (int k = 1; k <= triangles.NbNodes(); ++k) {
-        const gp_Pnt p = triangles.Node(k).Transformed(place);
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+    if (triangles.IsNull())
+        return triangles;
+    for (int k = 1; k <= triangles->NbNodes(); ++k) {
+        const gp_Pnt p = triangles->Node(k).Transformed(place.Transformation());
         if (!std::isfinite(p.X()) || !std::isfinite(p.Y()) || !std::isfinite(p.Z()))
-            return false;
+            return {};
     }
-    for (int t = 1; t <= triangles.NbTriangles(); ++t)
+    for (int t = 1; t <= triangles->NbTriangles(); ++t)
         for (int k = 1; k <= 3; ++k)
-            if (const int node = triangles.Triangle(t).Value(k); node < 1 || node > triangles.NbNodes())
-                return false;
-    return true;
+            if (const int node = triangles->Triangle(t).Value(k); node < 1 || node > triangles->NbNodes())
+                return {};
+    return triangles;
+}
+
+/// Of an edge in the triangles of a face, numbered from 0; empty if there are none, or one is no point of the face.
+std::vector<int> nodes_of(const Handle(Poly_PolygonOnTriangulation) & polygon, int nodes_of_face)
+{
+    std::vector<int> nodes;
+    for (int k = 1; !polygon.IsNull() && k <= polygon->NbNodes(); ++k) {
+        const int node = polygon->Node(k);
+        if (node < 1 || node > nodes_of_face)
+            return {};
+        nodes.push_back(node - 1);
+    }
+    return nodes;
 }
 
 /// The points of all faces in a row, and which of them are one because an edge or a vertex of the shape is.
@@ -57,7 +73,7 @@ public:
     {
         for (size_t f = 0; f < faces.size(); ++f) {
             TopLoc_Location place;
-            const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
+            const Handle(Poly_Triangulation) triangles = sound_triangles(faces[f], place);
             first_[f + 1] = first_[f] + (triangles.IsNull() ? 0 : triangles->NbNodes());
         }
         same_ = DisjointSets(size_t(first_.back()));
@@ -77,22 +93,17 @@ private:
     void join_along_edges(const TopoDS_Face& face, int first)
     {
         TopLoc_Location place;
-        const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+        const Handle(Poly_Triangulation) triangles = sound_triangles(face, place);
         if (triangles.IsNull())
             return;
         for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
             const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
-            const Handle(Poly_PolygonOnTriangulation) polygon =
-                BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
-            if (polygon.IsNull())
-                continue;
-            std::vector<int> nodes;
-            for (int k = 1; k <= polygon->NbNodes(); ++k)
-                if (const int node = polygon->Node(k);
-                    node >= 1 && node <= triangles->NbNodes()) // not on damaged edges
-                    nodes.push_back(first + node - 1);
+            std::vector<int> nodes =
+                nodes_of(BRep_Tool::PolygonOnTriangulation(edge, triangles, place), triangles->NbNodes());
             if (nodes.empty())
                 continue;
+            for (int& node : nodes)
+                node += first;
             if (BRep_Tool::Degenerated(edge)) // a pole
                 for (const int node : nodes)
                     same_.join(nodes.front(), node);
@@ -135,8 +146,8 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
     std::vector<int> vertex(size_t(shared.nodes()), -1);
     for (size_t f = 0; f < faces.size(); ++f) {
         TopLoc_Location place;
-        const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(faces[f], place);
-        if (triangles.IsNull() || !is_sound(*triangles, place.Transformation()))
+        const Handle(Poly_Triangulation) triangles = sound_triangles(faces[f], place);
+        if (triangles.IsNull())
             continue;
         for (int t = 1; t <= triangles->NbTriangles(); ++t) {
             std::array<int, 3> node{}, corner{};

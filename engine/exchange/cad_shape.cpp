@@ -14,7 +14,9 @@
 #include <TopoDS.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <fmt/core.h>
 #include <sstream>
 
@@ -26,6 +28,8 @@
 
 namespace spia {
 namespace {
+
+constexpr std::string_view spaces = " \t\r\n";
 
 [[noreturn]] void refuse(const std::string& why) { throw InputError(why + "; export it again"); }
 
@@ -82,30 +86,41 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     return CadNames(reader);
 }
 
-/// The word from there on.
+/// The word from there on, fit to be shown.
 std::string word_at(std::string_view content, size_t at)
 {
-    constexpr size_t most = 20;
-    const size_t begin = std::min(content.find_first_not_of(" \t\r\n", at), content.size());
-    std::string word(content.substr(begin, std::min(content.find_first_of(" \t\r\n", begin) - begin, most)));
+    constexpr size_t most = 40;
+    const size_t begin = std::min(content.find_first_not_of(spaces, at), content.size());
+    std::string word(content.substr(begin, std::min(content.find_first_of(spaces, begin) - begin, most)));
     for (char& c : word)
         c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
     return word;
 }
 
-/// The kernel takes what stands before such a sign for the number.
-void refuse_other_numbers(std::string_view content)
+bool is_number(std::string_view word)
 {
-    const auto is_digit = [&](size_t at) { return at < content.size() && content[at] >= '0' && content[at] <= '9'; };
-    for (size_t at = content.find_first_of(",dD"); at != std::string_view::npos;
-         at = content.find_first_of(",dD", at + 1)) {
-        const bool sign = at + 1 < content.size() && (content[at + 1] == '+' || content[at + 1] == '-');
-        if (at == 0 || !(is_digit(at - 1) || content[at - 1] == '.') || !is_digit(at + 1 + sign))
-            continue;
-        const size_t begin = content.find_last_of(" \t\r\n", at) + 1; // 0 if there is none
-        refuse(fmt::format("at byte {} stands '{}': BREP numbers have a decimal point, and an E before the exponent; "
-                           "export it again with these",
-                           begin, word_at(content, begin)));
+    if (word.starts_with('+'))
+        word.remove_prefix(1);
+    double value = 0;
+    const char* const end = word.data() + word.size();
+    return !word.starts_with('+') && std::from_chars(word.data(), end, value).ptr == end;
+}
+
+/// The kernel takes what a word begins with for the number, 0 if that is none, and goes on.
+void refuse_half_numbers(std::string_view content)
+{
+    constexpr std::array<std::string_view, 8> names = {"Curve2ds", "Polygon3D", "C0", "C1", "C2", "C3", "G1", "G2"};
+    size_t begin = content.find("Locations"); // before it stands who wrote the file, in any words
+    begin = begin == std::string_view::npos ? content.size() : begin;
+    while ((begin = content.find_first_not_of(spaces, begin)) != std::string_view::npos) {
+        const std::string_view word = content.substr(begin, content.find_first_of(spaces, begin) - begin);
+        const bool letters = std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c); });
+        if (word != "*" && !letters && !is_number(word) && std::find(names.begin(), names.end(), word) == names.end())
+            refuse(fmt::format("in line {} (byte {}) stands '{}', which is neither a number with a decimal point nor a "
+                               "word of BREP files",
+                               1 + std::count(content.begin(), content.begin() + std::ptrdiff_t(begin), '\n'), begin,
+                               word_at(content, begin)));
+        begin += word.size();
     }
 }
 
@@ -115,7 +130,7 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
     if (content.substr(0, 200).find("DBRep_DrawableShape") == std::string::npos &&
         content.substr(0, 200).find("CASCADE Topology") == std::string::npos)
         refuse("it is no BREP file in text form");
-    refuse_other_numbers(content);
+    refuse_half_numbers(content);
     std::istringstream stream(content);
     // Left to itself the kernel reads on where there is nothing any more, and some of its loops never end then.
     stream.exceptions(std::ios::failbit | std::ios::badbit);
