@@ -186,13 +186,15 @@ int main(int count, char** values)
         ->check(CLI::IsMember({"automatic", "coons", "harmonic"}))
         ->capture_default_str();
     run_command
-        ->add_option("--to-bends", run.to_bends,
-                     "share of the lines of the grid that go where the part bends; the others lie evenly")
+        ->add_option(
+            "--to-bends", run.to_bends,
+            "share of the lines of the grid that go where the part bends; the others lie evenly (of one patch only)")
         ->check(CLI::Range(0., 0.9))
         ->type_name("0-0.9")
         ->capture_default_str();
-    run_command->add_flag("--even-cells", run.even_cells,
-                          "move the inner nodes of the grid towards right angles; no cell folds on the way");
+    run_command->add_flag(
+        "--even-cells", run.even_cells,
+        "move the inner nodes of the grid towards right angles; no cell folds on the way (of one patch only)");
     run_command
         ->add_option("--corners", run.corners, "four vertices of the outer boundary, numbers as in the file, from 0")
         ->delimiter(',')

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "engine/coons/find_nodes.h"
 #include "engine/coons/lift.h"
@@ -19,12 +20,16 @@ constexpr int attempts = 3;   // each with half the share
 constexpr int looks = 3;      // the first grid sees a narrow bend as one turn between two lines
 constexpr double flat = 1e-6; // of the diagonal; chords that are off by less bend by rounding
 
-/// Of the lifted grid at each node, unit length; zero where it has none, and beside what fills a hole: that is no part, and a difference
-/// to one side only would be seen as a turn against the next line.
-Eigen::Matrix3Xd normals(const LiftResult& lift)
+/// Of the lifted grid at each node.
+struct Normals {
+    Eigen::Matrix3Xd unit;     ///< zero where there is none
+    std::vector<char> on_part; ///< 1: all nodes that it was taken from lie on the part, none on what fills a hole
+};
+
+Normals normals(const LiftResult& lift)
 {
     const QuadGrid& grid = lift.lifted;
-    Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, grid.nodes());
+    Normals result{Eigen::Matrix3Xd::Zero(3, grid.nodes()), std::vector<char>(size_t(grid.nodes()), 0)};
     for (int j = 0; j <= grid.rows; ++j)
         for (int i = 0; i <= grid.columns; ++i) {
             const auto node = [&](int a, int b) {
@@ -32,33 +37,40 @@ Eigen::Matrix3Xd normals(const LiftResult& lift)
             };
             const std::array<int, 5> around = {node(i - 1, j), node(i + 1, j), node(i, j - 1), node(i, j + 1),
                                                node(i, j)};
-            if (std::any_of(around.begin(), around.end(), [&](int n) { return lift.on_fill[size_t(n)]; }))
-                continue;
             const Eigen::Vector3d along_u = grid.position.col(around[1]) - grid.position.col(around[0]),
                                   along_v = grid.position.col(around[3]) - grid.position.col(around[2]);
-            normal.col(around[4]) = along_u.cross(along_v).stableNormalized();
+            result.unit.col(around[4]) = along_u.cross(along_v).stableNormalized();
+            result.on_part[size_t(around[4])] =
+                std::none_of(around.begin(), around.end(), [&](int n) { return lift.on_fill[size_t(n)]; });
         }
-    return normal;
+    return result;
 }
 
 /// Per interval between columns (or rows) the root of the length times the turn of the normal from one to the other, the largest of all
-/// rows: lines that share it out evenly have chords that are off alike, by an eighth of its square.
+/// rows: lines that share it out evenly have chords that are off alike, by an eighth of its square. What fills holes is no part: beside
+/// one an interval is looked at only where holes are everywhere along it; the fill goes on smoothly there.
 Eigen::VectorXd turns(const LiftResult& lift, bool along_u)
 {
     const QuadGrid& grid = lift.lifted;
-    const Eigen::Matrix3Xd normal = normals(lift);
+    const Normals normal = normals(lift);
     const int intervals = along_u ? grid.columns : grid.rows, lines = along_u ? grid.rows : grid.columns;
     Eigen::VectorXd result = Eigen::VectorXd::Zero(intervals);
-    for (int k = 0; k < intervals; ++k)
+    for (int k = 0; k < intervals; ++k) {
+        double on_part = -1, beside_holes = 0;
         for (int l = 0; l <= lines; ++l) {
             const int a = along_u ? grid.node(k, l) : grid.node(l, k),
                       b = along_u ? grid.node(k + 1, l) : grid.node(l, k + 1);
-            if (normal.col(a).isZero(0) || normal.col(b).isZero(0))
+            const Eigen::Vector3d m = normal.unit.col(a), n = normal.unit.col(b);
+            if (lift.on_fill[size_t(a)] || lift.on_fill[size_t(b)] || m.isZero(0) || n.isZero(0))
                 continue;
-            const double turn = std::atan2(normal.col(a).cross(normal.col(b)).norm(), normal.col(a).dot(normal.col(b)));
-            const double length = (grid.position.col(b) - grid.position.col(a)).norm();
-            result[k] = std::max(result[k], turn * length);
+            const double turn =
+                std::atan2(m.cross(n).norm(), m.dot(n)) * (grid.position.col(b) - grid.position.col(a)).norm();
+            beside_holes = std::max(beside_holes, turn);
+            if (normal.on_part[size_t(a)] && normal.on_part[size_t(b)])
+                on_part = std::max(on_part, turn);
         }
+        result[k] = on_part >= 0 ? on_part : beside_holes;
+    }
     const double diagonal = (grid.position.rowwise().maxCoeff() - grid.position.rowwise().minCoeff()).norm();
     if (result.maxCoeff() / 8 < flat * diagonal) // of an arc, the chord is off by an eighth of turn times length
         result.setZero();

@@ -43,7 +43,7 @@ struct GridResult {
     int nodes_outside = 0; ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
     int refinements = 0;   ///< how often an automatic cell count was doubled to get there
     double to_bends = 0;   ///< share of the lines that went there; less than asked for where cells would have folded
-    bool no_bends = false; ///< lines were to go there, but nothing bends between them
+    bool no_bends = false; ///< lines were to go there, but it sees none between its nodes
     bool evened = false;   ///< inside; not, though asked for, where nodes would have left the blank
     /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
     std::array<Eigen::VectorXd, 4> border;

@@ -307,12 +307,9 @@ private:
                        scene_.surface_normal ? *scene_.surface_normal : vertex_normals(*scene_.surface),
                        [](const auto&, const auto&) { return surface_colour; });
         if (scene_.control_nets.size() > 1) { // their nets would hide the surface
-            Eigen::Index points = 0;
-            for (const NurbsSurface& net : scene_.control_nets) {
-                points += net.control.cols();
+            for (const NurbsSurface& net : scene_.control_nets)
                 draw_sides(panel, net, lift_on(panel));
-            }
-            sizes = fmt::format("{} patches with {} control points", scene_.control_nets.size(), points);
+            sizes = fmt::format("{} patches", scene_.control_nets.size());
         } else if (!scene_.control_nets.empty()) {
             const NurbsSurface* const net = &scene_.control_nets.front();
             const int step = stride(std::max(net->count_u, net->count_v), 40);

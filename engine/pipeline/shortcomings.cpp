@@ -75,7 +75,11 @@ std::vector<std::string> grid_shortcomings(const Session& session)
         return list;
     }
     if (grid.no_bends)
-        list.push_back("no line of the grid went to bends, for nothing bends between them");
+        list.push_back(
+            grid.planar.columns < 2 && grid.planar.rows < 2
+                ? "the grid has no inner lines that could go to bends; choose more cells"
+                : "no line of the grid went to bends, for it sees none between its nodes; if the part has some, "
+                  "choose more cells");
     else if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
         list.push_back(
             fmt::format("{:.3g} % of the lines of the grid went to bends, not {:.3g} %: with more of them cells "

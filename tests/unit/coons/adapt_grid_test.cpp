@@ -161,6 +161,25 @@ TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
     EXPECT_LT(farthest_line(part, true), 0.3);
 }
 
+TEST(SpaceLines, SeeABendBesideHolesWhereThereIsNothingElse)
+{
+    // The inner nodes of 3 x 3 cells lie in holes: every other one is beside one.
+    TriMesh part = shapes::plate({120, 80, {{{40, 26}, 9}, {{80, 26}, 9}, {{40, 54}, 9}, {{80, 54}, 9}}, 4000});
+    const Blank blank{part.position.topRows(2)};
+    for (int v = 0; v < part.vertices(); ++v)
+        part.position(2, v) = 0.5 * std::abs(part.position(0, v) - 62);
+    GridOptions options;
+    options.columns = options.rows = 3;
+    options.to_bends = 0.5;
+    const GridResult grid = coons_grid(part, blank, split_boundary(blank, part, propose_corners(blank, part)), options);
+    EXPECT_FALSE(grid.no_bends);
+    EXPECT_GT(grid.to_bends, 0);
+    options.to_bends = 0;
+    const GridResult even = coons_grid(part, blank, split_boundary(blank, part, propose_corners(blank, part)), options);
+    const std::vector<char> on_fill = lift(even).on_fill;
+    EXPECT_EQ(std::count(on_fill.begin(), on_fill.end(), 1), 4) << "else this test says nothing";
+}
+
 TEST(SpaceLines, RefusesAShareWithoutSense)
 {
     const Strip strip;
