@@ -5,10 +5,9 @@
 
 namespace spia::fuzz {
 
-/// For libFuzzer: reads a CAD file in a copy of this process, whose coverage counts here. OpenCASCADE may crash there, run out of memory
-/// or not end: every tenth of these files is read again as users do, and has to get an answer. Whatever else ends the copy is a fault of the
-/// reader: a report of a sanitizer, a signal or an exception in its own code, a result that makes no sense.
-/// Ends this process at a fault. What became of the files is printed when it ends.
+/// For libFuzzer: reads a CAD file in a copy of this process (CadCopy), whose coverage counts here. Every tenth file that ends the copy is read
+/// again as users do, and has to get an answer. Ends this process at a fault, for libFuzzer to keep the file. What became of all files
+/// is printed now and then; the first file for each place where OpenCASCADE was ended is kept in the folder SPIA_FUZZ_ENDED, if there is one.
 void fuzz_cad(const CadTarget& target, std::string_view content);
 
 } // namespace spia::fuzz

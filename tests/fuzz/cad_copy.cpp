@@ -1,0 +1,224 @@
+#include "tests/fuzz/cad_copy.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fcntl.h>
+#include <fstream>
+#include <new>
+#include <sanitizer/asan_interface.h>
+#include <string_view>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "tests/fuzz/cad_target.h"
+#include "tests/fuzz/crash_owner.h"
+
+namespace spia::fuzz {
+namespace {
+
+constexpr time_t enough = 2;               // seconds of computing for one file of a few kilobytes
+constexpr int most_looks = 20;             // then, at whose code it is busy
+constexpr suseconds_t between = 20'000;    // us
+constexpr rlim_t memory = rlim_t(4) << 30; // more than there is in use
+constexpr size_t longest_place = 200;
+
+/// Where a copy was ended: outlives it.
+char* shared_place()
+{
+    static char* const place = [] {
+        void* const page = ::mmap(nullptr, longest_place, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (page == MAP_FAILED)
+            throw std::bad_alloc();
+        return static_cast<char*>(page);
+    }();
+    return place;
+}
+
+[[noreturn]] void end_here(Outcome outcome, const std::string& place)
+{
+    std::snprintf(shared_place(), longest_place, "%s", place.c_str());
+    ::_exit(outcome);
+}
+
+void end_by_signal(int signal, siginfo_t*, void* context)
+{
+    std::string place;
+    if (owner_of_signal(context, place) == Owner::opencascade)
+        end_here(crashed, place);
+    std::fprintf(stderr, "signal %d in the reader at %s\n", signal, place.c_str());
+    end_here(fault, place);
+}
+
+int looks = 0, in_reader = 0;
+
+void set_timer(itimerval first) { ::setitimer(ITIMER_PROF, &first, nullptr); }
+
+/// Its loops may call OpenCASCADE: so not the first look counts, but most of them.
+void look_while_busy(int, siginfo_t*, void* context)
+{
+    std::string place;
+    in_reader += owner_of_signal(context, place) == Owner::reader;
+    if (++looks < most_looks) {
+        set_timer({{}, {0, between}});
+        return;
+    }
+    if (2 * in_reader < looks)
+        end_here(endless, place);
+    std::fprintf(stderr, "the reader is busy at %s\n", place.c_str());
+    end_here(fault, place);
+}
+
+void end_by_report(const char* text)
+{
+    const std::string_view what = __asan_get_report_description();
+    std::string place;
+    if (owner_of_stack(place) == Owner::opencascade)
+        end_here(what == "out-of-memory" || what == "allocation-size-too-big" || what == "calloc-overflow" ? too_much
+                                                                                                           : crashed,
+                 place);
+    std::fputs(text, stderr);
+    end_here(fault, place);
+}
+
+void take_over_handlers()
+{
+    struct sigaction action {};
+    action.sa_sigaction = end_by_signal;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+        ::sigaction(signal, &action, nullptr);
+    action.sa_sigaction = look_while_busy;
+    action.sa_flags |= SA_RESTART;
+    ::sigaction(SIGPROF, &action, nullptr);
+    __asan_set_error_report_callback(end_by_report);
+    // The other sanitizer reports only what is instrumented: the reader.
+    __sanitizer_set_death_callback([] { ::_exit(fault); });
+}
+
+void bound_this_process(pid_t parent)
+{
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    long pages = 0;
+    std::ifstream("/proc/self/statm") >> pages; // a sanitizer has terabytes
+    if (pages == 0 || ::getppid() != parent)
+        ::_exit(0);
+    const rlim_t most = rlim_t(pages) * rlim_t(::sysconf(_SC_PAGESIZE)) + memory;
+    const rlimit both{most, most};
+    ::setrlimit(RLIMIT_AS, &both);
+    ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO); // what OpenCASCADE prints
+}
+
+Outcome outcome_here(const std::filesystem::path& file)
+{
+    looks = in_reader = 0;
+    set_timer({{}, {enough, 0}});
+    try {
+        return read_and_examine(file) ? accepted : refused;
+    } catch (const std::exception& wrong) { // no memory, too: OpenCASCADE throws something else then
+        std::fprintf(stderr, "%s\n", wrong.what());
+        return fault;
+    }
+}
+
+/// libFuzzer looks at the clock now and then.
+template <class Call> auto in_spite_of_alarms(const Call& call)
+{
+    for (;;)
+        if (const auto result = call(); result >= 0 || errno != EINTR)
+            return result;
+}
+
+} // namespace
+
+CadCopy::CadCopy(std::filesystem::path file) : file_(std::move(file)) { shared_place(); }
+
+CadCopy::~CadCopy() { end(); }
+
+Outcome CadCopy::read()
+{
+    constexpr int most = 1000; // OpenCASCADE leaves memory behind
+    if (files_ >= most)
+        end();
+    if (copy_ < 0)
+        start();
+    ++files_;
+    char outcome = 0;
+    if (in_spite_of_alarms([&] { return ::write(to_, "g", 1); }) == 1 &&
+        in_spite_of_alarms([&] { return ::read(from_, &outcome, 1); }) == 1)
+        return Outcome(outcome);
+    return outcome_of_end();
+}
+
+double CadCopy::seconds() const
+{
+    clockid_t clock;
+    timespec time{};
+    if (copy_ < 0 || ::clock_getcpuclockid(copy_, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+        return 0;
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+std::string CadCopy::place() const { return shared_place(); }
+
+void CadCopy::end()
+{
+    if (copy_ < 0)
+        return;
+    ::kill(copy_, SIGKILL);
+    outcome_of_end();
+}
+
+void CadCopy::start()
+{
+    int there[2], back[2];
+    const pid_t parent = ::getpid();
+    if (::pipe2(there, O_CLOEXEC) != 0 || ::pipe2(back, O_CLOEXEC) != 0 || (copy_ = ::fork()) < 0) {
+        std::perror("no copy of this process");
+        std::exit(2);
+    }
+    if (copy_ == 0) {
+        ::close(there[1]);
+        take_over_handlers();
+        bound_this_process(parent);
+        for (char go; ::read(there[0], &go, 1) == 1;) {
+            const char outcome = char(outcome_here(file_));
+            set_timer({});
+            if (::write(back[1], &outcome, 1) != 1)
+                break;
+        }
+        ::_exit(0);
+    }
+    ::close(there[0]);
+    ::close(back[1]);
+    to_ = there[1];
+    from_ = back[0];
+    files_ = 0;
+    *shared_place() = '\0';
+}
+
+Outcome CadCopy::outcome_of_end()
+{
+    ::close(to_);
+    ::close(from_);
+    int status = 0;
+    in_spite_of_alarms([&] { return ::waitpid(copy_, &status, 0); });
+    copy_ = -1;
+    if (WIFEXITED(status) && WEXITSTATUS(status) >= refused && WEXITSTATUS(status) < fault)
+        return Outcome(WEXITSTATUS(status));
+    if (!WIFSIGNALED(status) || WTERMSIG(status) != SIGKILL)
+        std::fprintf(stderr, "a copy ended with status %d\n", status);
+    return fault;
+}
+
+} // namespace spia::fuzz
