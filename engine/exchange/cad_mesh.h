@@ -15,7 +15,8 @@ struct FaceTriangles {
 };
 
 /// Triangulates faces and joins the triangles along the edges that faces share, by which point of the edge they have: no
-/// distance is compared. A face with a point that is no number, or a corner that is no point, has no triangles. For .cpp files of engine/exchange that hold an OcctSession.
+/// distance is compared. A face with a point that is no number, or a corner that is no point, has no triangles. For .cpp files
+/// of engine/exchange that hold an OcctSession.
 /// @param deflection  mm
 FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress);
 

@@ -15,8 +15,8 @@ struct GltfNodes {
 /// Writes the scene as glTF 2.0: one binary file for .glb, else JSON with the buffer inside (.gltf).
 ///
 /// A root node named after the part turns mm and Z up into metres and Y up. Below it stand the nodes part, blank (flat,
-/// beside the part, level with its lowest point), quad_mesh, surface and control_net (one primitive for each patch, with its counts and degrees in extras), as far
-/// as they are wanted and the scene has them.
+/// beside the part, level with its lowest point), quad_mesh, surface and control_net (one primitive for each patch, with its
+/// counts and degrees in extras), as far as they are wanted and the scene has them.
 /// With zones both carry _ZONE, the number of the worst zone around each vertex, and the asset's extras name the
 /// numbers. Part and blank carry _THICKNESS, _THINNING, _STRAIN_MAJOR, _STRAIN_MINOR, _STRAIN_EQUIVALENT per vertex,
 /// and COLOR_0: thinning in the colour map named, with its range, in the extras of the mesh and of the asset.
