@@ -45,19 +45,19 @@ char* shared_place()
     return place;
 }
 
-[[noreturn]] void end_here(Outcome outcome, const std::string& place)
+/// Where a fault is, is said.
+[[noreturn]] void end_here(Outcome outcome, const Place& place, const char* fault_in_words = "")
 {
-    std::snprintf(shared_place(), longest_place, "%s", place.c_str());
+    put_name(place.code, shared_place(), longest_place);
+    if (outcome == fault)
+        std::fprintf(stderr, "%s in the reader at %s\n", fault_in_words, shared_place());
     ::_exit(outcome);
 }
 
-void end_by_signal(int signal, siginfo_t*, void* context)
+void end_by_signal(int, siginfo_t*, void* context)
 {
-    std::string place;
-    if (owner_of_signal(context, place) == Owner::opencascade)
-        end_here(crashed, place);
-    std::fprintf(stderr, "signal %d in the reader at %s\n", signal, place.c_str());
-    end_here(fault, place);
+    const Place place = place_of_signal(context);
+    end_here(place.owner == Owner::opencascade ? crashed : fault, place, "a signal");
 }
 
 int looks = 0, in_reader = 0;
@@ -67,28 +67,23 @@ void set_timer(itimerval first) { ::setitimer(ITIMER_PROF, &first, nullptr); }
 /// Its loops may call OpenCASCADE: so not the first look counts, but most of them.
 void look_while_busy(int, siginfo_t*, void* context)
 {
-    std::string place;
-    in_reader += owner_of_signal(context, place) == Owner::reader;
-    if (++looks < most_looks) {
+    const Place place = place_of_signal(context);
+    in_reader += place.owner == Owner::reader;
+    if (++looks < most_looks)
         set_timer({{}, {0, between}});
-        return;
-    }
-    if (2 * in_reader < looks)
-        end_here(endless, place);
-    std::fprintf(stderr, "the reader is busy at %s\n", place.c_str());
-    end_here(fault, place);
+    else
+        end_here(2 * in_reader < looks ? endless : fault, place, "busy");
 }
 
 void end_by_report(const char* text)
 {
     const std::string_view what = __asan_get_report_description();
-    std::string place;
-    if (owner_of_stack(place) == Owner::opencascade)
-        end_here(what == "out-of-memory" || what == "allocation-size-too-big" || what == "calloc-overflow" ? too_much
-                                                                                                           : crashed,
-                 place);
+    const bool hungry = what == "out-of-memory" || what == "allocation-size-too-big" || what == "calloc-overflow";
+    const Place place = place_on_stack();
+    if (place.owner == Owner::opencascade)
+        end_here(hungry ? too_much : crashed, place);
     std::fputs(text, stderr);
-    end_here(fault, place);
+    end_here(fault, place, "the report above");
 }
 
 void take_over_handlers()

@@ -1,10 +1,10 @@
 #include "tests/fuzz/crash_owner.h"
 
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <dlfcn.h>
 #include <execinfo.h>
-#include <fmt/core.h>
 #include <span>
 #include <ucontext.h>
 
@@ -13,24 +13,12 @@
 namespace spia::fuzz {
 namespace {
 
-std::string name_of(const void* code)
+Place innermost(std::span<void* const> frames)
 {
-    Dl_info info{};
-    if (::dladdr(code, &info) == 0 || !info.dli_fname)
-        return "";
-    const char* const file = std::strrchr(info.dli_fname, '/');
-    return fmt::format("{}+{:x}", file ? file + 1 : info.dli_fname,
-                       static_cast<const char*>(code) - static_cast<const char*>(info.dli_fbase));
-}
-
-Owner innermost(std::span<void* const> frames, std::string& place)
-{
-    for (const void* frame : frames)
-        if (const Owner owner = owner_of(frame); owner != Owner::unknown) {
-            place = name_of(frame);
-            return owner;
-        }
-    return Owner::unknown;
+    for (void* const frame : frames)
+        if (const Owner owner = owner_of(frame); owner != Owner::unknown)
+            return {owner, frame};
+    return {};
 }
 
 } // namespace
@@ -45,16 +33,15 @@ Owner owner_of(const void* code)
     return info.dli_sname && std::strstr(info.dli_sname, "4spia") ? Owner::reader : Owner::unknown;
 }
 
-Owner owner_of_stack(std::string& place)
+Place place_on_stack()
 {
     std::array<void*, 64> frame;
     const int frames = ::backtrace(frame.data(), int(frame.size()));
     constexpr size_t own = 2; // this function, and what it was called by: both are named spia
-    return size_t(frames) > own ? innermost(std::span(frame).subspan(own, size_t(frames) - own), place)
-                                : Owner::unknown;
+    return size_t(frames) > own ? innermost(std::span(frame).subspan(own, size_t(frames) - own)) : Place{};
 }
 
-Owner owner_of_signal(void* context, std::string& place)
+Place place_of_signal(void* context)
 {
     const greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
     void* const here = reinterpret_cast<void*>(registers[REG_RIP]);
@@ -63,12 +50,23 @@ Owner owner_of_signal(void* context, std::string& place)
     int at = 0; // where the stack of the signal's handler ends
     while (at < frames && frame[size_t(at)] != here)
         ++at;
-    if (at < frames)
-        if (const Owner owner = innermost(std::span(frame).subspan(size_t(at), size_t(frames - at)), place);
-            owner != Owner::unknown)
-            return owner;
+    if (const Place place = innermost(std::span(frame).subspan(size_t(at), size_t(frames - at)));
+        place.owner != Owner::unknown)
+        return place;
     void* const from = *reinterpret_cast<void**>(registers[REG_RSP]); // called by a broken pointer
-    return innermost(std::array{here, from}, place);
+    return innermost(std::array{here, from});
+}
+
+void put_name(const void* code, char* name, size_t size)
+{
+    Dl_info info{};
+    if (::dladdr(code, &info) == 0 || !info.dli_fname) {
+        std::snprintf(name, size, "nowhere");
+        return;
+    }
+    const char* const file = std::strrchr(info.dli_fname, '/');
+    std::snprintf(name, size, "%s+%zx", file ? file + 1 : info.dli_fname,
+                  size_t(static_cast<const char*>(code) - static_cast<const char*>(info.dli_fbase)));
 }
 
 std::string_view fault_of_owners()

@@ -1,5 +1,5 @@
 #pragma once
-#include <string>
+#include <cstddef>
 #include <string_view>
 
 namespace spia::fuzz {
@@ -8,14 +8,24 @@ namespace spia::fuzz {
 /// counts as OpenCASCADE's, for the stack cannot tell.
 enum class Owner { unknown, opencascade, reader };
 
+struct Place {
+    Owner owner = Owner::unknown;
+    const void* code = nullptr;
+};
+
+// All of this is for handlers of signals, which may have come in the middle of an allocation: it allocates nothing.
+
 /// Unknown: of a library that both use, of the sanitizers, or a function of the reader that has no name outside of its file.
 Owner owner_of(const void* code);
 
-/// The innermost known one on the stack of the caller, and the name of its place.
-Owner owner_of_stack(std::string& place);
+/// The innermost known one on the stack of the caller.
+Place place_on_stack();
 
 /// The same of a signal's context (Linux on x86-64).
-Owner owner_of_signal(void* context, std::string& place);
+Place place_of_signal(void* context);
+
+/// "libTKMath.so.7+1f3b", at most size - 1 characters.
+void put_name(const void* code, char* name, size_t size);
 
 /// @returns what is wrong, if code cannot be told apart here: this program has to export its functions
 std::string_view fault_of_owners();
