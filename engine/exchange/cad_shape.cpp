@@ -115,11 +115,15 @@ void refuse_half_numbers(std::string_view content)
     while ((begin = content.find_first_not_of(spaces, begin)) != std::string_view::npos) {
         const std::string_view word = content.substr(begin, content.find_first_of(spaces, begin) - begin);
         const bool letters = std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c); });
-        if (word != "*" && !letters && !is_number(word) && std::find(names.begin(), names.end(), word) == names.end())
+        if (word != "*" && !letters && !is_number(word) && std::find(names.begin(), names.end(), word) == names.end()) {
+            if (begin + word.size() == content.size())
+                refuse(fmt::format("it was cut short: its text ends at byte {}, within '{}'", content.size(),
+                                   word_at(content, begin)));
             refuse(fmt::format("in line {} (byte {}) stands '{}', which is neither a number with a decimal point nor a "
                                "word of BREP files",
                                1 + std::count(content.begin(), content.begin() + std::ptrdiff_t(begin), '\n'), begin,
                                word_at(content, begin)));
+        }
         begin += word.size();
     }
 }
