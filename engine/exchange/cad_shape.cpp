@@ -14,13 +14,13 @@
 #include <TopoDS.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <fmt/core.h>
 #include <sstream>
+#include <stdexcept>
 
 #include "engine/core/error.h"
+#include "engine/exchange/brep_check.h"
 #include "engine/exchange/cad_names.h"
 #include "engine/exchange/file_content.h"
 #include "engine/exchange/iges_check.h"
@@ -28,8 +28,6 @@
 
 namespace spia {
 namespace {
-
-constexpr std::string_view spaces = " \t\r\n";
 
 [[noreturn]] void refuse(const std::string& why) { throw InputError(why + "; export it again"); }
 
@@ -86,55 +84,14 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     return CadNames(reader);
 }
 
-/// The word from there on, fit to be shown.
-std::string word_at(std::string_view content, size_t at)
-{
-    constexpr size_t most = 40;
-    const size_t begin = std::min(content.find_first_not_of(spaces, at), content.size());
-    std::string word(content.substr(begin, std::min(content.find_first_of(spaces, begin) - begin, most)));
-    for (char& c : word)
-        c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
-    return word;
-}
-
-bool is_number(std::string_view word)
-{
-    if (word.starts_with('+'))
-        word.remove_prefix(1);
-    double value = 0;
-    const char* const end = word.data() + word.size();
-    return !word.starts_with('+') && std::from_chars(word.data(), end, value).ptr == end;
-}
-
-/// The kernel takes what a word begins with for the number, 0 if that is none, and goes on.
-void refuse_half_numbers(std::string_view content)
-{
-    constexpr std::array<std::string_view, 8> names = {"Curve2ds", "Polygon3D", "C0", "C1", "C2", "C3", "G1", "G2"};
-    size_t begin = content.find("Locations"); // before it stands who wrote the file, in any words
-    begin = begin == std::string_view::npos ? content.size() : begin;
-    while ((begin = content.find_first_not_of(spaces, begin)) != std::string_view::npos) {
-        const std::string_view word = content.substr(begin, content.find_first_of(spaces, begin) - begin);
-        const bool letters = std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c); });
-        if (word != "*" && !letters && !is_number(word) && std::find(names.begin(), names.end(), word) == names.end()) {
-            if (begin + word.size() == content.size())
-                refuse(fmt::format("it was cut short: its text ends at byte {}, within '{}'", content.size(),
-                                   word_at(content, begin)));
-            refuse(fmt::format("in line {} (byte {}) stands '{}', which is neither a number with a decimal point nor a "
-                               "word of BREP files",
-                               1 + std::count(content.begin(), content.begin() + std::ptrdiff_t(begin), '\n'), begin,
-                               word_at(content, begin)));
-        }
-        begin += word.size();
-    }
-}
-
 void read_brep(const std::filesystem::path& path, CadShape& result, const Progress& progress)
 {
     const std::string content = file_content(path);
     if (content.substr(0, 200).find("DBRep_DrawableShape") == std::string::npos &&
         content.substr(0, 200).find("CASCADE Topology") == std::string::npos)
         refuse("it is no BREP file in text form");
-    refuse_half_numbers(content);
+    if (const std::string fault = fault_of_brep(content); !fault.empty())
+        refuse(fault);
     std::istringstream stream(content);
     // Left to itself the kernel reads on where there is nothing any more, and some of its loops never end then.
     stream.exceptions(std::ios::failbit | std::ios::badbit);
@@ -148,7 +105,7 @@ void read_brep(const std::filesystem::path& path, CadShape& result, const Progre
         if (at >= content.size())
             refuse(fmt::format("it was cut short: its text ends at byte {}, where more is announced", content.size()));
         refuse(fmt::format("it is damaged: at byte {} stands '{}', which is not what has to be there", at,
-                           word_at(content, at)));
+                           brep_word_at(content, at)));
     }
     if (!result.shape.IsNull())
         list_faces(result);
@@ -201,15 +158,19 @@ CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progr
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     CadShape result;
     CadNames names;
-    if (extension == ".brep") {
-        result.format = "BREP";
-        read_brep(path, result, progress);
-    } else if (extension == ".stp" || extension == ".step") {
-        result.format = "STEP";
-        names = read_step(path, result, progress);
-    } else {
-        result.format = "IGES";
-        names = read_iges(path, result, progress);
+    try {
+        if (extension == ".brep") {
+            result.format = "BREP";
+            read_brep(path, result, progress);
+        } else if (extension == ".stp" || extension == ".step") {
+            result.format = "STEP";
+            names = read_step(path, result, progress);
+        } else {
+            result.format = "IGES";
+            names = read_iges(path, result, progress);
+        }
+    } catch (const std::length_error& error) { // OpenCASCADE makes lists as long as a damaged file says
+        refuse(fmt::format("OpenCASCADE gives up on it (\"{}\")", error.what()));
     }
     if (result.face.empty())
         throw InputError("it holds no face; export the part with its surfaces (curves and points alone make no sheet)");

@@ -181,8 +181,6 @@ template <class Work> CadContent in_our_words(const Work& work)
         throw InputError(why.find_first_not_of(' ') == std::string::npos
                              ? "OpenCASCADE gives up on it without a reason; export it again"
                              : fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", why));
-    } catch (const std::length_error& error) { // a count in a damaged file
-        throw InputError(fmt::format("OpenCASCADE gives up on it (\"{}\"); export it again", error.what()));
     }
 }
 

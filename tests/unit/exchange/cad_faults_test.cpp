@@ -3,7 +3,6 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
-#include <sstream>
 
 #include "engine/core/error.h"
 #include "engine/exchange/read_cad.h"
@@ -117,33 +116,6 @@ TEST(CadFaults, ASweptCylinderIsMeshedAlongItsStraightLines)
         }
         EXPECT_NEAR(angle, 1, 1e-6) << "the same part of the circle";
     }
-}
-
-TEST(CadFaults, BrepNumbersAreNotReadInPart)
-{
-    const ScratchFolder folder;
-    const fs::path file = folder / "swept.brep";
-    write_swept_cylinder(file, Swept::line_up);
-    const std::string whole = content_of(file);
-    EXPECT_EQ(refusal(file), "");
-    const size_t point = whole.find("5.403"); // of a pole of its surface
-    ASSERT_NE(point, std::string::npos);
-    const size_t begin = whole.find_last_of(" \n", point) + 1;
-    const auto with = [&](const std::string& word) {
-        std::ofstream(file, std::ios::binary)
-            << whole.substr(0, begin) << word << whole.substr(whole.find_first_of(" \n", begin));
-        return refusal(file);
-    };
-    for (const std::string wrong : {"-1,5", "1D0", "1.d-3", "10,2", ",5", "5,", "5;4", "5.4x30", "5.4q+00", "5.4E",
-                                    "x5.4", "++5", "5.4-977", ";", "-1.1102230246251565D-16"}) {
-        const std::string said = with(wrong);
-        EXPECT_NE(said.find("(byte " + std::to_string(begin) + ") stands '" + wrong + "'"), std::string::npos) << said;
-        const auto line = std::count(whole.begin(), whole.begin() + std::ptrdiff_t(begin), '\n') + 1;
-        EXPECT_NE(said.find("in line " + std::to_string(line)), std::string::npos) << said;
-        EXPECT_EQ(said.find("export it again"), said.rfind("export it again")) << said;
-    }
-    for (const std::string right : {"5.403E+00", "+5.403", "5.403e0", "5"})
-        EXPECT_EQ(with(right).find("stands"), std::string::npos) << right;
 }
 
 TEST(CadFaults, OptionsWithoutSenseAreRefusedInWords)

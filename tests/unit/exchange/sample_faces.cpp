@@ -7,6 +7,7 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
 #include <BRepLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -20,6 +21,7 @@
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Interface_Static.hxx>
+#include <TopTools_FormatVersion.hxx>
 #include <TopoDS.hxx>
 #include <gp.hxx>
 #include <gp_Circ.hxx>
@@ -28,6 +30,7 @@
 
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/occt_surface.h"
+#include "tests/support/known_surfaces.h"
 
 namespace spia {
 namespace {
@@ -60,14 +63,8 @@ TopoDS_Face bounded(const Handle(Geom_Surface) & surface, const TopoDS_Wire& bor
 /// A face with its border far from its surface.
 TopoDS_Face torn()
 {
-    NurbsSurface surface;
-    surface.degree_u = surface.degree_v = 1;
-    surface.count_u = surface.count_v = 2;
-    surface.knots_u = surface.knots_v = {0, 0, 1, 1};
-    surface.control.resize(3, 4);
-    surface.control << 0, 20, 0, 20, 30, 30, 50, 50, 0, 0, 0, 0;
-    surface.weight.setOnes(4);
-    return bounded(to_occt(surface), polygon({{100, 30, 90}, {120, 30, 90}, {120, 50, 90}}));
+    return bounded(to_occt(surfaces::bilinear({0, 30, 0}, {20, 30, 0}, {0, 50, 0}, {20, 50, 0})),
+                   polygon({{100, 30, 90}, {120, 30, 90}, {120, 50, 90}}));
 }
 
 /// Between the two squares, nowhere wider than that.
@@ -159,6 +156,30 @@ void write_swept_cylinder(const std::filesystem::path& brep, Swept swept)
     }
     if (!BRepTools::Write(bounded(surface, wire.Wire()), brep.c_str()))
         throw std::runtime_error("no cylinder was written");
+}
+
+void write_tube(const std::filesystem::path& brep, int version, bool triangles)
+{
+    const OcctSession session;
+    const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(gp_Pnt(10, 0, 0), gp_Pnt(10, 0, 30));
+    const TopoDS_Shape tube = BRepPrimAPI_MakeRevol(line, gp::OZ()).Shape();
+    if (triangles)
+        BRepMesh_IncrementalMesh(tube, 0.1);
+    if (!BRepTools::Write(tube, brep.c_str(), triangles, false, TopTools_FormatVersion(version)))
+        throw std::runtime_error("not written: " + brep.string());
+}
+
+void write_square_with_inner_edge(const std::filesystem::path& brep)
+{
+    const OcctSession session;
+    const BRep_Builder builder;
+    TopoDS_Face face = square(0);
+    TopoDS_Wire inside;
+    builder.MakeWire(inside);
+    builder.Add(inside, BRepBuilderAPI_MakeEdge(gp_Pnt(5, 5, 0), gp_Pnt(15, 15, 0)).Edge().Oriented(TopAbs_INTERNAL));
+    builder.Add(face, inside);
+    if (!BRepTools::Write(face, brep.c_str()))
+        throw std::runtime_error("not written: " + brep.string());
 }
 
 void write_cup_quarter(const std::filesystem::path& brep)

@@ -33,6 +33,14 @@ enum class Swept { line_up, line_down, circle_up, circle_down };
 /// Writes it as BREP, from -1 to 1 rad about z and from z = 0 to 30.
 void write_swept_cylinder(const std::filesystem::path& brep, Swept swept);
 
+/// Writes a whole cylinder about z as BREP, of one face with a seam: radius 10, from z = 0 to 30.
+/// @param version  1, 2 or 3 of the format
+/// @param triangles  written, too
+void write_tube(const std::filesystem::path& brep, int version, bool triangles);
+
+/// Writes a square of 20 mm with an edge in it that bounds nothing (its orientation is INTERNAL) as BREP.
+void write_square_with_inner_edge(const std::filesystem::path& brep);
+
 /// Writes a quarter of a cup as BREP: its flat bottom from radius 20 to 96, a round of radius 4 and a wall of 60 mm, revolved about z.
 void write_cup_quarter(const std::filesystem::path& brep);
 
