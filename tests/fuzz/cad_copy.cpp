@@ -1,12 +1,9 @@
 #include "tests/fuzz/cad_copy.h"
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <fcntl.h>
 #include <fstream>
@@ -20,8 +17,8 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+#include <utility>
 
-#include "tests/fuzz/cad_target.h"
 #include "tests/fuzz/crash_owner.h"
 
 namespace spia::fuzz {
@@ -60,30 +57,31 @@ void end_by_signal(int, siginfo_t*, void* context)
     end_here(place.owner == Owner::opencascade ? crashed : fault, place, "a signal");
 }
 
-int looks = 0, in_reader = 0;
+volatile std::sig_atomic_t looks = 0, in_opencascade = 0;
 
 void set_timer(itimerval first) { ::setitimer(ITIMER_PROF, &first, nullptr); }
 
-/// Its loops may call OpenCASCADE: so not the first look counts, but most of them.
+/// Loops of the reader may call OpenCASCADE: so not the first look counts, but most of them. (One that is there most of the time counts as
+/// OpenCASCADE's.)
 void look_while_busy(int, siginfo_t*, void* context)
 {
     const Place place = place_of_signal(context);
-    in_reader += place.owner == Owner::reader;
-    if (++looks < most_looks)
+    in_opencascade = in_opencascade + (place.owner == Owner::opencascade);
+    looks = looks + 1;
+    if (looks < most_looks)
         set_timer({{}, {0, between}});
     else
-        end_here(2 * in_reader < looks ? endless : fault, place, "busy");
+        end_here(2 * in_opencascade > looks ? endless : fault, place, "busy");
 }
 
-void end_by_report(const char* text)
+void end_by_report(const char*)
 {
     const std::string_view what = __asan_get_report_description();
     const bool hungry = what == "out-of-memory" || what == "allocation-size-too-big" || what == "calloc-overflow";
     const Place place = place_on_stack();
     if (place.owner == Owner::opencascade)
         end_here(hungry ? too_much : crashed, place);
-    std::fputs(text, stderr);
-    end_here(fault, place, "the report above");
+    end_here(fault, place, "the report above,");
 }
 
 void take_over_handlers()
@@ -97,8 +95,11 @@ void take_over_handlers()
     action.sa_flags |= SA_RESTART;
     ::sigaction(SIGPROF, &action, nullptr);
     __asan_set_error_report_callback(end_by_report);
-    // The other sanitizer reports only what is instrumented: the reader.
-    __sanitizer_set_death_callback([] { ::_exit(fault); });
+    // The other sanitizer reports what is instrumented: the reader, and what it has of OpenCASCADE's headers.
+    __sanitizer_set_death_callback([] {
+        const Place place = place_on_stack();
+        end_here(place.owner == Owner::opencascade ? crashed : fault, place, "the report above,");
+    });
 }
 
 void bound_this_process(pid_t parent)
@@ -114,16 +115,18 @@ void bound_this_process(pid_t parent)
     ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO); // what OpenCASCADE prints
 }
 
-Outcome outcome_here(const std::filesystem::path& file)
+Outcome outcome_here(const CadReader& reads, const std::filesystem::path& file)
 {
-    looks = in_reader = 0;
+    looks = in_opencascade = 0;
     set_timer({{}, {enough, 0}});
     try {
-        return read_and_examine(file) ? accepted : refused;
+        return reads(file) ? accepted : refused;
     } catch (const std::exception& wrong) { // no memory, too: OpenCASCADE throws something else then
-        std::fprintf(stderr, "%s\n", wrong.what());
-        return fault;
+        std::fprintf(stderr, "what(): %s\n", wrong.what());
+    } catch (...) {
+        std::fputs("what(): no std::exception\n", stderr);
     }
+    return fault;
 }
 
 /// libFuzzer looks at the clock now and then.
@@ -136,7 +139,10 @@ template <class Call> auto in_spite_of_alarms(const Call& call)
 
 } // namespace
 
-CadCopy::CadCopy(std::filesystem::path file) : file_(std::move(file)) { shared_place(); }
+CadCopy::CadCopy(CadReader reads, std::filesystem::path file) : reads_(std::move(reads)), file_(std::move(file))
+{
+    shared_place();
+}
 
 CadCopy::~CadCopy() { end(); }
 
@@ -152,7 +158,7 @@ Outcome CadCopy::read()
     if (in_spite_of_alarms([&] { return ::write(to_, "g", 1); }) == 1 &&
         in_spite_of_alarms([&] { return ::read(from_, &outcome, 1); }) == 1)
         return Outcome(outcome);
-    return outcome_of_end();
+    return outcome_of_end(false);
 }
 
 double CadCopy::seconds() const
@@ -171,7 +177,7 @@ void CadCopy::end()
     if (copy_ < 0)
         return;
     ::kill(copy_, SIGKILL);
-    outcome_of_end();
+    outcome_of_end(true);
 }
 
 void CadCopy::start()
@@ -187,7 +193,7 @@ void CadCopy::start()
         take_over_handlers();
         bound_this_process(parent);
         for (char go; ::read(there[0], &go, 1) == 1;) {
-            const char outcome = char(outcome_here(file_));
+            const char outcome = char(outcome_here(reads_, file_));
             set_timer({});
             if (::write(back[1], &outcome, 1) != 1)
                 break;
@@ -202,16 +208,16 @@ void CadCopy::start()
     *shared_place() = '\0';
 }
 
-Outcome CadCopy::outcome_of_end()
+Outcome CadCopy::outcome_of_end(bool asked_for)
 {
     ::close(to_);
     ::close(from_);
     int status = 0;
     in_spite_of_alarms([&] { return ::waitpid(copy_, &status, 0); });
     copy_ = -1;
-    if (WIFEXITED(status) && WEXITSTATUS(status) >= refused && WEXITSTATUS(status) < fault)
+    if (WIFEXITED(status) && WEXITSTATUS(status) >= refused && WEXITSTATUS(status) <= fault)
         return Outcome(WEXITSTATUS(status));
-    if (!WIFSIGNALED(status) || WTERMSIG(status) != SIGKILL)
+    if (!asked_for)
         std::fprintf(stderr, "a copy ended with status %d\n", status);
     return fault;
 }

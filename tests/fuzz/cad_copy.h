@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <sys/types.h>
 
@@ -8,13 +9,16 @@ namespace spia::fuzz {
 /// What becomes of a file.
 enum Outcome { refused = 40, accepted, crashed, too_much, endless, fault };
 
+/// Reads a file. @returns whether it is accepted
+using CadReader = std::function<bool(const std::filesystem::path& file)>;
+
 /// A copy of this process that reads one file after the other until one ends it: to copy a sanitized process takes longer than to read.
 /// OpenCASCADE may crash there, run out of memory or be busy without end. The same of the reader's own code is a fault: a report of a
 /// sanitizer, a signal, an exception, memory or most of the time taken by it, or a result that makes no sense.
 class CadCopy {
 public:
     /// @param file  what read() reads, whatever it holds then
-    explicit CadCopy(std::filesystem::path file);
+    CadCopy(CadReader reads, std::filesystem::path file);
     CadCopy(const CadCopy&) = delete;
     CadCopy& operator=(const CadCopy&) = delete;
     ~CadCopy();
@@ -27,8 +31,9 @@ public:
 
 private:
     void start();
-    Outcome outcome_of_end();
+    Outcome outcome_of_end(bool asked_for);
 
+    CadReader reads_;
     std::filesystem::path file_;
     pid_t copy_ = -1;
     int to_ = -1, from_ = -1, files_ = 0;

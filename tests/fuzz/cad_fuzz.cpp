@@ -14,11 +14,14 @@
 #include <fmt/core.h>
 #include <fstream>
 #include <new>
+#include <pthread.h>
 #include <sanitizer/asan_interface.h>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <sys/mman.h>
 #include <unistd.h>
+#include <vector>
 
 #include "tests/fuzz/cad_copy.h"
 #include "tests/fuzz/cad_search.h"
@@ -54,29 +57,47 @@ private:
     size_t size_ = size_t(std::max(page_of(__stop___sancov_cntrs, 0) - begin_, std::ptrdiff_t(0)));
 };
 
-/// libFuzzer's and the sanitizer's handlers would take a crash in the process that reads for users for one of this program.
-class PlainSignals {
-public:
-    PlainSignals()
-    {
-        for (size_t k = 0; k < signals.size(); ++k) {
-            struct sigaction plain {};
-            plain.sa_handler = SIG_DFL;
-            ::sigaction(signals[k], &plain, &before_[k]);
-        }
-    }
-    PlainSignals(const PlainSignals&) = delete;
-    PlainSignals& operator=(const PlainSignals&) = delete;
-    ~PlainSignals()
-    {
-        for (size_t k = 0; k < signals.size(); ++k)
-            ::sigaction(signals[k], &before_[k], nullptr);
-    }
+// Not for the compiler to see.
+volatile bool yes = true;
+volatile size_t large = 3;
+volatile double huge = 1e30;
+int* volatile nowhere = nullptr;
 
-private:
-    static constexpr std::array signals = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-    std::array<struct sigaction, signals.size()> before_;
-};
+int deeper(int n) { return yes ? 1 + deeper(n + 1) : n; }
+
+/// @throws std::logic_error, a number
+bool does_wrong(std::string_view what)
+{
+    if (what == "a null pointer")
+        *nowhere = 1;
+    if (what == "a place behind the end")
+        return std::vector<int>(3)[large] == 0;
+    if (what == "a conversion without meaning")
+        return int(huge) > 0;
+    if (what == "a recursion without end")
+        return deeper(0) > 0;
+    if (what == "a loop without end")
+        while (yes)
+            large = large + 1;
+    if (what == "too much memory")
+        return std::vector<char>(large << 40).back() == 0;
+    if (what == "an exception")
+        throw std::logic_error("on purpose");
+    if (what == "an exception of another kind")
+        throw 1;
+    std::abort();
+}
+
+/// @returns a fault of ours that copies do not tell; empty: none
+std::string unseen_fault(const fs::path& file)
+{
+    for (const char* what :
+         {"a null pointer", "a place behind the end", "a conversion without meaning", "a recursion without end",
+          "a loop without end", "too much memory", "an exception", "an exception of another kind", "an abort"})
+        if (CadCopy([what](const fs::path&) { return does_wrong(what); }, file).read() != fault)
+            return std::string(what) + " is not told";
+    return "";
+}
 
 pid_t this_process = 0;
 
@@ -84,7 +105,7 @@ class Search {
 public:
     explicit Search(const CadTarget& target)
         : file_(fs::temp_directory_path() / fmt::format("spia-fuzz-{}.{}", ::getpid(), target.name)),
-          folder_(std::getenv("SPIA_FUZZ_ENDED") ? std::getenv("SPIA_FUZZ_ENDED") : ""), copy_(file_)
+          folder_(std::getenv("SPIA_FUZZ_ENDED") ? std::getenv("SPIA_FUZZ_ENDED") : ""), copy_(read_and_examine, file_)
     {
         ::signal(SIGPIPE, SIG_IGN); // a copy may be gone before it is asked
         std::array<void*, 1> loads_the_unwinder;
@@ -95,10 +116,16 @@ public:
                 if (::getpid() == this_process)
                     std::abort();
             });
+        ::pthread_atfork(nullptr, nullptr, [] { // libFuzzer's handlers would take a crash there for one of this program
+            for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+                ::signal(signal, SIG_DFL);
+        });
         std::string wrong(fault_of_owners());
+        if (wrong.empty())
+            wrong = unseen_fault(file_);
         for (const std::string& seed : target.seeds) { // what OpenCASCADE makes once, the copies have
             put(seed);
-            if (!read_and_examine(file_) || CadCopy(file_).read() != accepted)
+            if (!read_and_examine(file_) || CadCopy(read_and_examine, file_).read() != accepted)
                 wrong = "a seed is not accepted: " + seed;
         }
         if (!wrong.empty()) {
@@ -116,6 +143,7 @@ public:
 
     void read(std::string_view content)
     {
+        ++files_;
         put(content);
         const double before = copy_.seconds();
         Outcome outcome = copy_.read();
@@ -133,7 +161,7 @@ public:
         if (ended || slow) // else most of the next ones would be made from such files, and the search would crawl
             coverage_.forget();
         constexpr long often = 100'000;
-        if (++files_ % often == 0)
+        if (files_ % often == 0)
             print();
     }
 
@@ -158,10 +186,10 @@ private:
     {
         const bool was_new = copy_.is_new();
         copy_.end();
-        const Outcome again = was_new ? fault : CadCopy(file_).read();
+        const Outcome again = was_new ? fault : CadCopy(read_and_examine, file_).read();
         if (again == fault)
             give_up();
-        save(fmt::format("disturbed-{}", ++disturbed_));
+        save(fmt::format("disturbed-{}-{}", ::getpid(), ++disturbed_));
         return again;
     }
 
@@ -169,7 +197,6 @@ private:
     {
         std::string wrong;
         try {
-            const PlainSignals plain;
             ++again_;
             cancelled_ += !is_answered(file_);
         } catch (const std::exception& fault) {

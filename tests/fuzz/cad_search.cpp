@@ -94,6 +94,7 @@ CadSearch search_cad(std::string_view format, int first, int files)
     const fs::path& file = scratch.path;
     const auto put = [&](int number) { std::ofstream(file, std::ios::binary) << damaged_cad_file(format, number); };
     const SharedCounts shared;
+    cad_target(format); // made here, not in every child
     CadSearch search;
     for (int next = first; next < first + files;) {
         const int end = std::min(first + files, next + in_one_process);

@@ -14,7 +14,7 @@ struct CadSearch {
     int files = 0;
     int accepted = 0;
     int refused = 0; ///< with a word
-    int crashed = 0; ///< in OpenCASCADE; refused or accepted by read_cad()
+    int crashed = 0; ///< ended their process, in OpenCASCADE most often; refused or accepted by read_cad()
     int endless = 0; ///< read for seconds on end; read_cad() was cancelled, at once
 };
 

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <unistd.h>
 
 #include "engine/core/error.h"
@@ -24,7 +26,8 @@ TEST_P(Cad, DamagedFilesAreReadOrRefusedOrEndInTheirOwnProcess)
     EXPECT_EQ(found.files, files);
     EXPECT_GT(found.accepted, files / 100) << "small changes often hurt nothing";
     EXPECT_GT(found.refused, files / 20) << "and often do";
-    EXPECT_LT(found.crashed, files / 5) << "OpenCASCADE's BREP reader crashes on every seventeenth";
+    // OpenCASCADE's BREP reader crashes on every fiftieth, the others on one in four hundred; so must ours not.
+    EXPECT_LT(found.crashed, files / (std::string_view(GetParam()) == "brep" ? 25 : 150));
     EXPECT_LE(found.endless, files / 500);
 }
 

@@ -140,7 +140,8 @@ std::vector<CadTarget> make_targets()
     const auto iges_hole = [&](const fs::path& path) { write_iges(path, square, "a", LengthUnit::inch, hole); };
     return {
         {"step",
-         {step_square, written(".step", step), step_square, written(".step", step_hole)},
+         {step_square, written(".step", step), step_square,
+          written(".step", step_hole)}, // half of them the shortest one
          with_numbers({"#1", "#99", "$", "*", ".T.", ".UNSPECIFIED.", "PLANE", "CARTESIAN_POINT", "EDGE_LOOP", "(#12)",
                        "B_SPLINE_CURVE_WITH_KNOTS", "ENDSEC;\n", "DATA;\n", "SI_UNIT(.MILLI.,.METRE.)", "/*", "'"})},
         {"igs",
@@ -149,9 +150,11 @@ std::vector<CadTarget> make_targets()
                        "4HINCH", "99999999999999H", "     128", "1.D0", "0D0"})},
         {"brep",
          {written(".brep", [](const fs::path& path) { write_two_squares(path, ThirdFace::sliver); }),
-          written(".brep", [](const fs::path& path) { write_swept_cylinder(path, Swept::line_up); })},
+          written(".brep", [](const fs::path& path) { write_swept_cylinder(path, Swept::line_up); }),
+          written(".brep", [](const fs::path& path) { write_tube(path, 3, true); })},
          with_numbers({"CASCADE Topology V1, (c) Matra-Datavision\n", "Locations 0\n", "Curves 1\n", "Surfaces 9\n",
-                       "Polygon3D 1\n", "TShapes 5\n", "Fa\n", "Ed\n", "Ve\n", "+1 0", "-7 0", "*\n", "1111111\n"})},
+                       "Polygon3D 1\n", "TShapes 5\n", "Fa\n", "Ed\n", "Ve\n", "+1 0", "-7 0", "i2 0", "2CN", "*\n",
+                       "1111111\n"})},
     };
 }
 

@@ -37,7 +37,7 @@ Place place_on_stack()
 {
     std::array<void*, 64> frame;
     const int frames = ::backtrace(frame.data(), int(frame.size()));
-    constexpr size_t own = 2; // this function, and what it was called by: both are named spia
+    constexpr size_t own = 2; // this function, and the handler that called it
     return size_t(frames) > own ? innermost(std::span(frame).subspan(own, size_t(frames) - own)) : Place{};
 }
 

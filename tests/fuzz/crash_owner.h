@@ -13,7 +13,7 @@ struct Place {
     const void* code = nullptr;
 };
 
-// All of this is for handlers of signals, which may have come in the middle of an allocation: it allocates nothing.
+// What follows is for handlers of signals, which may have come in the middle of an allocation: it allocates nothing.
 
 /// Unknown: of a library that both use, of the sanitizers, or a function of the reader that has no name outside of its file.
 Owner owner_of(const void* code);

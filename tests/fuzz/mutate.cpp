@@ -1,6 +1,8 @@
 #include "tests/fuzz/mutate.h"
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 namespace spia::fuzz {
 
@@ -33,6 +35,38 @@ std::string damaged(std::string content, const std::vector<std::string>& spice, 
             break;
         }
         }
+    }
+    return content;
+}
+
+std::string with_other_number(std::string content, std::mt19937& random)
+{
+    constexpr std::string_view of_numbers = "0123456789.+-eE";
+    static const std::string limits[] = {"0",       "-1", "1",  "2147483647", "-2147483648", "1e308",
+                                         "-1e-308", "99", "0.", "1e10",       "1e-7",        "6.283185307"};
+    if (content.find_first_of(of_numbers.substr(0, 10)) == std::string::npos)
+        return content;
+    const auto number = [&] { // where one begins, and its length
+        size_t digit = content.find_first_of(of_numbers.substr(0, 10), random() % content.size());
+        if (digit == std::string::npos)
+            digit = content.find_first_of(of_numbers.substr(0, 10));
+        const size_t before = content.find_last_not_of(of_numbers, digit);
+        const size_t begin = before == std::string::npos ? 0 : before + 1;
+        return std::pair(begin, std::min(content.find_first_not_of(of_numbers, digit), content.size()) - begin);
+    };
+    const auto [begin, length] = number();
+    switch (random() % 3) {
+    case 0: {
+        const size_t at = content.find_first_of(of_numbers.substr(0, 10), begin + random() % length);
+        content[std::min(at, begin + length - 1)] = char('0' + random() % 10);
+        break;
+    }
+    case 1: {
+        const auto [from, size] = number();
+        content.replace(begin, length, content.substr(from, size));
+        break;
+    }
+    case 2: content.replace(begin, length, limits[random() % std::size(limits)]); break;
     }
     return content;
 }

@@ -36,11 +36,12 @@ for format in "${formats[@]}"; do
     { grep -a '^files: [0-9]*, accepted' "$log" || true; } | tail -1
     [ "$code" -eq 0 ] && continue
     failed=1
-    grep -a -m3 -E 'ERROR|runtime error|what\(\)|SUMMARY|in the reader at|as users do:' "$log" || true
+    # The last ones: those of OpenCASCADE's crashes stand before.
+    { grep -a -E 'ERROR|runtime error|what\(\)|SUMMARY|in the reader at|as users do:|proves nothing' "$log" || true; } | tail -8
     for found in $(grep -a -o 'Test unit written to .*' "$log" | sed 's/.* //'); do # again, with names
         SPIA_FUZZ_FORMAT=$format UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 TMPDIR=$scratch \
-            ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 build/fuzz/bin/spia-fuzz -rss_limit_mb=0 "$found" 2>&1 |
-            grep -a -A12 -E 'ERROR|runtime error|in the reader at' | head -20 || true
+            ASAN_OPTIONS=${ASAN_OPTIONS/symbolize=0/symbolize=1} build/fuzz/bin/spia-fuzz "${bounds[@]}" "$found" 2>&1 |
+            grep -a -A12 -E 'ERROR|runtime error|what\(\)|in the reader at|as users do:' | tail -40 || true
     done
 done
 exit $failed

@@ -40,10 +40,9 @@ int main(int count, char** values)
             sum.refused += found.refused;
             sum.crashed += found.crashed;
             sum.endless += found.endless;
-            std::printf(
-                "%s: %d files, %d accepted, %d refused, %d crashed or were too much for OpenCASCADE and %d kept it "
-                "busy, in its own process\n",
-                values[1], sum.files, sum.accepted, sum.refused, sum.crashed, sum.endless);
+            std::printf("%s: %d files, %d accepted, %d refused, %d crashed or needed too much memory and %d were busy "
+                        "for long, in a process of their own\n",
+                        values[1], sum.files, sum.accepted, sum.refused, sum.crashed, sum.endless);
             std::fflush(stdout);
         }
     } catch (const std::exception& fault) {
