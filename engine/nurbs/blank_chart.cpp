@@ -18,9 +18,10 @@ namespace {
 const GridResult& sound(const GridResult& grid)
 {
     if (grid.quality.folded_cells > 0 || grid.nodes_outside > 0)
-        throw InputError(fmt::format("{} cells of the grid fold and {} nodes are outside the blank: it cannot be made finer; "
-                                     "use the automatic or the harmonic grid",
-                                     grid.quality.folded_cells, grid.nodes_outside));
+        throw InputError(
+            fmt::format("{} cells of the grid fold and {} nodes are outside the blank: it cannot be made finer; "
+                        "use the automatic or the harmonic grid",
+                        grid.quality.folded_cells, grid.nodes_outside));
     return grid;
 }
 
@@ -134,7 +135,6 @@ MeshPoint BlankChart::place_of(const Eigen::Vector2d& point, double u, double v,
 GridResult BlankChart::refined(const std::vector<double>& u, const std::vector<double>& v) const
 {
     GridResult result;
-    result.route = grid_.route;
     result.filled = grid_.filled;
     result.border = {between_nodes(grid_.border[0], u), between_nodes(grid_.border[1], v),
                      between_nodes(grid_.border[2], mirrored(u)), between_nodes(grid_.border[3], mirrored(v))};

@@ -18,7 +18,8 @@ public:
 
     /// The nodes at u x v, with their places on the part (see lift()). If a cell folds, all nodes are taken from bilinear
     /// cells instead of the bicubic surface, where fewer fold then. Nodes that miss the blank, in a notch of the outline
-    /// between two nodes of the first grid, are put on its nearest place; nodes_outside counts them.
+    /// between two nodes of the first grid, are put on its nearest place; nodes_outside counts them. How the first grid came about
+    /// (its route, what was done to it) is not said again.
     /// @param u, v  strictly rising from 0 to 1
     GridResult refined(const std::vector<double>& u, const std::vector<double>& v) const;
 

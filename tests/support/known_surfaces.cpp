@@ -19,15 +19,7 @@ QuadGrid grid(int columns, int rows, const std::function<Eigen::Vector3d(double 
 
 NurbsSurface cylinder(double radius, double height, double from, double to)
 {
-    NurbsSurface s;
-    s.degree_u = 2;
-    s.degree_v = 1;
-    s.count_u = 3;
-    s.count_v = 2;
-    s.knots_u = {0, 0, 0, 1, 1, 1};
-    s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 6);
-    s.weight.resize(6);
+    NurbsSurface s = one_span(2, 1);
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 3; ++i) {
             const double angle = from + (to - from) * i / 2, cosine = i == 1 ? std::cos((to - from) / 2) : 1;
@@ -50,19 +42,33 @@ NurbsSurface quarter_cylinder(double radius, double length)
     return s;
 }
 
+NurbsSurface one_span(int degree_u, int degree_v)
+{
+    const auto knots = [](int degree) {
+        std::vector<double> result(size_t(degree) + 1, 0);
+        result.resize(2 * result.size(), 1);
+        return result;
+    };
+    NurbsSurface s;
+    s.degree_u = degree_u;
+    s.degree_v = degree_v;
+    s.count_u = degree_u + 1;
+    s.count_v = degree_v + 1;
+    s.knots_u = knots(degree_u);
+    s.knots_v = knots(degree_v);
+    s.control.setZero(3, s.count_u * s.count_v);
+    s.weight.setOnes(s.control.cols());
+    return s;
+}
+
 NurbsSurface bilinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                       const Eigen::Vector3d& d)
 {
-    NurbsSurface s;
-    s.degree_u = s.degree_v = 1;
-    s.count_u = s.count_v = 2;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 4);
+    NurbsSurface s = one_span(1, 1);
     s.control.col(s.index(0, 0)) = a;
     s.control.col(s.index(1, 0)) = b;
     s.control.col(s.index(0, 1)) = c;
     s.control.col(s.index(1, 1)) = d;
-    s.weight.setOnes(4);
     return s;
 }
 
@@ -71,12 +77,7 @@ NurbsSurface sphere_patch(double radius)
     // A quarter of the unit circle about the first axis, and its weights.
     const double c = std::sqrt(0.5);
     const double along[3] = {c, 1 / c, c}, across[3] = {-c, 0, c}, weight[3] = {1, c, 1};
-    NurbsSurface s;
-    s.degree_u = s.degree_v = 2;
-    s.count_u = s.count_v = 3;
-    s.knots_u = s.knots_v = {0, 0, 0, 1, 1, 1};
-    s.control.resize(3, 9);
-    s.weight.resize(9);
+    NurbsSurface s = one_span(2, 2);
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) { // the meridian's point j runs around the z axis
             s.control.col(s.index(i, j)) << radius * along[j] * along[i], radius * along[j] * across[i],

@@ -16,6 +16,9 @@ NurbsSurface quarter_cylinder(double radius, double length);
 /// Exactly the cylinder about the z axis between two angles, less than pi apart, from z = 0 up; S_u x S_v points away from the axis.
 NurbsSurface cylinder(double radius, double height, double from, double to);
 
+/// One span of each degree, control points 0, weights 1.
+NurbsSurface one_span(int degree_u, int degree_v);
+
 /// Between the corners (0, 0), (1, 0), (0, 1) and (1, 1) of its parameters.
 NurbsSurface bilinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                       const Eigen::Vector3d& d);

@@ -7,6 +7,7 @@
 #include "engine/exchange/write_iges.h"
 #include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -18,16 +19,7 @@ constexpr double side = 50.8; // mm, 2 inches
 
 std::vector<NurbsSurface> square()
 {
-    NurbsSurface s;
-    s.degree_u = s.degree_v = 1;
-    s.count_u = s.count_v = 2;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.control = Eigen::Matrix3Xd::Zero(3, 4);
-    s.control.col(s.index(1, 0)) << side, 0, 0;
-    s.control.col(s.index(0, 1)) << 0, side, 0;
-    s.control.col(s.index(1, 1)) << side, side, 0;
-    s.weight.setOnes(4);
-    return {s};
+    return {surfaces::bilinear({0, 0, 0}, {side, 0, 0}, {0, side, 0}, {side, side, 0})};
 }
 
 /// The square in inches, with another flag and name of the unit in lines of the same length.

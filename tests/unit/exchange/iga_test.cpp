@@ -10,6 +10,7 @@
 #include "engine/exchange/write_mfem.h"
 #include "tests/support/iga_readers.h"
 #include "tests/support/joined_patches.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -287,15 +288,7 @@ MultiPatch ring(int patches, int twists)
         return Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), 0);
     };
     for (int k = 0; k < patches; ++k) {
-        NurbsSurface s;
-        s.degree_u = 2;
-        s.degree_v = 1;
-        s.count_u = 3;
-        s.count_v = 2;
-        s.knots_u = {0, 0, 0, 1, 1, 1};
-        s.knots_v = {0, 0, 1, 1};
-        s.control.resize(3, 6);
-        s.weight.setOnes(6);
+        NurbsSurface s = surfaces::one_span(2, 1);
         const double middle = 6.283185307179586 * (k + 0.5) / patches;
         for (int j = 0; j < 2; ++j) {
             s.control.col(s.index(0, j)) = place(k, j == 1);

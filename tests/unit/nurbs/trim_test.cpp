@@ -7,6 +7,7 @@
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/trim.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -17,14 +18,7 @@ constexpr double pi = std::numbers::pi;
 /// The plane z = 0 from 0 to the sizes, mm.
 NurbsSurface plane(double width, double height)
 {
-    NurbsSurface s;
-    s.degree_u = s.degree_v = 1;
-    s.count_u = s.count_v = 2;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.control.resize(3, 4);
-    s.control << 0, width, 0, width, 0, 0, height, height, 0, 0, 0, 0;
-    s.weight.setOnes(4);
-    return s;
+    return surfaces::bilinear({0, 0, 0}, {width, 0, 0}, {0, height, 0}, {width, height, 0});
 }
 
 /// A ring of triangles around a closed polygon in the plane: its inner border is the polygon, the outer one twice as large.

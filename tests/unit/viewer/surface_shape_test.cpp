@@ -7,6 +7,7 @@
 
 #include "app/viewer/views/palette.h"
 #include "tests/support/joined_patches.h"
+#include "tests/support/known_surfaces.h"
 #include "tests/support/shapes.h"
 
 namespace spia::viewer {
@@ -15,15 +16,9 @@ namespace {
 /// A quarter of a cylinder about the x axis, exact, 100 mm long.
 NurbsSurface cylinder(double radius)
 {
-    NurbsSurface s;
-    s.degree_u = 1, s.degree_v = 2;
-    s.count_u = 2, s.count_v = 3;
-    s.knots_u = {0, 0, 1, 1};
-    s.knots_v = {0, 0, 0, 1, 1, 1};
-    s.control.resize(3, 6);
+    NurbsSurface s = surfaces::one_span(1, 2);
     s.control << 0, 100, 0, 100, 0, 100, radius, radius, radius, radius, 0, 0, 0, 0, radius, radius, radius, radius;
     const double w = std::sqrt(0.5);
-    s.weight.resize(6);
     s.weight << 1, 1, w, w, 1, 1;
     return s;
 }
