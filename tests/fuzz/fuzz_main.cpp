@@ -32,7 +32,7 @@ extern "C" size_t LLVMFuzzerMutate(std::uint8_t* data, size_t size, size_t most)
 extern "C" size_t LLVMFuzzerCustomMutator(std::uint8_t* data, size_t size, size_t most, unsigned seed)
 {
     std::mt19937 random(seed);
-    if (random() % 2 || !spia::fuzz::is_cad_target(format()) || size == 0)
+    if (random() % 4 || !spia::fuzz::is_cad_target(format()) || size == 0)
         return LLVMFuzzerMutate(data, size, most);
     std::string content(reinterpret_cast<const char*>(data), size);
     for (uint32_t changes = 1 + random() % 3; changes > 0; --changes)
