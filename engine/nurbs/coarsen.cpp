@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/even_spans.h"
@@ -12,7 +14,7 @@ namespace spia {
 namespace {
 
 constexpr Eigen::Index most_control_points = 20'000; // beyond, a trial takes seconds
-constexpr int most_trials = 16;
+constexpr size_t most_trials = 16;
 constexpr double greatest_factor = 64; // more than a cubic loses by joining two spans
 
 /// Joins halves of one span in which nothing is farther away than `distance`. @param largest  per span, mm
@@ -40,7 +42,7 @@ std::vector<double> joined(const std::vector<double>& borders, const std::vector
 
 } // namespace
 
-std::optional<SpanBorders> Joining::next(const NurbsSurface& surface, const TriMesh& mesh)
+std::optional<SpanBorders> Joining::next(const NurbsSurface& surface)
 {
     if (surface.control.cols() > most_control_points)
         return {};
@@ -52,20 +54,22 @@ std::optional<SpanBorders> Joining::next(const NurbsSurface& surface, const TriM
     all.listed_from = 0;
     all.mesh_to_surface = false;
     std::vector<double> of_u(now.u.size() - 1, 0), of_v(now.v.size() - 1, 0);
-    for (const BeyondTolerance& sample : deviation(surface, mesh, all).beyond) {
+    for (const BeyondTolerance& sample : deviation(surface, mesh_, all).beyond) {
         double& at_u = of_u[size_t(span_of(now.u, sample.u))];
         double& at_v = of_v[size_t(span_of(now.v, sample.v))];
         at_u = std::max(at_u, sample.distance);
         at_v = std::max(at_v, sample.distance);
     }
     const size_t fewest = first_borders(options_.ends).size() - 1;
-    for (; factor_ <= greatest_factor && trials_ < most_trials; along_u_ = !along_u_, factor_ *= along_u_ ? 2 : 1) {
+    for (; factor_ <= greatest_factor && tried_.size() < most_trials;
+         along_u_ = !along_u_, factor_ *= along_u_ ? 2 : 1) {
         const double distance = options_.tolerance / factor_;
         SpanBorders proposed = now;
         (along_u_ ? proposed.u : proposed.v) =
             along_u_ ? joined(now.u, of_u, distance, fewest) : joined(now.v, of_v, distance, fewest);
-        if (proposed.u.size() + proposed.v.size() < now.u.size() + now.v.size()) {
-            ++trials_;
+        if (proposed.u.size() + proposed.v.size() < now.u.size() + now.v.size() &&
+            std::find(tried_.begin(), tried_.end(), proposed) == tried_.end()) {
+            tried_.push_back(proposed);
             return proposed;
         }
     }
@@ -78,6 +82,41 @@ void Joining::tried(bool good)
         return;
     along_u_ = !along_u_;
     factor_ *= along_u_ ? 2 : 1;
+}
+
+std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface)
+{
+    constexpr Eigen::Index most_controls = 1'000;
+    constexpr size_t most_tries = 12, most_tries_at_once = 4;
+    if (options_.ends != CurveEnds::averaged_knots || surface.control.cols() > most_controls)
+        return {};
+    const SpanBorders now{span_borders(surface.knots_u, surface.degree_u),
+                          span_borders(surface.knots_v, surface.degree_v)};
+    if (surface.control.cols() != controls_) {
+        controls_ = surface.control.cols();
+        at_once_ = 0;
+    }
+    std::optional<SpanBorders> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const bool along_u : {true, false}) {
+        const std::vector<double> noticed = noticed_knots(surface, along_u);
+        const double saved = along_u ? surface.count_v : surface.count_u;
+        for (size_t k = 0; k < noticed.size(); ++k) {
+            if (noticed[k] / saved >= least)
+                continue;
+            SpanBorders proposed = now;
+            std::vector<double>& borders = along_u ? proposed.u : proposed.v;
+            borders.erase(borders.begin() + std::ptrdiff_t(k) + 1);
+            if (std::find(tried_.begin(), tried_.end(), proposed) != tried_.end())
+                continue;
+            least = noticed[k] / saved;
+            best = std::move(proposed);
+        }
+    }
+    if (!best || tried_.size() == most_tries || ++at_once_ > most_tries_at_once)
+        return {};
+    tried_.push_back(*best);
+    return best;
 }
 
 std::optional<SpanBorders> Evening::next(const NurbsSurface& surface)

@@ -8,7 +8,7 @@
 namespace spia {
 namespace {
 
-/// Largest size of the highest derivative in each span, over all rows of control points across: it is constant there.
+/// The highest derivative in each span, where it is constant.
 Eigen::Matrix3Xd highest_derivative(const std::vector<double>& knots, int degree, Eigen::Matrix3Xd control)
 {
     // [NURBS Book, A3.3]: differences of the control points, one degree after the other
@@ -24,30 +24,49 @@ Eigen::Matrix3Xd highest_derivative(const std::vector<double>& knots, int degree
     return control; // one per span of single inner knots
 }
 
-} // namespace
-
-std::vector<double> even_spans(const NurbsSurface& surface, bool along_u, int spans)
+/// Per inner knot how far that derivative steps there, the largest of all rows.
+std::vector<double> steps_at_knots(const NurbsSurface& surface, bool along_u)
 {
     const std::vector<double>& knots = along_u ? surface.knots_u : surface.knots_v;
     const int degree = along_u ? surface.degree_u : surface.degree_v;
     const int count = along_u ? surface.count_u : surface.count_v, across = along_u ? surface.count_v : surface.count_u;
-    const std::vector<double> border = span_borders(knots, degree);
-    const size_t n = border.size() - 1;
-    std::vector<double> density(n, 0);
+    std::vector<double> result(span_borders(knots, degree).size() - 2, 0);
     for (int r = 0; r < across; ++r) {
         Eigen::Matrix3Xd row(3, count);
         for (int i = 0; i < count; ++i)
             row.col(i) = surface.control.col(along_u ? surface.index(i, r) : surface.index(r, i));
         const Eigen::Matrix3Xd top = highest_derivative(knots, degree, row);
-        const auto middle = [&](size_t s) { return (border[s] + border[s + 1]) / 2; };
-        for (size_t s = 0; s < n; ++s) { // of the steps to both neighbours the larger
-            double step = 0;
-            for (const size_t other : {s > 0 ? s - 1 : s, s + 1 < n ? s + 1 : s})
-                if (other != s)
-                    step = std::max(step, (top.col(Eigen::Index(other)) - top.col(Eigen::Index(s))).norm() /
-                                              std::abs(middle(other) - middle(s)));
-            density[s] = std::max(density[s], step);
-        }
+        for (size_t k = 0; k < result.size(); ++k)
+            result[k] = std::max(result[k], (top.col(Eigen::Index(k) + 1) - top.col(Eigen::Index(k))).norm());
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<double> noticed_knots(const NurbsSurface& surface, bool along_u)
+{
+    const int degree = along_u ? surface.degree_u : surface.degree_v;
+    const std::vector<double> border = span_borders(along_u ? surface.knots_u : surface.knots_v, degree);
+    std::vector<double> result = steps_at_knots(surface, along_u);
+    for (size_t k = 0; k < result.size(); ++k) {
+        const double before = border[k + 1] - border[k], after = border[k + 2] - border[k + 1];
+        result[k] *= std::pow(before * after / (before + after), degree);
+    }
+    return result;
+}
+
+std::vector<double> even_spans(const NurbsSurface& surface, bool along_u, int spans)
+{
+    const int degree = along_u ? surface.degree_u : surface.degree_v;
+    const std::vector<double> border = span_borders(along_u ? surface.knots_u : surface.knots_v, degree);
+    const std::vector<double> step = steps_at_knots(surface, along_u);
+    const size_t n = border.size() - 1;
+    std::vector<double> density(n, 0);
+    for (size_t k = 0; k < step.size(); ++k) { // of the steps to both neighbours the larger
+        const double slope = step[k] / ((border[k + 2] - border[k]) / 2);
+        density[k] = std::max(density[k], slope);
+        density[k + 1] = std::max(density[k + 1], slope);
     }
     double whole = 0;
     for (size_t s = 0; s < n; ++s) {

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/coarsen.h"
+#include "engine/nurbs/correct_parameters.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit_attempt.h"
 #include "engine/nurbs/fit_curve.h"
@@ -192,6 +193,12 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     std::optional<Slide> slide;
     if (corrected)
         slide.emplace(mesh);
+    const auto fitted = [&](const SpanBorders& borders) {
+        Attempt result = attempt(source, options, borders.u, borders.v);
+        if (slide)
+            correct_parameters(result, *slide);
+        return result;
+    };
 
     struct Best {
         NurbsSurface surface;
@@ -213,7 +220,7 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     for (int round = 1, folded_rounds = 0;; ++round) {
         const Progress here = progress.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
         here.checkpoint(0, fmt::format("fitting {} x {} spans", borders_u.size() - 1, borders_v.size() - 1));
-        Attempt now = attempt(source, options, slide ? &*slide : nullptr, borders_u, borders_v);
+        Attempt now = fitted({borders_u, borders_v});
         Judgement judgement = judge.judge(now.surface, false, here.part(0.2, 1));
         result.report.rounds = round;
         Halving halve;
@@ -229,38 +236,29 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
         borders_u = halved(borders_u, halve.u);
         borders_v = halved(borders_v, halve.v);
     }
-    // Halving gives more than is needed: where two halves are far better than asked for, they are joined again.
-    Joining joining(options);
-    while (best->judgement.within) {
-        const auto joined = joining.next(best->surface, mesh);
-        if (!joined)
-            break;
-        progress.checkpoint(0.9, fmt::format("joining to {} x {} spans", joined->u.size() - 1, joined->v.size() - 1));
-        Attempt now = attempt(source, options, slide ? &*slide : nullptr, joined->u, joined->v);
-        Judgement judgement = judge.judge(now.surface, false, progress.part(0.9, 0.95));
-        const bool good =
-            judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
-        joining.tried(good);
-        if (good)
-            best =
-                Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
-    }
-    // Spans of even change can be fewer than halved ones.
-    Evening evening(source, options);
-    while (best->judgement.within) {
-        const auto even = evening.next(best->surface);
-        if (!even)
-            break;
-        progress.checkpoint(0.92, fmt::format("evening {} x {} spans", even->u.size() - 1, even->v.size() - 1));
-        Attempt now = attempt(source, options, slide ? &*slide : nullptr, even->u, even->v);
-        Judgement judgement = judge.judge(now.surface, false, progress.part(0.92, 0.95));
-        const bool good =
-            judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
-        evening.tried(good);
-        if (good)
-            best =
-                Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(), std::move(judgement)};
-    }
+    // Of those that are proposed until there are none.
+    const auto take_fewer = [&](auto&& proposals, const char* what) {
+        while (best->judgement.within) {
+            const std::optional<SpanBorders> fewer = proposals.next(best->surface);
+            if (!fewer)
+                break;
+            progress.checkpoint(0.9, fmt::format("{} {} x {} spans", what, fewer->u.size() - 1, fewer->v.size() - 1));
+            Attempt now = fitted(*fewer);
+            Judgement judgement = judge.judge(now.surface, false, progress.part(0.9, 0.95));
+            const bool good =
+                judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();
+            proposals.tried(good);
+            if (good)
+                best = Best{std::move(now.surface), now.along_u.parameters(), now.along_v.parameters(),
+                            std::move(judgement)};
+        }
+    };
+    // Halving gives more than is needed: where two halves are far better than asked for, they are joined again. Spans of even change
+    // can be fewer than halved ones.
+    take_fewer(Joining(mesh, options), "joining to");
+    take_fewer(Evening(source, options), "evening");
+    if (corrected)
+        take_fewer(Sparing(options), "sparing to");
     if (!best->judgement.within) {
         best->judgement = judge.judge(best->surface, true, progress.part(0.9, 0.95));
         if (std::optional<NurbsSurface> through = through_all(source, options)) {

@@ -6,8 +6,6 @@
 
 namespace spia {
 
-class Slide;
-
 /// One least squares fit: its data, its two directions and its surface.
 struct Attempt {
     std::vector<double> borders_u, borders_v; ///< of the spans
@@ -17,8 +15,10 @@ struct Attempt {
 };
 
 /// Border curves first, then the surface that holds them.
-/// @param slide  nullptr: the points stay where the source has them
-Attempt attempt(const FitSource& source, const FitOptions& options, const Slide* slide,
-                const std::vector<double>& borders_u, const std::vector<double>& borders_v);
+Attempt attempt(const FitSource& source, const FitOptions& options, const std::vector<double>& borders_u,
+                const std::vector<double>& borders_v);
+
+/// The surface over the same knots for other points, which are not kept.
+void fit_to(Attempt& fit, const Eigen::Matrix3Xd& points);
 
 } // namespace spia

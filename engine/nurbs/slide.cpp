@@ -6,7 +6,6 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/mesh/topology.h"
-#include "engine/nurbs/evaluate.h"
 
 namespace spia {
 
@@ -33,30 +32,31 @@ TriMesh boundary_of(const TriMesh& part)
 
 } // namespace
 
-Slide::Slide(const TriMesh& part)
-    : face_normal_(area_vectors(part)), inside_(part), boundary_(boundary_of(part))
+Slide::Slide(const TriMesh& part) : face_normal_(area_vectors(part)), inside_(part), boundary_(boundary_of(part))
 {
     face_normal_.colwise().normalize();
 }
 
-void Slide::to_feet(const NurbsSurface& surface, const std::vector<double>& u, const std::vector<double>& v,
-                    Eigen::Matrix3Xd& points) const
+std::vector<SurfacePoint> Slide::to_feet(const NurbsSurface& surface, const std::vector<double>& u,
+                                         const std::vector<double>& v, Eigen::Matrix3Xd& points) const
 {
+    std::vector<SurfacePoint> on_surface(size_t(points.cols()));
     const int columns = int(u.size()), rows = int(v.size());
     parallel_for(columns * rows, [&](int n) {
         const int i = n % columns, j = n / columns;
         const bool at_u = i == 0 || i == columns - 1, at_v = j == 0 || j == rows - 1;
+        const SurfacePoint& at = on_surface[size_t(n)] = evaluate(surface, u[size_t(i)], v[size_t(j)]);
         if (at_u && at_v)
             return;
-        const SurfacePoint at = evaluate(surface, u[size_t(i)], v[size_t(j)]);
         const double missed = (points.col(n) - at.position).norm();
-        const ClosestPoint foot = at_u || at_v ? boundary_.nearest(at.position, 2 * missed)
-                                               : inside_.nearest(at.position, 2 * missed);
+        const ClosestPoint foot =
+            at_u || at_v ? boundary_.nearest(at.position, 2 * missed) : inside_.nearest(at.position, 2 * missed);
         if (foot.face < 0 || foot.distance > missed)
             return;
         if (at_u || at_v || std::abs(at.normal().dot(face_normal_.col(foot.face))) > 0.5)
             points.col(n) = foot.position;
     });
+    return on_surface;
 }
 
 } // namespace spia

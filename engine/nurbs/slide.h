@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "engine/mesh/closest_point.h"
-#include "engine/nurbs/surface.h"
+#include "engine/nurbs/evaluate.h"
 
 namespace spia {
 
@@ -15,8 +15,9 @@ public:
     /// Moves inner points to the nearest place of the part to the surface at their parameters, border points likewise along
     /// the part's boundary; corners stay. A foot on another sheet of the part, or farther off than the point itself, is left.
     /// @param points  (i, j) at u[i], v[j], i fastest
-    void to_feet(const NurbsSurface& surface, const std::vector<double>& u, const std::vector<double>& v,
-                 Eigen::Matrix3Xd& points) const;
+    /// @returns what the surface is like at the parameters, in the same order
+    std::vector<SurfacePoint> to_feet(const NurbsSurface& surface, const std::vector<double>& u,
+                                      const std::vector<double>& v, Eigen::Matrix3Xd& points) const;
 
 private:
     Eigen::Matrix3Xd face_normal_; ///< unit

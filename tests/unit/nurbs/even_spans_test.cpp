@@ -68,6 +68,20 @@ TEST(EvenSpans, OfASurfaceThatChangesAlikeEverywhereAreAlike)
         EXPECT_NEAR(across[k], double(k) / 3, 1e-12) << "one span: nothing is known";
 }
 
+TEST(EvenSpans, AKnotIsNoticedByTheStepOfItsHighestDerivative)
+{
+    const auto kinks = [](double x) { // cubics, with steps of 6 and of 0.6 in their third derivative
+        return std::pow(std::max(0., x - 0.5), 3) - 0.1 * std::pow(std::max(0., x - 0.75), 3);
+    };
+    const std::vector<double> noticed = noticed_knots(ridge({0, 0.25, 0.5, 0.75, 0.875, 1}, kinks), true);
+    ASSERT_EQ(noticed.size(), 4u);
+    EXPECT_NEAR(noticed[0], 0, 1e-9);
+    EXPECT_NEAR(noticed[1], 6 * std::pow(0.125, 3), 1e-9);
+    EXPECT_NEAR(noticed[2], 0.6 * std::pow(0.25 * 0.125 / 0.375, 3), 1e-9);
+    EXPECT_NEAR(noticed[3], 0, 1e-9);
+    EXPECT_TRUE(noticed_knots(ridge({0, 1}, kinks), true).empty());
+}
+
 TEST(EvenSpans, NeedFewerForAStepThanEvenOnes)
 {
     const auto step = [](double x) { return 0.2 * std::tanh(15 * (x - 0.37)); };

@@ -235,6 +235,30 @@ TEST(Fit, CorrectedParametersNeedFewerKnotsWhereTheParametersRunUnevenly)
     EXPECT_LE(independent_deviation(corrected.surface, jerky), options.tolerance + chord);
 }
 
+/// OpenCASCADE's GeomAPI_PointsToBSplineSurface, which chooses its parameters, too, needs 20 and 90 within the same distances
+/// (tests/bench/README.md).
+TEST(Fit, CorrectedParametersNeedNoMoreControlPointsThanOpenCascade)
+{
+    struct Known {
+        size_t sheet;
+        double tolerance; // of its size
+        int control_points;
+    };
+    for (const Known& known : {Known{2, 1e-4, 20}, Known{4, 1e-3, 89}}) {
+        const KnownSheet sheet = shapes::known_sheets()[known.sheet];
+        SCOPED_TRACE(sheet.name);
+        const MeshedSheet meshed(sheet, 250);
+        FitOptions options = within(known.tolerance * sheet.size);
+        options.parameters = FitParameters::corrected;
+        const FitResult result = fit(meshed.source, meshed.mesh, options);
+        EXPECT_TRUE(result.report.reached);
+        EXPECT_LE(result.surface.control.cols(), known.control_points);
+        EXPECT_LE(independent_deviation(result.surface, sheet),
+                  options.tolerance + shapes::chord_error(sheet, meshed.mesh));
+        EXPECT_TRUE(result.deviation.turned.empty());
+    }
+}
+
 TEST(Fit, SameBitsOnOneThreadAndOnTwo)
 {
     const KnownSheet bump = shapes::known_sheets()[4];
