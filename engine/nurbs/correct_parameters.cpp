@@ -33,11 +33,12 @@ public:
     {
     }
 
-    void run()
+    void run(const Progress& progress)
     {
         const int times =
             int(std::clamp(points_in_all / fit_.points.cols(), Eigen::Index(fewest_times), Eigen::Index(most_times)));
         for (int time = 0; time <= times; ++time) {
+            progress.checkpoint(double(time) / times, "letting points slide");
             slide();
             if (time == times)
                 break;
@@ -122,6 +123,9 @@ private:
 
 } // namespace
 
-void correct_parameters(Attempt& fit, const Slide& slide) { Correction(fit, slide).run(); }
+void correct_parameters(Attempt& fit, const Slide& slide, const Progress& progress)
+{
+    Correction(fit, slide).run(progress);
+}
 
 } // namespace spia

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/progress.h"
 #include "engine/nurbs/fit_attempt.h"
 
 namespace spia {
@@ -9,6 +10,6 @@ class Slide;
 /// mixed steps, for plain ones creep. Then, where there are few enough points for many steps, with weights that grow where the surface
 /// is farthest away [Lawson 1961]. Of all surfaces on the way the one whose largest distance at the points is least, of those whose lines u
 /// and v do not lean over to one another much more than at first.
-void correct_parameters(Attempt& fit, const Slide& slide);
+void correct_parameters(Attempt& fit, const Slide& slide, const Progress& progress = {});
 
 } // namespace spia

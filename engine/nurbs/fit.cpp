@@ -193,10 +193,10 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     std::optional<Slide> slide;
     if (corrected)
         slide.emplace(mesh);
-    const auto fitted = [&](const SpanBorders& borders) {
+    const auto fitted = [&](const SpanBorders& borders, const Progress& part) {
         Attempt result = attempt(source, options, borders.u, borders.v);
         if (slide)
-            correct_parameters(result, *slide);
+            correct_parameters(result, *slide, part);
         return result;
     };
 
@@ -220,7 +220,7 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     for (int round = 1, folded_rounds = 0;; ++round) {
         const Progress here = progress.part(1 - std::pow(0.85, round - 1), 1 - std::pow(0.85, round));
         here.checkpoint(0, fmt::format("fitting {} x {} spans", borders_u.size() - 1, borders_v.size() - 1));
-        Attempt now = fitted({borders_u, borders_v});
+        Attempt now = fitted({borders_u, borders_v}, here.part(0, 0.2));
         Judgement judgement = judge.judge(now.surface, false, here.part(0.2, 1));
         result.report.rounds = round;
         Halving halve;
@@ -243,7 +243,7 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
             if (!fewer)
                 break;
             progress.checkpoint(0.9, fmt::format("{} {} x {} spans", what, fewer->u.size() - 1, fewer->v.size() - 1));
-            Attempt now = fitted(*fewer);
+            Attempt now = fitted(*fewer, progress.part(0.9, 0.9));
             Judgement judgement = judge.judge(now.surface, false, progress.part(0.9, 0.95));
             const bool good =
                 judgement.within && judgement.deviation.turned.size() <= best->judgement.deviation.turned.size();

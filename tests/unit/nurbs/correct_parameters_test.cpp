@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <gtest/gtest.h>
+#include <memory>
 
+#include "engine/core/error.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/slide.h"
@@ -57,6 +60,15 @@ TEST(CorrectParameters, ComesCloserOnThePartAndDoesNotLeanOver)
             EXPECT_LT(off, 1e-9);
         }
     }
+}
+
+TEST(CorrectParameters, CanBeCancelled)
+{
+    const shapes::MeshedSheet meshed(shapes::known_sheets()[2], 40);
+    Attempt fit = attempt(meshed.source, {}, {0, 1}, {0, 1});
+    const auto stop = std::make_shared<std::atomic<bool>>(false);
+    const Progress progress([&](double share, std::string_view) { *stop = share > 0.1; }, stop);
+    EXPECT_THROW(correct_parameters(fit, Slide(meshed.mesh), progress), Cancelled);
 }
 
 } // namespace spia
