@@ -102,6 +102,11 @@ bool follows_outline(const GridResult& grid, bool overlaps)
            (overlaps || crossings(border) <= crossing_share * double(border.size()));
 }
 
+bool border_is_possible(const GridResult& grid, bool overlaps)
+{
+    return impossible_corner(grid.planar) < 0 && follows_outline(grid, overlaps);
+}
+
 std::pair<int, double> widest_vertex(const FilledMesh& filled)
 {
     std::vector<double> angle(size_t(filled.mesh.vertices()), 0);

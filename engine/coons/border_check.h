@@ -16,6 +16,9 @@ int impossible_corner(const QuadGrid& grid);
 /// @param overlaps the blank lies on itself, so that its border may cross itself
 bool follows_outline(const GridResult& grid, bool overlaps);
 
+/// Whether cells with straight edges are possible between these border nodes: neither of the two above is in the way.
+bool border_is_possible(const GridResult& grid, bool overlaps);
+
 /// The vertex of the outline with the largest inner angle in the blank, and that angle in degrees.
 std::pair<int, double> widest_vertex(const FilledMesh& filled);
 

@@ -15,11 +15,12 @@
 #include "engine/coons/border_check.h"
 #include "engine/coons/find_nodes.h"
 #include "engine/coons/harmonic_map.h"
+#include "engine/coons/map_grid.h"
 #include "engine/coons/mend.h"
 #include "engine/coons/opened_map.h"
 #include "engine/coons/place_border.h"
+#include "engine/coons/wound_grid.h"
 #include "engine/core/error.h"
-#include "engine/core/parallel.h"
 
 namespace spia {
 
@@ -29,39 +30,6 @@ constexpr int least_cells = 4;          // of an automatic count
 constexpr int most_refinements = 1;     // of an automatic count: doubled
 constexpr int sweeps_between_looks = 5; // smoothing can fold what it has unfolded: stop as soon as it is good
 constexpr std::array<double, 3> slides = {0, 1.5, 6}; // how far border nodes may slide, in cells: tried in turn
-
-/// A map of the blank onto the unit square, and its inverse.
-struct SquareMap {
-    HarmonicMap map;
-    PlanarLocator square;
-    GridRoute route;
-
-    SquareMap(HarmonicMap to_square, GridRoute way)
-        : map(std::move(to_square)), square(map.square, map.triangle), route(way)
-    {
-    }
-};
-
-/// Everything the ways to a grid share: the blank as a search structure, and the maps once they are needed.
-struct Workshop {
-    std::shared_ptr<const FilledMesh> filled;
-    BlankBoundary boundary;
-    BlankSearch blank;
-    std::optional<SquareMap> harmonic = {};
-};
-
-GridResult empty_grid(const Workshop& shop, int columns, int rows, const BorderParameters& border)
-{
-    GridResult grid;
-    grid.filled = shop.filled;
-    grid.border = border;
-    grid.planar.columns = columns;
-    grid.planar.rows = rows;
-    grid.planar.position = Eigen::Matrix3Xd::Zero(3, grid.planar.nodes());
-    grid.place.resize(size_t(grid.planar.nodes()));
-    place_border(*shop.filled, shop.boundary, border, grid.planar, grid.place);
-    return grid;
-}
 
 /// Bilinearly blended between opposite sides (eq. 25).
 void blend_opposite_sides(QuadGrid& grid)
@@ -91,7 +59,7 @@ void smooth_interior(QuadGrid& grid, int sweeps)
 
 /// Cells as square as the mean length of the grid lines allows, `options.cells` along the longer ones. (The
 /// sides alone would give an ellipse with its corners at the two ends far too few rows.)
-void choose_counts(const Workshop& shop, const GridOptions& options, int& columns, int& rows)
+void choose_counts(const GridWorkshop& shop, const GridOptions& options, int& columns, int& rows)
 {
     QuadGrid trial = empty_grid(shop, options.cells, options.cells, even_border(options.cells, options.cells)).planar;
     blend_opposite_sides(trial);
@@ -110,7 +78,7 @@ void choose_counts(const Workshop& shop, const GridOptions& options, int& column
     rows = options.rows > 0 ? options.rows : count(v);
 }
 
-GridResult coons_patch(const Workshop& shop, int columns, int rows, const GridOptions& options,
+GridResult coons_patch(const GridWorkshop& shop, int columns, int rows, const GridOptions& options,
                        const Progress& progress)
 {
     GridResult grid = empty_grid(shop, columns, rows, even_border(columns, rows));
@@ -125,35 +93,12 @@ GridResult coons_patch(const Workshop& shop, int columns, int rows, const GridOp
     return grid;
 }
 
-/// A map onto the unit square, inverted at the nodes of the grid. Each node keeps the triangle it was found in.
-GridResult inverted(const SquareMap& map, const Workshop& shop, int columns, int rows, const BorderParameters& border)
-{
-    GridResult grid = empty_grid(shop, columns, rows, border);
-    grid.route = map.route;
-    parallel_for(grid.planar.nodes(), [&](int n) {
-        if (is_border(grid.planar, n))
-            return;
-        const Eigen::Vector2d uv(double(n % (columns + 1)) / columns, double(n / (columns + 1)) / rows);
-        MeshPoint& place = grid.place[size_t(n)];
-        place = map.map.in_filled_mesh(map.square.nearest(uv));
-        grid.planar.position.col(n) << shop.blank.position(place), 0;
-    });
-    grid.quality = cell_quality(grid.planar);
-    return grid;
-}
-
-/// Whether cells with straight edges can follow the outline between these border nodes.
-bool border_is_possible(const GridResult& grid, const Workshop& shop)
-{
-    return impossible_corner(grid.planar) < 0 && follows_outline(grid, shop.blank.overlaps_itself());
-}
-
 /// The grid of a map, mended where it folds. Sound, or the last one tried.
-GridResult mended_grid(const SquareMap& map, const Workshop& shop, int columns, int rows,
+GridResult mended_grid(const SquareMap& map, const GridWorkshop& shop, const MapLines& lines,
                        const BorderParameters& border, const Progress& progress)
 {
-    GridResult grid = inverted(map, shop, columns, rows, border);
-    if (is_sound(grid) || !border_is_possible(grid, shop))
+    GridResult grid = grid_of_map(map, shop, lines, border);
+    if (is_sound(grid) || !border_is_possible(grid, shop.blank.overlaps_itself()))
         return grid;
     mend(shop.blank, grid, progress.part(0, 0.5));
     if (!is_sound(grid) && map.route == GridRoute::harmonic) {
@@ -165,7 +110,7 @@ GridResult mended_grid(const SquareMap& map, const Workshop& shop, int columns, 
 }
 
 /// Border nodes that divide the sides evenly, else that slide as little as they have to for cells to follow the outline.
-GridResult harmonic_grid(Workshop& shop, int columns, int rows, const Progress& progress)
+GridResult harmonic_grid(GridWorkshop& shop, int columns, int rows, const Progress& progress)
 {
     if (!shop.harmonic)
         shop.harmonic.emplace(harmonic_map(*shop.filled, shop.boundary, progress.part(0, 0.2)), GridRoute::harmonic);
@@ -173,35 +118,37 @@ GridResult harmonic_grid(Workshop& shop, int columns, int rows, const Progress& 
     for (const double reach : slides) {
         const BorderParameters border =
             reach > 0 ? slid_border(*shop.filled, shop.boundary, columns, rows, reach) : even_border(columns, rows);
-        grid = mended_grid(*shop.harmonic, shop, columns, rows, border, progress.part(0.2, 1));
-        if (is_sound(grid) || border_is_possible(grid, shop))
+        grid = mended_grid(*shop.harmonic, shop, even_lines(columns, rows), border, progress.part(0.2, 1));
+        if (is_sound(grid) || border_is_possible(grid, shop.blank.overlaps_itself()))
             break;
     }
     return grid;
 }
 
 /// The same from a map that leaves lobes and windings their area, first with border nodes that divide the sides evenly.
-GridResult opened_grid(const Workshop& shop, int columns, int rows, GridResult best, const Progress& progress)
+GridResult opened_grid(const GridWorkshop& shop, int columns, int rows, GridResult best, const Progress& progress)
 {
+    const MapLines lines = even_lines(columns, rows);
     for (const bool slide : {false, true}) {
         const Progress here = progress.part(0.5 * slide, 0.5 + 0.5 * slide);
         std::optional<HarmonicMap> opened =
-            opened_map(shop.harmonic->map, double(columns) / rows, slide, here.part(0, 0.5));
+            opened_map(shop.harmonic->map, {.oblong = double(columns) / rows, .slide = slide}, here.part(0, 0.5));
         if (!opened)
             continue;
         const SquareMap map(std::move(*opened), GridRoute::opened);
-        GridResult grid = mended_grid(map, shop, columns, rows, border_of_map(map.map, shop.boundary, columns, rows),
-                                      here.part(0.5, 1));
+        GridResult grid =
+            mended_grid(map, shop, lines, border_of_map(map.map, shop.boundary, lines), here.part(0.5, 1));
         if (is_sound(grid))
             return grid;
-        if (!border_is_possible(best, shop) && border_is_possible(grid, shop))
+        if (const bool overlaps = shop.blank.overlaps_itself();
+            !border_is_possible(best, overlaps) && border_is_possible(grid, overlaps))
             best = std::move(grid);
     }
     return best;
 }
 
 /// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a part with lobes.
-double outline_over_square(const Workshop& shop)
+double outline_over_square(const GridWorkshop& shop)
 {
     const std::vector<int>& outline = shop.filled->outline;
     const Eigen::Matrix2Xd& plane = shop.filled->plane;
@@ -214,7 +161,8 @@ double outline_over_square(const Workshop& shop)
     return length / (4 * std::sqrt(std::max(area, 1e-300)));
 }
 
-[[noreturn]] void throw_impossible(const Workshop& shop, const GridResult& grid, const std::vector<int>& file_number)
+[[noreturn]] void throw_impossible(const GridWorkshop& shop, const GridResult& grid,
+                                   const std::vector<int>& file_number)
 {
     const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
     const auto& corner = shop.boundary.corner;
@@ -264,13 +212,26 @@ std::string_view name(GridRoute route)
     case GridRoute::harmonic: return "harmonic map";
     case GridRoute::opened: return "opened harmonic map";
     case GridRoute::untangled: return "untangled harmonic map";
+    case GridRoute::wound: return "opened map, its cells unfolded to their mean shapes";
     }
     return "";
 }
 
 namespace {
 
-GridResult sound_grid(Workshop& shop, const GridOptions& options, const Progress& progress)
+/// Cells along both sides where all else has failed and the counts are automatic.
+std::vector<std::array<int, 2>> finer_counts(int cells)
+{
+    std::vector<std::array<int, 2>> counts;
+    for (const int finer : {80, 160, 240})
+        if (finer > cells)
+            counts.push_back({finer, finer});
+    if (counts.empty())
+        counts.push_back({cells, cells});
+    return counts;
+}
+
+GridResult sound_grid(GridWorkshop& shop, const GridOptions& options, const Progress& progress)
 {
     int columns = 0, rows = 0;
     choose_counts(shop, options, columns, rows);
@@ -284,7 +245,7 @@ GridResult sound_grid(Workshop& shop, const GridOptions& options, const Progress
     const bool may_refine = options.columns == 0 && options.rows == 0;
     const int levels = may_refine ? 1 + most_refinements : 1;
     for (int level = 0; level < levels; ++level) {
-        const Progress here = progress.part(0.2 + 0.8 * level / levels, 0.2 + 0.8 * (level + 1) / levels);
+        const Progress here = progress.part(0.2 + 0.3 * level / levels, 0.2 + 0.3 * (level + 1) / levels);
         const int m = columns << level, n = rows << level;
         grid = harmonic_grid(shop, m, n, here.part(0, 0.5));
         if (!is_sound(grid))
@@ -292,6 +253,13 @@ GridResult sound_grid(Workshop& shop, const GridOptions& options, const Progress
         grid.refinements = level;
         if (is_sound(grid))
             return grid;
+    }
+    if (border_is_possible(grid, shop.blank.overlaps_itself())) {
+        std::vector<std::array<int, 2>> counts = {{columns, rows}};
+        if (may_refine)
+            counts = finer_counts(options.cells);
+        if (std::optional<GridResult> wound = wound_grid(shop, counts, progress.part(0.5, 1)))
+            return std::move(*wound);
     }
     throw_impossible(shop, grid, options.file_number);
 }
@@ -305,7 +273,7 @@ GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBounda
         throw InputError("the share of the lines that go to bends must be from 0 to 0.9");
     auto filled = std::make_shared<const FilledMesh>(fill_holes(part, blank.position, progress.part(0, 0.1)));
     progress.checkpoint(0.1, "searching the blank");
-    Workshop shop{filled, boundary, BlankSearch(*filled)};
+    GridWorkshop shop{filled, boundary, BlankSearch(*filled)};
     const bool adapt = options.to_bends > 0 || options.even_cells;
     GridResult grid = sound_grid(shop, options, adapt ? progress.part(0, 0.7) : progress);
     if (is_sound(grid)) { // the Coons patch may be asked for as it is

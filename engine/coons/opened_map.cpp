@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/coons/boundary.h"
 #include "engine/coons/unfold_elements.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/orient2d.h"
@@ -16,7 +15,6 @@ namespace spia {
 namespace {
 
 constexpr double least_height = 1e-3; // over the longest edge: a lower triangle of the blank is given this height
-constexpr double area_weight = 0.3;   // a lobe needs its share of the square more than its shape
 constexpr double thin = 1e-5;         // of its wanted area: opened with eps > 0, like a folded triangle
 constexpr int most_steps = 200;
 constexpr int fine_enough = 10000; // triangles: fewer are divided
@@ -132,18 +130,18 @@ bool is_one_to_one(const HarmonicMap& map)
     return true;
 }
 
-void open(HarmonicMap& map, double oblong, bool slide, const Progress& progress)
+void open(HarmonicMap& map, const OpenOptions& how, const Progress& progress)
 {
     const Used used(map);
     double area = 0;
-    const PlanarElements elements = elements_of(map, used, slide, area);
-    const Eigen::Array2d size(std::sqrt(area * oblong), std::sqrt(area / oblong));
+    const PlanarElements elements = elements_of(map, used, how.slide, area);
+    const Eigen::Array2d size(std::sqrt(area * how.oblong), std::sqrt(area / how.oblong));
     Eigen::Matrix2Xd position(2, Eigen::Index(used.vertex.size()));
     for (size_t i = 0; i < used.vertex.size(); ++i)
         position.col(Eigen::Index(i)) = map.square.col(used.vertex[i]).array() * size;
     UnfoldOptions options;
     options.most_steps = most_steps;
-    options.area_weight = area_weight;
+    options.area_weight = how.area_weight;
     options.element_area = area / double(map.triangle.cols());
     options.thin = thin;
     unfold_elements(position, elements, {}, options, progress);
@@ -155,11 +153,11 @@ void open(HarmonicMap& map, double oblong, bool slide, const Progress& progress)
 
 } // namespace
 
-std::optional<HarmonicMap> opened_map(const HarmonicMap& map, double oblong, bool slide, const Progress& progress)
+std::optional<HarmonicMap> opened_map(const HarmonicMap& map, const OpenOptions& options, const Progress& progress)
 {
     HarmonicMap opened = map;
     for (int level = 0;; ++level) {
-        open(opened, oblong, slide, progress.part(level == 0 ? 0 : 0.3, level == 0 ? 0.3 : 1));
+        open(opened, options, progress.part(level == 0 ? 0 : 0.3, level == 0 ? 0.3 : 1));
         if (opened.triangle.cols() >= fine_enough || !is_one_to_one(opened))
             break;
         opened = divided(opened);
@@ -167,30 +165,6 @@ std::optional<HarmonicMap> opened_map(const HarmonicMap& map, double oblong, boo
     if (!is_one_to_one(opened))
         return std::nullopt;
     return opened;
-}
-
-BorderParameters border_of_map(const HarmonicMap& map, const BlankBoundary& boundary, int columns, int rows)
-{
-    BorderParameters border = even_border(columns, rows);
-    for (size_t k = 0; k < 4; ++k) {
-        const std::vector<int>& side = boundary.side[k];
-        const Eigen::VectorXd chord = chord_parameters(side, map.plane);
-        std::vector<double> along; // the side of the square, from 0 to 1
-        for (const int v : side) {
-            const double x = map.square(Eigen::Index(k % 2), v);
-            along.push_back(k < 2 ? x : 1 - x);
-        }
-        const Eigen::Index cells = border[k].size() - 1;
-        for (Eigen::Index i = 1; i < cells; ++i) {
-            const double wanted = border[k][i];
-            const auto next = std::upper_bound(along.begin() + 1, along.end() - 1, wanted);
-            const Eigen::Index b = next - along.begin(), a = b - 1;
-            const double width = along[size_t(b)] - along[size_t(a)];
-            const double share = width > 0 ? std::clamp((wanted - along[size_t(a)]) / width, 0.0, 1.0) : 0;
-            border[k][i] = chord[a] + share * (chord[b] - chord[a]);
-        }
-    }
-    return border;
 }
 
 } // namespace spia

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/coons/boundary.h"
+#include "engine/coons/map_grid.h"
 #include "engine/mesh/orient2d.h"
 #include "tests/unit/coons/outlines.h"
 
@@ -45,7 +46,7 @@ TEST(OpenedMap, GivesALobeItsShareOfTheSquareWithoutAFold)
     const double share_of_blank = 4.0 / 108;
     ASSERT_LT(share_of_finger(finger.harmonic), 0.02 * share_of_blank);
     for (const bool slide : {false, true}) {
-        const auto opened = opened_map(finger.harmonic, 1, slide);
+        const auto opened = opened_map(finger.harmonic, {.slide = slide});
         ASSERT_TRUE(opened);
         // Fixed sides give the finger what its long edge takes of them; sliding ones shrink that.
         EXPECT_GT(share_of_finger(*opened), (slide ? 0.08 : 0.3) * share_of_blank);
@@ -59,7 +60,7 @@ TEST(OpenedMap, GivesALobeItsShareOfTheSquareWithoutAFold)
 TEST(OpenedMap, SidesStayOnTheSidesOfTheSquareAndSlideOnlyIfAsked)
 {
     const Finger finger;
-    const auto fixed = opened_map(finger.harmonic, 1, false), slid = opened_map(finger.harmonic, 1, true);
+    const auto fixed = opened_map(finger.harmonic, {}), slid = opened_map(finger.harmonic, {.slide = true});
     ASSERT_TRUE(fixed && slid);
     double most = 0;
     for (int k = 0; k < 4; ++k)
@@ -70,10 +71,10 @@ TEST(OpenedMap, SidesStayOnTheSidesOfTheSquareAndSlideOnlyIfAsked)
         }
     EXPECT_GT(most, 0.01);
     // Where the map's border says: between evenly shared sides these are the even ones.
-    const BorderParameters even = border_of_map(*fixed, finger.boundary, 9, 7);
+    const BorderParameters even = border_of_map(*fixed, finger.boundary, even_lines(9, 7));
     for (size_t k = 0; k < 4; ++k)
         EXPECT_LT((even[k] - even_border(9, 7)[k]).cwiseAbs().maxCoeff(), 1e-12);
-    const BorderParameters border = border_of_map(*slid, finger.boundary, 9, 7);
+    const BorderParameters border = border_of_map(*slid, finger.boundary, even_lines(9, 7));
     const Eigen::VectorXd chord = chord_parameters(finger.boundary.side[1], finger.blank.position);
     for (int i = 1; i < 7; ++i) { // side 1: the place of chord length border[1][i] has y = i / 7
         const SidePoint place = point_on_side(finger.boundary.side[1], chord, border[1][i]);

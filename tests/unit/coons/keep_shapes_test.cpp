@@ -1,0 +1,60 @@
+#include "engine/coons/keep_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/coons/cell_quality.h"
+#include "tests/support/lots.h"
+
+namespace spia {
+
+namespace {
+
+constexpr int columns = 14, rows = 11;
+const Eigen::Vector2d along_row(6, 0.1), along_column(5, 1.2); // far from the rectangles that untangle() wants
+
+/// Parallelograms of one shape. Their inner nodes are moved by lot, across their length by up to a share of their height.
+QuadGrid sheared_cells(double share)
+{
+    const double height = (along_row.x() * along_column.y() - along_row.y() * along_column.x()) / along_row.norm();
+    shapes::Lots lots(7);
+    QuadGrid grid;
+    grid.columns = columns;
+    grid.rows = rows;
+    grid.position = Eigen::Matrix3Xd::Zero(3, grid.nodes());
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i) {
+            grid.position.col(grid.node(i, j)).head<2>() = i * along_row + j * along_column;
+            if (i > 0 && j > 0 && i < columns && j < rows)
+                grid.position(1, grid.node(i, j)) += share * height * lots.between(-1, 1);
+        }
+    return grid;
+}
+
+} // namespace
+
+TEST(KeepShapes, CellsThatFoldAreUnfoldedToTheMeanShapeOfTheOthers)
+{
+    const QuadGrid exact = sheared_cells(0);
+    QuadGrid grid = sheared_cells(1);
+    ASSERT_EQ(cell_quality(exact).folded_cells, 0);
+    ASSERT_GT(cell_quality(grid).folded_cells, 20);
+    const double before = (grid.position - exact.position).norm();
+    keep_shapes(grid, 4);
+    EXPECT_EQ(cell_quality(grid).folded_cells, 0);
+    EXPECT_LT((grid.position - exact.position).norm(), 0.3 * before);
+    for (int n = 0; n < grid.nodes(); ++n) {
+        const int i = n % (columns + 1), j = n / (columns + 1);
+        if (i == 0 || j == 0 || i == columns || j == rows)
+            EXPECT_EQ(grid.position.col(n), exact.position.col(n));
+    }
+}
+
+TEST(KeepShapes, CellsOfOneShapeStayWhereTheyAre)
+{
+    const QuadGrid exact = sheared_cells(0);
+    QuadGrid kept = exact;
+    keep_shapes(kept, 4);
+    EXPECT_LT((kept.position - exact.position).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+} // namespace spia
