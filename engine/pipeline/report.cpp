@@ -342,6 +342,7 @@ Json grid_json(const Session& session)
             {"folded_cells", grid.quality.folded_cells},
             {"method", name(grid.route)},
             {"to_bends", grid.to_bends},
+            {"no_bends", grid.no_bends},
             {"evened", grid.evened},
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},
             {"worst_cell", worst_cell(grid.planar)},

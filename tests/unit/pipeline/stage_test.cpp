@@ -200,6 +200,17 @@ TEST(Report, HasTheKeysOfTheContractAndTheFiguresOfTheResult)
 }
 
 /// The figures of a part with holes and of a blank that lies on itself, each found in another way than the report's.
+TEST(Report, TellsWhetherLinesStayedForWantOfBends)
+{
+    Session session = finished("dome.obj");
+    for (const bool none : {false, true}) {
+        GridStage grid = *session.grid;
+        grid.result.no_bends = none;
+        session.grid = std::make_shared<GridStage>(grid);
+        EXPECT_EQ(nlohmann::json::parse(report_json(session, {}, 0)).at("grid").at("no_bends"), none);
+    }
+}
+
 TEST(Report, GivesTheFiguresOfTheResult)
 {
     const Session session = finished("inner-panel.obj");
