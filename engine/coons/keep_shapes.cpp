@@ -34,7 +34,7 @@ CellEdges mean_edges(const QuadGrid& grid, int i, int j, int around)
         mean.u += at(right, b) - at(left, b);
     for (int a = left; a <= right; ++a)
         mean.v += at(a, high) - at(a, low);
-    mean.u /= 2 * (right - left) * (high - low + 1);
+    mean.u /= (right - left) * (high - low + 1);
     mean.v /= (high - low) * (right - left + 1);
     return mean;
 }
@@ -43,7 +43,7 @@ CellEdges wanted_edges(const QuadGrid& grid, int i, int j, int around)
 {
     CellEdges edges = mean_edges(grid, i, j, around);
     while (edges.slant() < folded_mean && around < std::max(grid.columns, grid.rows))
-        edges = mean_edges(grid, i, j, around = 2 * around + 1);
+        edges = mean_edges(grid, i, j, around = std::max(1, 2 * around));
     if (!(edges.u.squaredNorm() > 0)) // between border nodes in one place
         edges.u << 1, 0;
     if (const double lacks = least_slant - edges.slant(); lacks > 0) {
