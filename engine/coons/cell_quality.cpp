@@ -50,18 +50,34 @@ Eigen::VectorXd scaled_jacobians(const QuadGrid& planar)
     return result;
 }
 
+namespace {
+
+bool folds(const QuadGrid& planar, const Eigen::VectorXd& jacobian, int cell)
+{
+    return !(jacobian[cell] > least_sine &&
+             turns_left_everywhere(corners_of(planar, cell % planar.columns, cell / planar.columns)));
+}
+
+} // namespace
+
+std::vector<int> folded_cells(const QuadGrid& planar)
+{
+    const Eigen::VectorXd jacobian = scaled_jacobians(planar);
+    std::vector<int> folded;
+    for (int cell = 0; cell < jacobian.size(); ++cell)
+        if (folds(planar, jacobian, cell))
+            folded.push_back(cell);
+    return folded;
+}
+
 CellQuality cell_quality(const QuadGrid& planar)
 {
     const Eigen::VectorXd jacobian = scaled_jacobians(planar);
     CellQuality quality;
     quality.min_scaled_jacobian = jacobian.size() > 0 ? jacobian.minCoeff() : 1;
-    for (int j = 0; j < planar.rows; ++j)
-        for (int i = 0; i < planar.columns; ++i) {
-            const int cell = i + j * planar.columns;
-            const bool good = jacobian[cell] > least_sine && turns_left_everywhere(corners_of(planar, i, j));
-            if (!good && quality.folded_cells++ == 0)
-                quality.first_folded = cell;
-        }
+    for (int cell = 0; cell < jacobian.size(); ++cell)
+        if (folds(planar, jacobian, cell) && quality.folded_cells++ == 0)
+            quality.first_folded = cell;
     return quality;
 }
 

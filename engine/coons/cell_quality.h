@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "engine/coons/quad_grid.h"
 
@@ -21,8 +22,11 @@ Eigen::VectorXd scaled_jacobians(const QuadGrid& planar);
 /// (orient2d()). Its bilinear map then has a positive determinant everywhere, which is linear between those at the corners.
 bool turns_left_everywhere(const std::array<Eigen::Vector2d, 4>& corner);
 
-/// Looks at the four corners of each cell in the plane (z is not read). A cell folds unless it turns_left_everywhere() and
-/// all its corners have a sine above 1e-9: one of 180 degrees counts as folded, as does a node that is no number.
+/// The cells i + j * columns that fold, rising: those that do not turn_left_everywhere(), and those with a sine of a corner not
+/// above 1e-9: one of 180 degrees counts as folded, as does a node that is no number.
+std::vector<int> folded_cells(const QuadGrid& planar);
+
+/// Looks at the four corners of each cell in the plane (z is not read).
 CellQuality cell_quality(const QuadGrid& planar);
 
 } // namespace spia

@@ -223,7 +223,7 @@ namespace {
 std::vector<std::array<int, 2>> finer_counts(int cells)
 {
     std::vector<std::array<int, 2>> counts;
-    for (const int finer : {80, 160, 240, 400})
+    for (const int finer : {80, 160, 240, 400, 640})
         if (finer > cells)
             counts.push_back({finer, finer});
     if (counts.empty())

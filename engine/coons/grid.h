@@ -55,7 +55,7 @@ struct GridResult {
 /// by length. Inside: bilinearly blended Coons patch (eq. 25); if a cell folds or a node misses the blank,
 /// Laplacian smoothing; then the harmonic map of the blank onto the unit square, inverted at the grid nodes;
 /// then untangling, from the harmonic map or from one that gives lobes their area (opened_map()), on a finer grid if the
-/// cell counts are automatic; last wound_grid(), on up to 400 x 400 cells if they are. Holes of the part are filled for
+/// cell counts are automatic; last wound_grid(), on up to 640 x 640 cells if they are. Holes of the part are filled for
 /// this. A sound grid is then adapted as the options ask.
 /// @param boundary of the same blank, see split_boundary()
 /// @throws InputError if every way folds a cell; the message says at which corner, and what to choose instead;

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/coons/cell_quality.h"
 #include "engine/coons/unfold_elements.h"
 
 namespace spia {
@@ -14,6 +15,7 @@ namespace {
 constexpr int most_steps = 150;
 constexpr double area_weight = 0.3;  // of keeping the areas against keeping the shapes
 constexpr double folded_mean = 1e-4; // determinant over squared edges below which the mean is taken of more cells
+constexpr std::array<int, 3> reaches = {4, 16, 64}; // cells around folded ones that move along, in turn
 constexpr double least_slant = 0.05; // of the wanted cells likewise: one that is nearly flat is given some height
 
 /// The edges of a cell along u and along v.
@@ -53,31 +55,61 @@ CellEdges wanted_edges(const QuadGrid& grid, int i, int j, int around)
     return edges;
 }
 
-PlanarElements cell_corners(const QuadGrid& grid, int around)
+/// Per node 1 where it may move: inside of the grid, and at a cell not more than `reach` cells from one that folds.
+std::vector<char> movable(const QuadGrid& grid, const std::vector<int>& folded, int reach)
 {
+    std::vector<char> result(size_t(grid.nodes()), 0);
+    for (const int cell : folded) {
+        const int i = cell % grid.columns, j = cell / grid.columns;
+        for (int b = std::max(1, j - reach); b <= std::min(grid.rows - 1, j + 1 + reach); ++b)
+            for (int a = std::max(1, i - reach); a <= std::min(grid.columns - 1, i + 1 + reach); ++a)
+                result[size_t(grid.node(a, b))] = 1;
+    }
+    return result;
+}
+
+/// The triangles at the corners of all cells with a node that moves.
+struct Corners {
     PlanarElements elements;
-    const int cells = grid.columns * grid.rows;
-    elements.triangle.resize(3, 4 * cells);
-    elements.to_shape.resize(size_t(4 * cells));
-    elements.weight = Eigen::VectorXd::Ones(4 * cells);
-    elements.fixed = Eigen::Matrix2Xi::Ones(2, grid.nodes());
+    std::vector<int> node; ///< of the grid, per vertex
+};
+
+Corners cell_corners(const QuadGrid& grid, const std::vector<CellEdges>& wanted, const std::vector<char>& moves)
+{
+    Corners corners;
+    PlanarElements& elements = corners.elements;
+    std::vector<int> vertex(size_t(grid.nodes()), -1);
+    std::vector<Eigen::Vector3i> triangles;
     for (int j = 0; j < grid.rows; ++j)
         for (int i = 0; i < grid.columns; ++i) {
-            if (i > 0 && j > 0)
-                elements.fixed.col(grid.node(i, j)).setZero();
             const std::array<int, 4> node = {grid.node(i, j), grid.node(i + 1, j), grid.node(i + 1, j + 1),
                                              grid.node(i, j + 1)};
-            const CellEdges edges = wanted_edges(grid, i, j, around);
+            if (std::none_of(node.begin(), node.end(), [&](int n) { return moves[size_t(n)]; }))
+                continue;
+            for (const int n : node)
+                if (vertex[size_t(n)] < 0) {
+                    vertex[size_t(n)] = int(corners.node.size());
+                    corners.node.push_back(n);
+                }
+            const CellEdges& edges = wanted[size_t(i + j * grid.columns)];
             const std::array<Eigen::Vector2d, 4> way = {edges.u, edges.v, -edges.u, -edges.v};
             for (size_t k = 0; k < 4; ++k) {
-                const int element = 4 * (i + j * grid.columns) + int(k);
-                elements.triangle.col(element) << node[k], node[(k + 1) % 4], node[(k + 3) % 4];
-                Eigen::Matrix2d wanted;
-                wanted << way[k], way[(k + 1) % 4];
-                elements.to_shape[size_t(element)] = wanted.inverse();
+                triangles.emplace_back(vertex[size_t(node[k])], vertex[size_t(node[(k + 1) % 4])],
+                                       vertex[size_t(node[(k + 3) % 4])]);
+                Eigen::Matrix2d shape;
+                shape << way[k], way[(k + 1) % 4];
+                elements.to_shape.push_back(shape.inverse());
             }
         }
-    return elements;
+    elements.triangle.resize(3, Eigen::Index(triangles.size()));
+    for (size_t t = 0; t < triangles.size(); ++t)
+        elements.triangle.col(Eigen::Index(t)) = triangles[t];
+    elements.weight = Eigen::VectorXd::Ones(Eigen::Index(triangles.size()));
+    elements.fixed = Eigen::Matrix2Xi::Ones(2, Eigen::Index(corners.node.size()));
+    for (size_t v = 0; v < corners.node.size(); ++v)
+        if (moves[size_t(corners.node[v])])
+            elements.fixed.col(Eigen::Index(v)).setZero();
+    return corners;
 }
 
 double mean_area(const PlanarElements& elements)
@@ -94,14 +126,25 @@ void keep_shapes(QuadGrid& planar, int around, const Progress& progress)
 {
     if (planar.columns < 2 || planar.rows < 2)
         return; // no inner node
-    const PlanarElements elements = cell_corners(planar, around);
-    Eigen::Matrix2Xd position = planar.position.topRows(2);
-    UnfoldOptions options;
-    options.most_steps = most_steps;
-    options.area_weight = area_weight;
-    options.element_area = mean_area(elements);
-    unfold_elements(position, elements, {}, options, progress);
-    planar.position.topRows(2) = position;
+    std::vector<CellEdges> wanted;
+    for (int j = 0; j < planar.rows; ++j)
+        for (int i = 0; i < planar.columns; ++i)
+            wanted.push_back(wanted_edges(planar, i, j, around));
+    double done = 0;
+    for (const int reach : reaches) {
+        const std::vector<int> folded = folded_cells(planar);
+        if (folded.empty())
+            return;
+        const Corners corners = cell_corners(planar, wanted, movable(planar, folded, reach));
+        Eigen::Matrix2Xd position = planar.position(Eigen::seq(0, 1), corners.node);
+        UnfoldOptions options;
+        options.most_steps = most_steps;
+        options.area_weight = area_weight;
+        options.element_area = mean_area(corners.elements);
+        unfold_elements(position, corners.elements, {}, options, progress.part(done, done + 1. / reaches.size()));
+        done += 1. / reaches.size();
+        planar.position(Eigen::seq(0, 1), corners.node) = position;
+    }
 }
 
 } // namespace spia

@@ -18,6 +18,7 @@ constexpr std::array<double, 2> area_weights = {0.05, 0.3}; // of the map, tried
 constexpr double share_to_long = 0.8;                       // of the lines, to where cells are long
 constexpr double growth = 3;                                // of neighbouring spacings
 constexpr int mean_of = 4;                                  // cells on either side
+constexpr double too_coarse = 0.15; // of the cells fold before any is moved: a finer grid is tried at once if there is one
 
 std::optional<SquareMap> slid_map(const GridWorkshop& shop, double area_weight, const Progress& progress)
 {
@@ -51,13 +52,15 @@ GridResult grid_on(const SquareMap& map, const GridWorkshop& shop, const MapLine
     return grid_of_map(map, shop, lines, border_of_map(map.map, shop.boundary, lines));
 }
 
-GridResult kept_shapes(const SquareMap& map, const GridWorkshop& shop, int columns, int rows, const Progress& progress)
+GridResult kept_shapes(const SquareMap& map, const GridWorkshop& shop, int columns, int rows, bool last,
+                       const Progress& progress)
 {
     const GridResult even = grid_on(map, shop, even_lines(columns, rows));
     GridResult grid = grid_on(map, shop,
                               {spaced_lines(longest_edges(even.planar, true), columns, share_to_long, growth),
                                spaced_lines(longest_edges(even.planar, false), rows, share_to_long, growth)});
-    if (!border_is_possible(grid, shop.blank.overlaps_itself()))
+    if (!border_is_possible(grid, shop.blank.overlaps_itself()) ||
+        (!last && grid.quality.folded_cells > too_coarse * columns * rows))
         return grid;
     keep_shapes(grid.planar, mean_of, progress.part(0, 0.7));
     find_nodes(shop.blank, grid);
@@ -80,7 +83,8 @@ std::optional<GridResult> wound_grid(const GridWorkshop& shop, const std::vector
     const double each = 0.8 / double(std::max<size_t>(1, counts.size() * maps.size()));
     for (const auto& [columns, rows] : counts)
         for (const SquareMap& map : maps) {
-            GridResult grid = kept_shapes(map, shop, columns, rows, progress.part(done, done + each));
+            const bool last = std::array{columns, rows} == counts.back();
+            GridResult grid = kept_shapes(map, shop, columns, rows, last, progress.part(done, done + each));
             if (is_sound(grid))
                 return grid;
             done += each;

@@ -19,11 +19,20 @@ constexpr double pi = std::numbers::pi;
 /// Places in a loop, rising.
 using Places = std::vector<int>;
 
-/// The sharpest place of every stretch of a loop that turns by more than `corner`.
-Places corners(const Outline& outline, double corner)
+/// Whether a length of the loop is within a distance of one of its places.
+bool is_near(const Outline& outline, const Places& places, double length, double distance)
+{
+    return std::any_of(places.begin(), places.end(), [&](int j) {
+        const double away = std::abs(length - outline.length_at(j));
+        return std::min(away, outline.perimeter() - away) < distance;
+    });
+}
+
+/// The sharpest place of every stretch of a loop that turns by more than `corner` over a share of it to both sides.
+Places corners(const Outline& outline, double corner, double share)
 {
     const int n = outline.size();
-    const double reach = 0.02 * outline.perimeter();
+    const double reach = share * outline.perimeter();
     std::vector<double> turn(static_cast<size_t>(n));
     for (int i = 0; i < n; ++i)
         turn[size_t(i)] = std::abs(outline.turning(i, reach, reach));
@@ -80,7 +89,7 @@ struct LoopPlaces {
 };
 
 Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bool hole, double corner_turn,
-                 double spacing, const std::vector<int>& forced, bool only_forced)
+                 const std::vector<double>& corner_reach, double spacing, const std::vector<int>& forced, bool only_forced)
 {
     const Outline outline(loop, plane);
     const int n = int(loop.size());
@@ -90,13 +99,11 @@ Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bo
             places.push_back(i);
     if (only_forced)
         return places;
-    for (const int i : corners(outline, corner_turn)) { // not right beside a forced one
-        const bool near = std::any_of(places.begin(), places.end(), [&](int j) {
-            const double away = std::abs(outline.length_at(i) - outline.length_at(j));
-            return std::min(away, outline.perimeter() - away) < 0.03 * outline.perimeter();
-        });
-        if (!near)
-            places.push_back(i);
+    for (const double share : corner_reach) { // not right beside a forced one, nor one that was found already
+        const Places before = places;
+        for (const int i : corners(outline, corner_turn, share))
+            if (!is_near(outline, before, outline.length_at(i), 1.5 * share * outline.perimeter()))
+                places.push_back(i);
     }
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -188,10 +195,13 @@ PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOpt
             sheet += 0.5 * (blank.position(0, loop[j]) * blank.position(1, loop[i]) -
                             blank.position(0, loop[i]) * blank.position(1, loop[j]));
     const double spacing = options.spacing * std::sqrt(sheet / std::max<double>(1, double(loops.size()) - 1));
+    std::vector<double> corner_reach = {0.02}; // of a loop's length
+    if (options.layers)
+        corner_reach.push_back(0.005); // two corners side by side as well
     std::vector<LoopPlaces> chosen;
     for (size_t l = 0; l < loops.size(); ++l)
         chosen.push_back({loops[l], places_of(loops[l], blank.position, l != outer, options.corner_deg * pi / 180,
-                                              spacing, forced, only_forced)});
+                                              corner_reach, spacing, forced, only_forced)});
     if (!only_forced)
         make_even(chosen, outer, blank.position);
 

@@ -8,28 +8,12 @@
 #include "engine/layout/matching.h"
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
-#include "engine/layout/spokes.h"
 
 namespace spia {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// The direction in which a curve leaves its beginning, taken at once or over a share of its length.
-Eigen::Vector2d leaving(const PlaneGraph& graph, CurveUse use, double share)
-{
-    const LayoutCurve& curve = graph.curve[size_t(use.curve)];
-    const Eigen::Index n = curve.plane.cols();
-    if (share == 0)
-        return use.reversed ? Eigen::Vector2d(curve.plane.col(n - 2) - curve.plane.col(n - 1))
-                            : Eigen::Vector2d(curve.plane.col(1) - curve.plane.col(0));
-    const Eigen::Matrix2Xd p =
-        points_on(curve, use.reversed ? std::vector<double>{1, 1 - share} : std::vector<double>{0, share});
-    return p.col(1) - p.col(0);
-}
-
-CurveUse turned(CurveUse use) { return {use.curve, !use.reversed}; }
 
 /// Radians from a to b, counter-clockwise: 0 to 2 pi.
 double turn_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
@@ -80,42 +64,20 @@ void keep_used_curves(PlaneGraph& graph, std::vector<Face>& faces)
     graph.curve = std::move(kept);
 }
 
-/// Both halves of a curve, at half its length. The second one's number follows the first one's.
-int halve(const PlaneGraph& old, int curve, PlaneGraph& graph)
+} // namespace
+
+CurveUse turned(CurveUse use) { return {use.curve, !use.reversed}; }
+
+Eigen::Vector2d leaving(const PlaneGraph& graph, CurveUse use, double share)
 {
-    const LayoutCurve& whole = old.curve[size_t(curve)];
-    const Eigen::Vector2d middle = points_on(whole, {0.5}).col(0);
-    double reached = 0;
-    const double half = length(whole) / 2;
-    Eigen::Index before = 0; // the last point of the first half
-    for (Eigen::Index i = 1; i < whole.plane.cols(); ++i) {
-        reached += (whole.plane.col(i) - whole.plane.col(i - 1)).norm();
-        if (reached >= half * (1 - 1e-9))
-            break;
-        before = i;
-    }
-    Eigen::Index after = before + 1;
-    while (after + 1 < whole.plane.cols() && (whole.plane.col(after) - middle).norm() <= 1e-6 * half)
-        ++after; // a point of the curve is the middle
-    while (before > 0 && (whole.plane.col(before) - middle).norm() <= 1e-6 * half)
-        --before;
-    const int vertex = int(graph.vertex.size());
-    graph.vertex.push_back(middle);
-    graph.border.push_back(std::nullopt); // all lines to it are drawn already
-    LayoutCurve first{{whole.vertex[0], vertex}, {}, {}}, second{{vertex, whole.vertex[1]}, {}, {}};
-    const auto split = [&](const auto& points, const auto& at, auto& one, auto& other) {
-        one.resize(points.rows(), before + 2);
-        one << points.leftCols(before + 1), at;
-        other.resize(points.rows(), points.cols() - after + 1);
-        other << at, points.rightCols(points.cols() - after);
-    };
-    split(whole.plane, middle, first.plane, second.plane);
-    if (whole.on_border())
-        split(whole.part, Eigen::Vector3d(part_points_on(whole, {0.5}).col(0)), first.part, second.part);
-    const int number = int(graph.curve.size());
-    graph.curve.push_back(std::move(first));
-    graph.curve.push_back(std::move(second));
-    return number;
+    const LayoutCurve& curve = graph.curve[size_t(use.curve)];
+    const Eigen::Index n = curve.plane.cols();
+    if (share == 0)
+        return use.reversed ? Eigen::Vector2d(curve.plane.col(n - 2) - curve.plane.col(n - 1))
+                            : Eigen::Vector2d(curve.plane.col(1) - curve.plane.col(0));
+    const Eigen::Matrix2Xd p =
+        points_on(curve, use.reversed ? std::vector<double>{1, 1 - share} : std::vector<double>{0, share});
+    return p.col(1) - p.col(0);
 }
 
 std::vector<Eigen::Vector2d> polygon(const PlaneGraph& graph, const Face& face)
@@ -129,70 +91,6 @@ std::vector<Eigen::Vector2d> polygon(const PlaneGraph& graph, const Face& face)
     return points;
 }
 
-/// Whether straight lines from a place to all of these points meet the polygon nowhere else.
-bool sees(const Eigen::Vector2d& from, const std::vector<Eigen::Vector2d>& points,
-          const std::vector<Eigen::Vector2d>& polygon)
-{
-    Eigen::Matrix2Xd closed(2, Eigen::Index(polygon.size()));
-    for (size_t i = 0; i < polygon.size(); ++i)
-        closed.col(Eigen::Index(i)) = polygon[i];
-    if (!inside_polygon(closed, from))
-        return false;
-    for (const Eigen::Vector2d& to : points)
-        for (size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-            if (polygon[i] != to && polygon[j] != to && segments_meet(from, to, polygon[j], polygon[i]))
-                return false;
-    return true;
-}
-
-/// A place from which all middles are seen: the mean of corners and middles, else the best of places around it. Nothing if there is none.
-std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& corners,
-                                         const std::vector<Eigen::Vector2d>& middles,
-                                         const std::vector<Eigen::Vector2d>& polygon)
-{
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (size_t k = 0; k < corners.size(); ++k)
-        mean += (corners[k] + 2 * middles[k]) / (3. * double(corners.size()));
-    if (sees(mean, middles, polygon))
-        return mean;
-    for (const double share : {0.3, 0.6, 0.85})
-        for (const auto* towards : {&middles, &corners})
-            for (const Eigen::Vector2d& to : *towards) {
-                const Eigen::Vector2d place = mean + share * (to - mean);
-                if (sees(place, middles, polygon))
-                    return place;
-            }
-    return std::nullopt;
-}
-
-/// From the middles of the sides to one place: straight lines where they can be, else bent around what is in their way.
-Spokes divided(const std::vector<Eigen::Vector2d>& corners, const std::vector<Eigen::Vector2d>& middles,
-               const std::vector<Eigen::Vector2d>& polygon)
-{
-    Spokes result;
-    if (const auto straight = middle_of(corners, middles, polygon)) {
-        result.centre = *straight;
-        for (const Eigen::Vector2d& middle : middles)
-            result.line.push_back((Eigen::Matrix2Xd(2, 2) << middle, *straight).finished());
-        return result;
-    }
-    Eigen::Matrix2Xd points(2, Eigen::Index(polygon.size()));
-    for (size_t i = 0; i < polygon.size(); ++i)
-        points.col(Eigen::Index(i)) = polygon[i];
-    std::vector<int> start;
-    for (const Eigen::Vector2d& middle : middles)
-        start.push_back(int(std::find(polygon.begin(), polygon.end(), middle) - polygon.begin()));
-    if (auto bent = spokes(points, start))
-        return std::move(*bent);
-    const Eigen::Vector2d where = points.rowwise().mean();
-    throw InputError(fmt::format(
-        "the blank cannot be divided into four-sided patches near ({:.6g}, {:.6g}) of its plane: it is too narrow "
-        "there beside its arcs; give cuts (--patches FILE)",
-        where.x(), where.y()));
-}
-
-} // namespace
-
 int start_of(const PlaneGraph& graph, CurveUse use)
 {
     return graph.curve[size_t(use.curve)].vertex[use.reversed ? 1 : 0];
@@ -200,9 +98,8 @@ int start_of(const PlaneGraph& graph, CurveUse use)
 
 double corner_angle(const PlaneGraph& graph, const Face& face, size_t k)
 {
-    constexpr double share = 0.1;
     const CurveUse before = turned(face[(k + face.size() - 1) % face.size()]);
-    return turn_to(leaving(graph, face[k], share), leaving(graph, before, share));
+    return turn_to(leaving(graph, face[k], corner_share), leaving(graph, before, corner_share));
 }
 
 std::vector<Face> faces_of(const PlaneGraph& graph)
@@ -317,44 +214,6 @@ bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_an
     faces = std::move(result);
     keep_used_curves(graph, faces);
     return all;
-}
-
-void divide_faces(PlaneGraph& graph, std::vector<Face>& faces)
-{
-    const PlaneGraph old = std::move(graph);
-    graph = {old.vertex, old.border, {}, {}};
-    std::vector<int> first_half;
-    for (int c = 0; c < int(old.curve.size()); ++c)
-        first_half.push_back(halve(old, c, graph));
-    std::vector<Face> result;
-    for (const Face& face : faces) {
-        std::vector<Eigen::Vector2d> corners, middles;
-        std::vector<int> spoke;
-        Face halves;
-        for (const CurveUse use : face) {
-            const int half = first_half[size_t(use.curve)];
-            halves.push_back({use.reversed ? half + 1 : half, use.reversed});
-            halves.push_back({use.reversed ? half : half + 1, use.reversed});
-            corners.push_back(graph.vertex[size_t(start_of(old, use))]);
-            middles.push_back(graph.vertex[size_t(graph.curve[size_t(half)].vertex[1])]);
-        }
-        const int centre = int(graph.vertex.size());
-        const Spokes from_middle = divided(corners, middles, polygon(graph, halves));
-        graph.vertex.push_back(from_middle.centre);
-        graph.border.push_back(std::nullopt);
-        for (size_t k = 0; k < face.size(); ++k) {
-            LayoutCurve line;
-            line.vertex = {graph.curve[size_t(first_half[size_t(face[k].curve)])].vertex[1], centre};
-            line.plane = from_middle.line[k];
-            spoke.push_back(int(graph.curve.size()));
-            graph.curve.push_back(std::move(line));
-        }
-        for (size_t k = 0; k < face.size(); ++k) { // around the corner at the start of side k
-            const size_t before = (k + face.size() - 1) % face.size();
-            result.push_back({halves[2 * k], {spoke[k], false}, {spoke[before], true}, halves[2 * before + 1]});
-        }
-    }
-    faces = std::move(result);
 }
 
 } // namespace spia

@@ -289,43 +289,44 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
 
 namespace {
 
+/// The ways to divide a blank, in turn: as few patches as there can be, then more of them with better corners.
+std::vector<LayoutOptions> ways_to_divide(const LayoutOptions& layout)
+{
+    std::vector<LayoutOptions> ways(3, layout);
+    ways[1].layers = ways[2].layers = true;
+    ways[2].split = true;
+    return ways;
+}
+
+/// What a fit is worth: no fold before the tolerance.
+int worth(const PatchesFit& fit) { return 2 * certify(fit.patches).suited() + fit.reached; }
+
+constexpr int worth_all = 3;
+
 PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
                         const PatchesFitOptions& options, const Progress& progress)
 {
     progress.checkpoint(0, "dividing the blank into patches");
-    std::optional<PatchesFit> plain;
-    if (!layout.split) {
-        try {
-            plain = fit_patches(part, blank, make_layout(part, blank, layout), options, progress.part(0, 0.5));
-        } catch (const InputError&) { // what is wrong is said by the divided layout, if that fails too
-        }
-        if (plain && (plain->layout.split || (plain->reached && certify(plain->patches).suited())))
-            return std::move(*plain);
-    }
-    // Better corners, worth it only where they help. Other vertices on the border where a face has a corner without room for cells.
+    std::optional<PatchesFit> best;
     std::optional<InputError> first;
-    for (const auto& [corner, closer] :
-         {std::pair(1., 1.), std::pair(1., 0.5), std::pair(1.5, 0.5), std::pair(0.7, 0.5), std::pair(1.5, 0.25)}) {
-        LayoutOptions divided = layout;
-        divided.split = true;
-        divided.corner_deg *= corner;
-        divided.spacing *= closer;
+    int best_worth = -1;
+    const std::vector<LayoutOptions> ways = ways_to_divide(layout);
+    for (size_t k = 0; k < ways.size() && best_worth < worth_all; ++k) {
+        const Progress here = progress.part(double(k) / double(ways.size()), double(k + 1) / double(ways.size()));
         try {
-            PatchesFit other =
-                fit_patches(part, blank, make_layout(part, blank, divided), options, progress.part(0.5, 1));
-            if (!plain || (certify(other.patches).suited() && other.reached >= plain->reached))
-                return other;
-            break;
+            PatchesFit fit = fit_patches(part, blank, make_layout(part, blank, ways[k]), options, here);
+            if (const int now = worth(fit); now > best_worth) {
+                best = std::move(fit);
+                best_worth = now;
+            }
         } catch (const InputError& error) {
-            if (plain)
-                break;
             if (!first)
                 first = error;
         }
     }
-    if (!plain)
+    if (!best)
         throw *first;
-    return std::move(*plain);
+    return std::move(*best);
 }
 
 } // namespace

@@ -120,8 +120,11 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
     const bool ready = !faces.empty() && all_four_sided(faces);
     if (!ready) {
         if (options.corners.empty() && options.cuts.empty())
-            add_rings(graph);
-        triangulate(graph);
+            options.layers ? add_layers(graph) : add_rings(graph);
+        const int first_line = int(graph.curve.size());
+        triangulate(graph, options.layers);
+        if (options.layers)
+            flip_lines(graph, first_line);
         faces = faces_of(graph);
         join_arcs(graph, faces);
     }
@@ -136,10 +139,10 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         }
     }
     const bool split = options.split || !paired;
-    if (split && !paired) // as far as they go: four patches of a pair instead of six
+    if (split && !paired) // as far as they go: one patch of a pair instead of six
         pair_triangles(graph, faces, options.worst_angle_deg * std::numbers::pi / 180);
     if (split)
-        divide_faces(graph, faces);
+        divide_faces(graph, faces, options.split);
     Layout layout = layout_of(graph, faces);
     layout.split = split;
     return layout;

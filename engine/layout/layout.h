@@ -51,6 +51,7 @@ struct LayoutOptions {
                                  ///< complement to 180; half of it and a quarter are tried, too
     double spacing = 1.2;        ///< of vertices along the outline, over the mean distance of holes
     bool split = false;          ///< divide every face, even where triangles pair
+    bool layers = false;         ///< rows of patches along all arcs that bulge into the sheet: see add_layers()
     bool smooth_joins = false;   ///< of the fit: take the angles out of the joins of the patches, see smooth_joins()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 

@@ -32,11 +32,31 @@ PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOpt
 /// from hole to hole step by step.
 void add_rings(PlaneGraph& graph);
 
+/// Lays a row of four-sided faces along every arc of the border that bulges into the sheet, as thin as its surroundings ask for;
+/// the arc is divided where it is bent too much for that. What is left of the sheet has straight sides there.
+/// @pre the graph has the border alone, all of its vertices on it
+void add_layers(PlaneGraph& graph);
+
 /// Joins vertices by straight lines until no more is possible.
-void triangulate(PlaneGraph& graph);
+/// @param complete  even by lines that leave the border at next to no angle
+void triangulate(PlaneGraph& graph, bool complete);
+
+/// Turns lines between two triangles to the other diagonal where that makes their least angle greater [Lawson 1977].
+/// @param first_line  curve from which on lines may be turned
+void flip_lines(PlaneGraph& graph, int first_line);
 
 /// The faces on the sheet. @throws InputError if a part of the border is joined to the rest by no line
 std::vector<Face> faces_of(const PlaneGraph& graph);
+
+CurveUse turned(CurveUse use);
+
+inline constexpr double corner_share = 0.1; ///< of a curve's length over which corners look at its direction
+
+/// The direction in which a curve leaves its beginning as it is used, taken at once or over a share of its length.
+Eigen::Vector2d leaving(const PlaneGraph& graph, CurveUse use, double share);
+
+/// The points of the border of a face, counter-clockwise.
+std::vector<Eigen::Vector2d> polygon(const PlaneGraph& graph, const Face& face);
 
 /// The vertex at the beginning of a curve as it is used.
 int start_of(const PlaneGraph& graph, CurveUse use);
@@ -51,8 +71,11 @@ void join_arcs(PlaneGraph& graph, std::vector<Face>& faces);
 /// Pairs of triangles to faces of four sides; four-sided ones stay. False if a face is left over.
 bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_angle);
 
-/// Divides each face from a place in its middle to the middles of its sides, by straight lines where these see it, else by bent ones (spokes()).
+/// Divides faces until all have four sides: those of other counts from a place in their middle to the middles of their sides, by
+/// straight lines where these see it, else by bent ones (spokes()); what is divided at a side so is divided on to the side across,
+/// strip by strip, until the border or another such face.
+/// @param all  every face is divided from its middle
 /// @throws InputError if a face is too narrow for that
-void divide_faces(PlaneGraph& graph, std::vector<Face>& faces);
+void divide_faces(PlaneGraph& graph, std::vector<Face>& faces, bool all);
 
 } // namespace spia

@@ -13,6 +13,7 @@ namespace {
 
 /// A line that leaves the border at less would run along it but for rounding, and leave no room for cells.
 constexpr double least_angle = 4 * std::numbers::pi / 180;
+constexpr double rounding = 1e-6; ///< radians, the same where no line is to be missing
 
 /// What a line may not meet. Its ends are vertices of the graph, or -1.
 struct Wall {
@@ -80,7 +81,7 @@ bool leaves_into_sheet(const PlaneGraph& graph, int v, int to)
 
 } // namespace
 
-void triangulate(PlaneGraph& graph)
+void triangulate(PlaneGraph& graph, bool complete)
 {
     std::vector<Line> lines;
     std::set<std::array<int, 2>> beside; // a line along an arc would leave a face of two sides
@@ -91,7 +92,7 @@ void triangulate(PlaneGraph& graph)
         for (int j = i + 1; j < n; ++j)
             if (!beside.contains({i, j}) && leaves_into_sheet(graph, i, j) && leaves_into_sheet(graph, j, i))
                 if (const double angle = angle_to_border(graph, i, j);
-                    angle > least_angle) // long ones and flat ones are dear
+                    angle > (complete ? rounding : least_angle)) // long ones and flat ones are dear
                     lines.push_back(
                         {i, j, (graph.vertex[size_t(j)] - graph.vertex[size_t(i)]).norm() / std::sin(angle)});
     std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.cost < b.cost; });

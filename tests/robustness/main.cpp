@@ -7,6 +7,7 @@
 #include <map>
 
 #include "engine/forming/material_library.h"
+#include "tests/robustness/layout_run.h"
 #include "tests/robustness/shape_run.h"
 #include "tests/robustness/unfold_run.h"
 #include "tests/support/check_grid.h"
@@ -121,6 +122,25 @@ int grid_all(const std::string& only, int each)
     return wrong;
 }
 
+/// A table of patches around the holes of plates drawn by lot. @returns how many have none, or faulty ones
+int layout_all(int plates)
+{
+    fmt::print("| plate | patches | divided | within the tolerance | seconds | fault |\n|---|---|---|---|---|---|\n");
+    int wrong = 0;
+    for (int number = 0; number < plates; ++number) {
+        const shapes::OutlineByLot lot = shapes::outline_by_lot(shapes::outline_kinds - 1, number);
+        const auto clock = std::chrono::steady_clock::now();
+        const LayoutRun run = run_layout(lot);
+        fmt::print("| {} | {} | {} | {} | {:.1f} | {} |\n", lot.name, run.patches, run.split ? "yes" : "",
+                   run.reached ? "yes" : "no", std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(),
+                   run.fault);
+        std::fflush(stdout);
+        wrong += !run.fault.empty();
+    }
+    fmt::print("{} of {} plates have no patches, or faulty ones\n", wrong, plates);
+    return wrong;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -131,7 +151,7 @@ int main(int argc, char** argv)
     std::string only;
     std::filesystem::path folder;
     bool verbose = false, unfold = false;
-    int grids = 0;
+    int grids = 0, layouts = 0;
     double edge = 0;
     app.add_option("--triangles", triangles, "about how many each shape has")->capture_default_str();
     app.add_option("--seed", seed, "of all lots")->capture_default_str();
@@ -141,9 +161,12 @@ int main(int argc, char** argv)
     app.add_flag("--verbose", verbose, "a line per shape");
     app.add_flag("--unfold", unfold, "the bent parts instead, step by step, beside other methods");
     app.add_option("--grids", grids, "grids over that many outlines of each kind instead, with corners drawn by lot");
+    app.add_option("--layouts", layouts, "patches around the holes of that many plates instead, drawn by lot");
     CLI11_PARSE(app, argc, argv);
     if (grids > 0)
         return grid_all(only, grids) == 0 ? 0 : 1;
+    if (layouts > 0)
+        return layout_all(layouts) == 0 ? 0 : 1;
 
     FlattenOptions flattening;
     flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");

@@ -86,7 +86,10 @@ const PlannedStep* step_shown(const ViewerState& state)
 std::string window_title(const ViewerState& state)
 {
     const std::filesystem::path& about = state.project.empty() ? state.document.session.file : state.project;
-    return about.empty() ? "SPIA" : about.stem().string() + (state.unsaved ? "* - SPIA" : " - SPIA");
+    if (about.empty())
+        return "SPIA";
+    const bool refused = !state.document.session.part && !state.job.running;
+    return about.stem().string() + (state.unsaved ? "*" : "") + (refused ? " (refused) - SPIA" : " - SPIA");
 }
 
 } // namespace spia::viewer

@@ -147,7 +147,7 @@ bool is_old(const ViewerState& state, View view);
 /// Of a view, for people.
 const char* title(View view);
 
-/// Of the project, else of the part; with a star where something is not saved.
+/// Of the project, else of the part; with a star where something is not saved, and a word where the part was refused.
 std::string window_title(const ViewerState& state);
 
 } // namespace spia::viewer

@@ -199,7 +199,6 @@ TEST(Report, HasTheKeysOfTheContractAndTheFiguresOfTheResult)
     EXPECT_NEAR(json["blank"]["area_mm2"].get<double>(), volume, 1e-9 * volume);
 }
 
-/// The figures of a part with holes and of a blank that lies on itself, each found in another way than the report's.
 TEST(Report, TellsWhetherLinesStayedForWantOfBends)
 {
     Session session = finished("dome.obj");
@@ -211,6 +210,21 @@ TEST(Report, TellsWhetherLinesStayedForWantOfBends)
     }
 }
 
+TEST(Report, SaysThatABlankWinds)
+{
+    Session session = finished("dome.obj");
+    const auto winds = [&] {
+        const auto all = shortcomings(session);
+        return std::count_if(all.begin(), all.end(), [](const std::string& line) { return line.find("the blank winds") != line.npos; });
+    };
+    EXPECT_EQ(winds(), 0);
+    GridStage grid = *session.grid;
+    grid.result.route = GridRoute::wound;
+    session.grid = std::make_shared<GridStage>(grid);
+    EXPECT_EQ(winds(), 1);
+}
+
+/// The figures of a part with holes and of a blank that lies on itself, each found in another way than the report's.
 TEST(Report, GivesTheFiguresOfTheResult)
 {
     const Session session = finished("inner-panel.obj");

@@ -1,0 +1,114 @@
+#include "tests/robustness/layout_run.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <set>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/mesh/topology.h"
+#include "engine/nurbs/certificate.h"
+
+namespace spia {
+
+namespace {
+
+double area_of(const TriMesh& flat)
+{
+    double sum = 0;
+    for (int f = 0; f < flat.triangles(); ++f) {
+        const Eigen::Vector3d a = flat.position.col(flat.triangle(0, f)), b = flat.position.col(flat.triangle(1, f)),
+                              c = flat.position.col(flat.triangle(2, f));
+        sum += 0.5 * (b - a).cross(c - a).norm();
+    }
+    return sum;
+}
+
+std::string fault_of_layout(const Layout& layout, const TriMesh& part)
+{
+    std::vector<int> uses(layout.curve.size(), 0);
+    std::set<int> vertices;
+    double area_of_patches = 0;
+    for (const LayoutPatch& patch : layout.patch) {
+        for (const CurveUse use : patch)
+            ++uses[size_t(use.curve)];
+        area_of_patches += area(layout, patch);
+    }
+    for (size_t c = 0; c < uses.size(); ++c) {
+        vertices.insert({layout.curve[c].vertex[0], layout.curve[c].vertex[1]});
+        if (uses[c] != (layout.curve[c].on_border() ? 1 : 2))
+            return fmt::format("curve {} is a side of {} patches", c, uses[c]);
+    }
+    const int loops = int(boundary_loops(part).size()),
+              euler = int(vertices.size()) - int(uses.size()) + int(layout.patch.size());
+    if (euler != 2 - loops) // V - E + F of a disk with holes
+        return fmt::format("V - E + F is {} where the plate has {} loops", euler, loops);
+    if (const double plate = area_of(part); std::abs(area_of_patches - plate) > 1e-9 * plate)
+        return fmt::format("the patches cover {:.9g} of {:.9g} mm2", area_of_patches, plate);
+    return "";
+}
+
+/// Shared sides again, from the control points alone.
+std::string fault_of_sides(const MultiPatch& patches, int inner_curves)
+{
+    if (int(patches.interfaces.size()) != inner_curves)
+        return fmt::format("{} sides are shared, not {}", patches.interfaces.size(), inner_curves);
+    const auto control = [&](PatchSide side, int k) -> Eigen::Vector3d {
+        const NurbsSurface& s = patches.patch[size_t(side.patch)];
+        switch (side.side) {
+        case Side::v0: return s.control.col(k);
+        case Side::v1: return s.control.col(k + s.count_u * (s.count_v - 1));
+        case Side::u0: return s.control.col(k * s.count_u);
+        default: return s.control.col(k * s.count_u + s.count_u - 1);
+        }
+    };
+    const auto count = [&](PatchSide side) {
+        const NurbsSurface& s = patches.patch[size_t(side.patch)];
+        return side.side == Side::v0 || side.side == Side::v1 ? s.count_u : s.count_v;
+    };
+    for (const PatchInterface& joint : patches.interfaces) {
+        const int n = count(joint.first);
+        if (n != count(joint.second))
+            return fmt::format("patches {} and {} share a side of other counts", joint.first.patch, joint.second.patch);
+        for (int k = 0; k < n; ++k)
+            if (control(joint.first, k) != control(joint.second, joint.reversed ? n - 1 - k : k))
+                return fmt::format("patches {} and {} differ in a control point of their side", joint.first.patch,
+                                   joint.second.patch);
+    }
+    return "";
+}
+
+int inner_curves(const Layout& layout)
+{
+    return int(std::count_if(layout.curve.begin(), layout.curve.end(), [](const LayoutCurve& c) { return !c.on_border(); }));
+}
+
+} // namespace
+
+LayoutRun run_layout(const shapes::OutlineByLot& lot)
+{
+    LayoutRun result;
+    const Eigen::Matrix2Xd plane = lot.part.position.topRows(2);
+    PatchesFitOptions options;
+    options.tolerance = 1e-3 * (plane.rowwise().maxCoeff() - plane.rowwise().minCoeff()).norm();
+    try {
+        const PatchesFit fit = blank_patches(lot.part, Blank{plane}, {}, options);
+        result.patches = int(fit.patches.patch.size());
+        result.split = fit.layout.split;
+        result.reached = fit.reached;
+        result.fault = fault_of_layout(fit.layout, lot.part);
+        if (result.fault.empty())
+            result.fault = fault_of_sides(fit.patches, inner_curves(fit.layout));
+        const Certificate certificate = certify(fit.patches);
+        for (size_t p = 0; p < certificate.patch.size() && result.fault.empty(); ++p)
+            if (const auto& refusal = certificate.patch[p].refusal)
+                result.fault = fmt::format("patch {} {}", p, in_words(*refusal));
+    } catch (const InputError& error) {
+        result.fault = error.what();
+    }
+    return result;
+}
+
+} // namespace spia
