@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <optional>
+#include <tuple>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -292,16 +294,23 @@ namespace {
 /// The ways to divide a blank, in turn: as few patches as there can be, then more of them with better corners.
 std::vector<LayoutOptions> ways_to_divide(const LayoutOptions& layout)
 {
-    std::vector<LayoutOptions> ways(3, layout);
-    ways[1].layers = ways[2].layers = true;
-    ways[2].split = true;
+    std::vector<LayoutOptions> ways(4, layout);
+    ways[1].layers = ways[3].layers = true;
+    ways[2].split = ways[3].split = true;
     return ways;
 }
 
-/// What a fit is worth: no fold before the tolerance.
-int worth(const PatchesFit& fit) { return 2 * certify(fit.patches).suited() + fit.reached; }
+/// What a fit is worth: no fold, then the tolerance, then to be near.
+struct Worth {
+    bool suited = false, reached = false;
+    double deviation = std::numeric_limits<double>::infinity();
 
-constexpr int worth_all = 3;
+    bool all() const { return suited && reached; }
+    bool better_than(const Worth& other) const
+    {
+        return std::tuple(suited, reached, -deviation) > std::tuple(other.suited, other.reached, -other.deviation);
+    }
+};
 
 PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
                         const PatchesFitOptions& options, const Progress& progress)
@@ -309,16 +318,19 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
     progress.checkpoint(0, "dividing the blank into patches");
     std::optional<PatchesFit> best;
     std::optional<InputError> first;
-    int best_worth = -1;
+    Worth best_worth;
     const std::vector<LayoutOptions> ways = ways_to_divide(layout);
-    for (size_t k = 0; k < ways.size() && best_worth < worth_all; ++k) {
+    for (size_t k = 0; k < ways.size() && !best_worth.all(); ++k) {
         const Progress here = progress.part(double(k) / double(ways.size()), double(k + 1) / double(ways.size()));
         try {
             PatchesFit fit = fit_patches(part, blank, make_layout(part, blank, ways[k]), options, here);
-            if (const int now = worth(fit); now > best_worth) {
+            const Worth now{certify(fit.patches).suited(), fit.reached, fit.deviation_max()};
+            if (!best || now.better_than(best_worth)) {
                 best = std::move(fit);
                 best_worth = now;
             }
+            if (k == 2 && best_worth.suited)
+                break; // sharp edges of the part are in the way, whatever the patches
         } catch (const InputError& error) {
             if (!first)
                 first = error;

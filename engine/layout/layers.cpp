@@ -66,10 +66,9 @@ public:
         for (const LayoutCurve& curve : graph_.curve)
             for (Eigen::Index i = 0; i + 1 < curve.plane.cols(); ++i)
                 border_.push_back({curve.plane.col(i), curve.plane.col(i + 1)});
-        layered_.assign(graph_.curve.size(), 0);
+        for (const LayoutCurve& curve : graph_.curve) // as a whole: straight pieces of a bent arc meet at flat corners
+            layered_.push_back(is_bent(curve));
         divide_arcs();
-        for (size_t c = 0; c < graph_.curve.size(); ++c)
-            layered_[c] = is_bent(graph_.curve[c]);
         look_around();
         for (int round = 0; round < most_rounds && adjust(); ++round) {
         }

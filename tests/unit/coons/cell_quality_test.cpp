@@ -29,6 +29,7 @@ TEST(CellQuality, ANodePulledOverItsNeighbourFoldsTheCellsItShould)
     grid.position.col(grid.node(2, 1)).x() = 3.5;
     EXPECT_EQ(cell_quality(grid).folded_cells, 2);
     EXPECT_EQ(cell_quality(grid).first_folded, 2);
+    EXPECT_EQ(folded_cells(grid), (std::vector{2, 6})); // in the rows below and above
     EXPECT_LT(cell_quality(grid).min_scaled_jacobian, 0);
 }
 

@@ -49,6 +49,21 @@ TEST(KeepShapes, CellsThatFoldAreUnfoldedToTheMeanShapeOfTheOthers)
     }
 }
 
+TEST(KeepShapes, CellsFarFromAFoldStayToTheLastBit)
+{
+    QuadGrid grid = sheared_cells(0);
+    const int folded = grid.node(columns - 2, rows - 2);
+    grid.position.col(folded).head<2>() -= 1.3 * along_column;
+    const QuadGrid before = grid;
+    ASSERT_GT(cell_quality(grid).folded_cells, 0);
+    keep_shapes(grid, 2);
+    EXPECT_EQ(cell_quality(grid).folded_cells, 0);
+    EXPECT_NE(grid.position.col(folded), before.position.col(folded));
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i < 4; ++i)
+            EXPECT_EQ(grid.position.col(grid.node(i, j)), before.position.col(grid.node(i, j)));
+}
+
 TEST(KeepShapes, CellsOfOneShapeStayWhereTheyAre)
 {
     const QuadGrid exact = sheared_cells(0);
