@@ -18,7 +18,8 @@ constexpr std::array<double, 2> area_weights = {0.05, 0.3}; // of the map, tried
 constexpr double share_to_long = 0.8;                       // of the lines, to where cells are long
 constexpr double growth = 3;                                // of neighbouring spacings
 constexpr int mean_of = 4;                                  // cells on either side
-constexpr double too_coarse = 0.15; // of the cells fold before any is moved: a finer grid is tried at once if there is one
+constexpr double too_coarse =
+    0.15; // of the cells fold before any is moved: a finer grid is tried at once if there is one
 
 std::optional<SquareMap> slid_map(const GridWorkshop& shop, double area_weight, const Progress& progress)
 {

@@ -89,7 +89,8 @@ struct LoopPlaces {
 };
 
 Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bool hole, double corner_turn,
-                 const std::vector<double>& corner_reach, double spacing, const std::vector<int>& forced, bool only_forced)
+                 const std::vector<double>& corner_reach, double spacing, const std::vector<int>& forced,
+                 bool only_forced)
 {
     const Outline outline(loop, plane);
     const int n = int(loop.size());

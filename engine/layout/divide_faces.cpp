@@ -242,7 +242,8 @@ void divide_from_middle(const PlaneGraph& old, const Face& face, const Halves& h
         spoke.push_back(add_line(graph, halves.middle(face[k]), centre, from_middle.line[k]));
     for (size_t k = 0; k < face.size(); ++k) { // around the corner at the start of side k
         const size_t before = (k + face.size() - 1) % face.size();
-        result.push_back({halves.first(face[k]), {spoke[k], false}, {spoke[before], true}, halves.second(face[before])});
+        result.push_back(
+            {halves.first(face[k]), {spoke[k], false}, {spoke[before], true}, halves.second(face[before])});
     }
 }
 
@@ -299,7 +300,8 @@ void divide_faces(PlaneGraph& graph, std::vector<Face>& faces, bool all)
         else if (cut(0) || cut(1))
             divide_across(face, cut(0) ? 0 : 1, halves, graph, result);
         else
-            result.push_back({halves.whole(face[0]), halves.whole(face[1]), halves.whole(face[2]), halves.whole(face[3])});
+            result.push_back(
+                {halves.whole(face[0]), halves.whole(face[1]), halves.whole(face[2]), halves.whole(face[3])});
     }
     faces = std::move(result);
 }

@@ -319,11 +319,17 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
     std::optional<PatchesFit> best;
     std::optional<InputError> first;
     Worth best_worth;
+    Layout last;
     const std::vector<LayoutOptions> ways = ways_to_divide(layout);
     for (size_t k = 0; k < ways.size() && !best_worth.all(); ++k) {
         const Progress here = progress.part(double(k) / double(ways.size()), double(k + 1) / double(ways.size()));
         try {
-            PatchesFit fit = fit_patches(part, blank, make_layout(part, blank, ways[k]), options, here);
+            Layout divided = make_layout(part, blank, ways[k]);
+            if (k > 0 && divided.patch == last.patch && divided.vertex.cols() == last.vertex.cols() &&
+                divided.vertex == last.vertex)
+                continue; // this way makes no difference
+            last = divided;
+            PatchesFit fit = fit_patches(part, blank, divided, options, here);
             const Worth now{certify(fit.patches).suited(), fit.reached, fit.deviation_max()};
             if (!best || now.better_than(best_worth)) {
                 best = std::move(fit);

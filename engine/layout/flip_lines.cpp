@@ -50,15 +50,16 @@ void flip_lines(PlaneGraph& graph, int first_line)
                 continue;
             LayoutCurve& line = graph.curve[size_t(c)];
             // The first face in the list has the line forwards or backwards: a and b so that it lies to the left of a to b.
-            const bool reversed = std::find(faces[size_t(two[0])].begin(), faces[size_t(two[0])].end(), CurveUse{c, true}) !=
-                                  faces[size_t(two[0])].end();
+            const bool reversed = std::find(faces[size_t(two[0])].begin(), faces[size_t(two[0])].end(),
+                                            CurveUse{c, true}) != faces[size_t(two[0])].end();
             const int a = line.vertex[reversed ? 1 : 0], b = line.vertex[reversed ? 0 : 1],
                       left = apex(graph, faces[size_t(two[0])], c), right = apex(graph, faces[size_t(two[1])], c);
             const auto at = [&](int v) -> const Eigen::Vector2d& { return graph.vertex[size_t(v)]; };
             if (left == right || orient2d(at(right), at(b), at(left)) <= 0 || orient2d(at(left), at(a), at(right)) <= 0)
                 continue; // the other diagonal leaves the two
             const double before = std::min(least_angle(at(a), at(b), at(left)), least_angle(at(b), at(a), at(right))),
-                         after = std::min(least_angle(at(right), at(b), at(left)), least_angle(at(left), at(a), at(right)));
+                         after =
+                             std::min(least_angle(at(right), at(b), at(left)), least_angle(at(left), at(a), at(right)));
             if (after <= before + worth_it)
                 continue;
             line.vertex = {right, left};

@@ -16,13 +16,13 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double pi = std::numbers::pi;
-constexpr double bulge = 0.02; ///< over its chord: an arc that is so far from straight gets a layer
+constexpr double bulge = 0.02;               ///< over its chord: an arc that is so far from straight gets a layer
 constexpr double most_turn = 100 * pi / 180; ///< of an arc
 constexpr double sharp = 40 * pi / 180;      ///< a place at which an arc is divided first
-constexpr double share_of_gap = 0.35;  ///< of the way to the border across: leaves room for the layer over there
-constexpr double share_of_arc = 0.8;   ///< of the length of the arcs beside it: deepest
-constexpr double least_clearance = 0.3; ///< of the layer's depth, left between the arc and the layer's inner line
-constexpr double least_beside = 0.6;    ///< of the depth: distance of the inner line from all of the border
+constexpr double share_of_gap = 0.35;        ///< of the way to the border across: leaves room for the layer over there
+constexpr double share_of_arc = 0.8;         ///< of the length of the arcs beside it: deepest
+constexpr double least_clearance = 0.3;      ///< of the layer's depth, left between the arc and the layer's inner line
+constexpr double least_beside = 0.6;         ///< of the depth: distance of the inner line from all of the border
 constexpr double least_corner = 25 * pi / 180; ///< of a layer's patches, and its complement
 constexpr double thinner = 0.7;
 constexpr int most_rounds = 200;
@@ -315,11 +315,13 @@ private:
         const LayoutCurve& arc = graph_.curve[size_t(c)];
         double least = std::numeric_limits<double>::infinity();
         for (const LayoutCurve& other : graph_.curve) {
-            if (other.vertex[0] == arc.vertex[0] || other.vertex[0] == arc.vertex[1] || other.vertex[1] == arc.vertex[0])
+            if (other.vertex[0] == arc.vertex[0] || other.vertex[0] == arc.vertex[1] ||
+                other.vertex[1] == arc.vertex[0])
                 continue;
             for (Eigen::Index i = 0; i < arc.plane.cols(); ++i)
                 for (Eigen::Index k = 0; k + 1 < other.plane.cols(); ++k)
-                    least = std::min(least, distance_to_segment(arc.plane.col(i), other.plane.col(k), other.plane.col(k + 1)));
+                    least = std::min(least,
+                                     distance_to_segment(arc.plane.col(i), other.plane.col(k), other.plane.col(k + 1)));
         }
         return least;
     }
@@ -342,7 +344,8 @@ private:
             if (number[size_t(v)] < 0)
                 continue;
             const int in = in_[size_t(v)], out = out_[size_t(v)], own = number[size_t(v)];
-            BorderTurn turn{graph_.vertex[size_t(v)], graph_.vertex[size_t(v)]}; // at an end the border of the rest comes down to v
+            BorderTurn turn{graph_.vertex[size_t(v)],
+                            graph_.vertex[size_t(v)]}; // at an end the border of the rest comes down to v
             if (layered_[size_t(in)])
                 turn.before = graph_.vertex[size_t(number[size_t(arcs[size_t(in)].vertex[0])])];
             else

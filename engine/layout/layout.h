@@ -34,8 +34,7 @@ struct Layout {
     Eigen::Matrix2Xd vertex; ///< 2 by #vertices, mm, on the blank
     std::vector<LayoutCurve> curve;
     std::vector<LayoutPatch> patch;
-    bool split =
-        false; ///< every face was divided at the middles of its sides: no pairs of triangles were left to be one
+    bool split = false; ///< faces were divided at the middles of their sides, for not all triangles paired
 };
 
 /// A line along which the user wants the sheet to be divided: vertices of the part, the first and the last on its border, in their
@@ -61,8 +60,8 @@ struct LayoutOptions {
 /// Divides the blank into four-sided patches around its holes. Corners of outline and holes, and vertices between them where an
 /// arc turns far or is long, are joined by straight lines, short and steep ones first, until none is left that neither crosses
 /// another nor leaves the blank (exact predicates): the faces are triangles with the border's arcs as sides. Pairs of them become
-/// patches [matching: Edmonds 1965]; where they do not pair, or too flat an angle came of it, every face is divided from its
-/// middle to the middles of its sides instead. Deterministic.
+/// patches [matching: Edmonds 1965]; those left over are divided from their middles, and the strips beside them along
+/// (divide_faces()). Deterministic.
 /// @throws InputError if the blank lies on itself, a cut is none (its ends are not on the border, it leaves the sheet, crosses another) or
 ///         a face cannot be divided; the message says which
 Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options = {});

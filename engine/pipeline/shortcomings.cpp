@@ -70,9 +70,10 @@ std::vector<std::string> grid_shortcomings(const Session& session)
         return list;
     const GridResult& grid = session.grid->result;
     if (grid.route == GridRoute::wound)
-        list.push_back(fmt::format("between these corners the blank winds: a grid without a fold needs long, slanted cells, {} x {} of them; "
-                                   "corners at the ends of the winding strip give better ones",
-                                   grid.planar.columns, grid.planar.rows));
+        list.push_back(fmt::format(
+            "between these corners the blank winds: a grid without a fold needs long, slanted cells, {} x {} of them; "
+            "corners at the ends of the winding strip give better ones",
+            grid.planar.columns, grid.planar.rows));
     const bool asked_for = session.options.grid.to_bends > 0 || session.options.grid.even_cells;
     if (asked_for && grid.quality.folded_cells > 0) {
         list.push_back("no line of the grid went to bends and no cell was evened out, for it folds before that");

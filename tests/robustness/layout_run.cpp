@@ -82,7 +82,8 @@ std::string fault_of_sides(const MultiPatch& patches, int inner_curves)
 
 int inner_curves(const Layout& layout)
 {
-    return int(std::count_if(layout.curve.begin(), layout.curve.end(), [](const LayoutCurve& c) { return !c.on_border(); }));
+    return int(
+        std::count_if(layout.curve.begin(), layout.curve.end(), [](const LayoutCurve& c) { return !c.on_border(); }));
 }
 
 } // namespace

@@ -132,8 +132,8 @@ int layout_all(int plates)
         const auto clock = std::chrono::steady_clock::now();
         const LayoutRun run = run_layout(lot);
         fmt::print("| {} | {} | {} | {} | {:.1f} | {} |\n", lot.name, run.patches, run.split ? "yes" : "",
-                   run.reached ? "yes" : "no", std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(),
-                   run.fault);
+                   run.reached ? "yes" : "no",
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(), run.fault);
         std::fflush(stdout);
         wrong += !run.fault.empty();
     }

@@ -46,7 +46,8 @@ Layout layered(const TriMesh& part)
 
 TEST(Layers, CornersAroundRoundHolesAreFarFromFlat)
 {
-    const auto [least, greatest] = corners_of(layered(shapes::plate({100, 80, {{{30, 30}, 12}, {{62, 45}, 14}}, 6000})));
+    const auto [least, greatest] =
+        corners_of(layered(shapes::plate({100, 80, {{{30, 30}, 12}, {{62, 45}, 14}}, 6000})));
     EXPECT_GT(least, 10);
     EXPECT_LT(greatest, 160);
 }
@@ -64,7 +65,8 @@ TEST_P(LayersOfPlates, HaveRoomForCellsAtEveryCorner)
     EXPECT_LT(greatest, 179.5);
     double sheet = 0, patches = 0;
     for (int f = 0; f < lot.part.triangles(); ++f) {
-        const Eigen::Vector3d a = lot.part.position.col(lot.part.triangle(0, f)), b = lot.part.position.col(lot.part.triangle(1, f)),
+        const Eigen::Vector3d a = lot.part.position.col(lot.part.triangle(0, f)),
+                              b = lot.part.position.col(lot.part.triangle(1, f)),
                               c = lot.part.position.col(lot.part.triangle(2, f));
         sheet += 0.5 * ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
     }

@@ -33,8 +33,8 @@ PlaneGraph graph_of(std::vector<Eigen::Vector2d> vertices, const std::vector<int
 /// Three squares in a row and a triangle at their end.
 PlaneGraph row()
 {
-    PlaneGraph graph =
-        graph_of({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0.5}, {3, 1}, {2, 1}, {1, 1}, {0, 1}}, {0, 1, 2, 3, 4, 5, 6, 7, 8});
+    PlaneGraph graph = graph_of({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0.5}, {3, 1}, {2, 1}, {1, 1}, {0, 1}},
+                                {0, 1, 2, 3, 4, 5, 6, 7, 8});
     add(graph, 1, 7, false);
     add(graph, 2, 6, false);
     add(graph, 3, 5, false);

@@ -215,7 +215,8 @@ TEST(Report, SaysThatABlankWinds)
     Session session = finished("dome.obj");
     const auto winds = [&] {
         const auto all = shortcomings(session);
-        return std::count_if(all.begin(), all.end(), [](const std::string& line) { return line.find("the blank winds") != line.npos; });
+        return std::count_if(all.begin(), all.end(),
+                             [](const std::string& line) { return line.find("the blank winds") != line.npos; });
     };
     EXPECT_EQ(winds(), 0);
     GridStage grid = *session.grid;
