@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -294,9 +295,18 @@ namespace {
 /// The ways to divide a blank, in turn: as few patches as there can be, then more of them with better corners.
 std::vector<LayoutOptions> ways_to_divide(const LayoutOptions& layout)
 {
-    std::vector<LayoutOptions> ways(4, layout);
-    ways[1].layers = ways[3].layers = true;
-    ways[2].split = ways[3].split = true;
+    std::vector<LayoutOptions> ways(2, layout);
+    ways[1].layers = true;
+    for (const auto& [corner, closer] : {std::pair(1., 1.), std::pair(1., 0.5), std::pair(1.5, 0.5)}) {
+        LayoutOptions divided =
+            layout; // with other vertices on the border where a face has a corner without room for cells
+        divided.split = true;
+        divided.corner_deg *= corner;
+        divided.spacing *= closer;
+        ways.push_back(divided);
+    }
+    ways.push_back(ways[1]);
+    ways.back().split = true;
     return ways;
 }
 
@@ -335,7 +345,7 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
                 best = std::move(fit);
                 best_worth = now;
             }
-            if (k == 2 && best_worth.suited)
+            if (k >= 2 && best_worth.suited)
                 break; // sharp edges of the part are in the way, whatever the patches
         } catch (const InputError& error) {
             if (!first)
