@@ -15,13 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Radians from a to b, counter-clockwise: 0 to 2 pi.
-double turn_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    const double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-    return angle < 0 ? angle + 2 * pi : angle;
-}
-
 /// How good a face of four sides is: the sine of its worst corner; 0 if one is not convex.
 double quality(const PlaneGraph& graph, const Face& face)
 {

@@ -30,19 +30,6 @@ constexpr double longest_arc = 4; ///< over its distance from the rest of the bo
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double turn_to(const Point& a, const Point& b)
-{
-    const double angle = std::atan2(cross(a, b), a.dot(b));
-    return angle < 0 ? angle + 2 * pi : angle;
-}
-
-double distance_to_segment(const Point& p, const Point& a, const Point& b)
-{
-    const double length = (b - a).squaredNorm();
-    const double t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0., 1.) : 0;
-    return (a + t * (b - a) - p).norm();
-}
-
 /// How far a ray goes until it meets a segment, over the length of `way`; infinite if it does not.
 double reach_of(const Point& from, const Point& way, const Point& a, const Point& b)
 {

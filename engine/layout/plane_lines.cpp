@@ -1,8 +1,25 @@
 #include "engine/layout/plane_lines.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "engine/mesh/orient2d.h"
 
 namespace spia {
+
+double turn_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+    const double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+    const double length = (b - a).squaredNorm();
+    const double t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0., 1.) : 0;
+    return (a + t * (b - a) - p).norm();
+}
 
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                    const Eigen::Vector2d& d)

@@ -3,6 +3,12 @@
 
 namespace spia {
 
+/// Radians from direction a to direction b, counter-clockwise: 0 to 2 pi.
+double turn_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
+/// From a point to the nearest one of a segment.
+double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 /// Whether two closed segments have a point in common. Exact (orient2d.h).
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                    const Eigen::Vector2d& d);

@@ -53,13 +53,6 @@ double twice_area(const Eigen::Matrix2Xd& p)
     return sum;
 }
 
-double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-    const double length = (b - a).squaredNorm();
-    const double t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0., 1.) : 0;
-    return (a + t * (b - a) - p).norm();
-}
-
 } // namespace
 
 void add_rings(PlaneGraph& graph)
