@@ -28,15 +28,15 @@ void expect_apart(const Spokes& s, const Eigen::Matrix2Xd& polygon, const std::v
         EXPECT_EQ(s.line[a].col(0), polygon.col(start[a]));
         EXPECT_EQ(s.line[a].rightCols<1>(), s.centre);
         for (Eigen::Index i = 0; i + 1 < s.line[a].cols(); ++i) {
-            if (i > 0)
-                for (Eigen::Index e = 0; e < polygon.cols(); ++e)
-                    EXPECT_FALSE(segments_meet(s.line[a].col(i), s.line[a].col(i + 1), polygon.col(e),
-                                               polygon.col((e + 1) % polygon.cols())));
+            for (Eigen::Index e = 0; i > 0 && e < polygon.cols(); ++e)
+                EXPECT_FALSE(segments_meet(s.line[a].col(i), s.line[a].col(i + 1), polygon.col(e),
+                                           polygon.col((e + 1) % polygon.cols())));
             for (size_t b = 0; b < a; ++b)
                 for (Eigen::Index j = 0; j + 1 < s.line[b].cols(); ++j)
-                    if (i + 2 < s.line[a].cols() || j + 2 < s.line[b].cols())
+                    if (i + 2 < s.line[a].cols() || j + 2 < s.line[b].cols()) {
                         EXPECT_FALSE(segments_meet(s.line[a].col(i), s.line[a].col(i + 1), s.line[b].col(j),
                                                    s.line[b].col(j + 1)));
+                    }
         }
     }
 }
