@@ -15,7 +15,9 @@ namespace {
 constexpr int most_steps = 150;
 constexpr double area_weight = 0.3;  // of keeping the areas against keeping the shapes
 constexpr double folded_mean = 1e-4; // determinant over squared edges below which the mean is taken of more cells
-constexpr std::array<int, 3> reaches = {4, 16, 64}; // cells around folded ones that move along, in turn
+constexpr int least_reach = 4, most_reach = 64; // cells around folded ones that move along
+constexpr int most_passes = 14;
+constexpr double good_pass = 0.6;    // of the cells still fold: another one with the same reach, else with twice that
 constexpr double least_slant = 0.05; // of the wanted cells likewise: one that is nearly flat is given some height
 
 /// The edges of a cell along u and along v.
@@ -130,20 +132,27 @@ void keep_shapes(QuadGrid& planar, int around, const Progress& progress)
     for (int j = 0; j < planar.rows; ++j)
         for (int i = 0; i < planar.columns; ++i)
             wanted.push_back(wanted_edges(planar, i, j, around));
-    double done = 0;
-    for (const int reach : reaches) {
-        const std::vector<int> folded = folded_cells(planar);
-        if (folded.empty())
-            return;
+    std::vector<int> folded = folded_cells(planar);
+    int reach = least_reach;
+    for (int pass = 0; pass < most_passes && !folded.empty() && reach <= most_reach; ++pass) {
         const Corners corners = cell_corners(planar, wanted, movable(planar, folded, reach));
-        Eigen::Matrix2Xd position = planar.position(Eigen::seq(0, 1), corners.node);
+        const Eigen::Matrix2Xd before = planar.position(Eigen::seq(0, 1), corners.node);
+        Eigen::Matrix2Xd position = before;
         UnfoldOptions options;
         options.most_steps = most_steps;
         options.area_weight = area_weight;
         options.element_area = mean_area(corners.elements);
-        unfold_elements(position, corners.elements, {}, options, progress.part(done, done + 1. / reaches.size()));
-        done += 1. / reaches.size();
+        unfold_elements(position, corners.elements, {}, options,
+                        progress.part(double(pass) / most_passes, double(pass + 1) / most_passes));
         planar.position(Eigen::seq(0, 1), corners.node) = position;
+        std::vector<int> now = folded_cells(planar);
+        if (now.size() > folded.size()) { // others fold that did not
+            planar.position(Eigen::seq(0, 1), corners.node) = before;
+            now = folded;
+        }
+        if (double(now.size()) > good_pass * double(folded.size()))
+            reach *= 2;
+        folded = std::move(now);
     }
 }
 

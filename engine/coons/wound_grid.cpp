@@ -18,8 +18,8 @@ constexpr std::array<double, 2> area_weights = {0.05, 0.3}; // of the map, tried
 constexpr double share_to_long = 0.8;                       // of the lines, to where cells are long
 constexpr double growth = 3;                                // of neighbouring spacings
 constexpr int mean_of = 4;                                  // cells on either side
-constexpr double too_coarse =
-    0.15; // of the cells fold before any is moved: a finer grid is tried at once if there is one
+constexpr double too_coarse = 0.15;    // of the cells fold before any is moved: a finer grid is tried at once,
+constexpr int quick_cells = 160 * 160; // if there is one, unless they are so few that trying costs little
 
 std::optional<SquareMap> slid_map(const GridWorkshop& shop, double area_weight, const Progress& progress)
 {
@@ -61,7 +61,7 @@ GridResult kept_shapes(const SquareMap& map, const GridWorkshop& shop, int colum
                               {spaced_lines(longest_edges(even.planar, true), columns, share_to_long, growth),
                                spaced_lines(longest_edges(even.planar, false), rows, share_to_long, growth)});
     if (!border_is_possible(grid, shop.blank.overlaps_itself()) ||
-        (!last && grid.quality.folded_cells > too_coarse * columns * rows))
+        (!last && columns * rows > quick_cells && grid.quality.folded_cells > too_coarse * columns * rows))
         return grid;
     keep_shapes(grid.planar, mean_of, progress.part(0, 0.7));
     find_nodes(shop.blank, grid);
