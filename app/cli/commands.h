@@ -40,9 +40,10 @@ struct RunArguments {
     std::vector<int> degree = {3, 3}; ///< of the surface, along u and v
     int max_control_points = FitOptions{}.max_control_points;
     bool fill_holes = false;
-    std::string deform;          ///< file of a deformation of the finished surface; empty: none
-    std::string patches = "one"; ///< one, auto, or a file of cuts
-    bool smooth_joins = false;   ///< of patches
+    std::string deform;                     ///< file of a deformation of the finished surface; empty: none
+    std::string patches = "one";            ///< one, auto, or a file of cuts
+    bool smooth_joins = false;              ///< of patches
+    std::optional<double> patch_edges = {}; ///< degrees, of edges on which patches end
     std::vector<std::string> formats;
     std::string export_unit = "mm", name; ///< of the files; empty name: the part's
     std::vector<std::string> glb_nodes = {"part", "blank", "quad_mesh", "surface", "control_net"};

@@ -209,10 +209,18 @@ int main(int count, char** values)
     run_command
         ->add_option(
             "--patches", run.patches,
-            "one patch over the blank with its holes filled, auto: four-sided patches around the holes, which share their "
-            "sides, or a file {\"cuts\": [[12, 40], ...], \"corners\": [...], \"smooth_joins\": true}, vertices of the file")
+            "one patch over the blank with its holes filled, auto: four-sided patches around the holes and along sharp "
+            "edges, which share their sides, or a file {\"cuts\": [[12, 40], ...], \"corners\": [...], \"edge_deg\": 45, "
+            "\"smooth_joins\": true}, vertices of the file")
         ->type_name("auto|one|FILE")
         ->capture_default_str();
+    run_command
+        ->add_option(
+            "--patch-edges", run.patch_edges,
+            "of patches: they end on edges over which the sheet turns more than this; 180: on none. Not where cuts "
+            "or corners are given")
+        ->type_name("DEG")
+        ->check(CLI::Range(1.0, 180.0));
     run_command->add_flag(
         "--smooth-joins", run.smooth_joins,
         "of patches: take the angles out of their joins, as far as the tolerance allows; edges of the part "

@@ -96,8 +96,11 @@ void print_summary(const Session& session)
             counted(int(trim.loop.size()), "trimming curve", "trimming curves"), trim.distance,
             trim.loop.size() == 1 ? "its" : "their");
     if (const auto& fit = session.surface->fit; fit && patches)
-        say("          {} {:.4g} mm in {} rounds, {} interfaces\n", fit->reached ? "within" : "NOT within",
-            fit->tolerance, fit->rounds, patches->patches.interfaces.size());
+        say("          {} {:.4g} mm in {} rounds, {} interfaces{}\n", fit->reached ? "within" : "NOT within",
+            fit->tolerance, fit->rounds, patches->patches.interfaces.size(),
+            patches->layout.edges > 0
+                ? fmt::format(", patches end on {}", counted(patches->layout.edges, "sharp edge", "sharp edges"))
+                : "");
     if (patches && patches->joins && patches->joins->places > 0) {
         constexpr double degree = std::numbers::pi / 180;
         const JoinsReport& joins = *patches->joins;

@@ -93,6 +93,12 @@ SessionOptions options(const RunArguments& arguments)
         throw InputError("--smooth-joins is for patches; ask for them with --patches auto, or leave it out");
     if (arguments.smooth_joins)
         result.patches->smooth_joins = true;
+    if (arguments.patch_edges && !result.patches)
+        throw InputError("--patch-edges is for patches; ask for them with --patches auto, or leave it out");
+    if (arguments.patch_edges && !(*arguments.patch_edges >= 1 && *arguments.patch_edges <= 180)) // a NaN, likewise
+        throw InputError("--patch-edges is an angle in degrees, from 1 to 180");
+    if (arguments.patch_edges)
+        result.patches->edge_deg = *arguments.patch_edges;
     if (result.patches && arguments.degree.front() != arguments.degree.back())
         throw InputError("patches of a layout have one degree along u and v; give --degree one number");
     if (result.patches && arguments.fit_parameters == "corrected")

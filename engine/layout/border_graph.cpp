@@ -100,12 +100,15 @@ Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bo
             places.push_back(i);
     if (only_forced)
         return places;
+    Places found;
     for (const double share : corner_reach) { // not right beside a forced one, nor one that was found already
-        const Places before = places;
+        const Places before = found;
         for (const int i : corners(outline, corner_turn, share))
-            if (!is_near(outline, before, outline.length_at(i), 1.5 * share * outline.perimeter()))
-                places.push_back(i);
+            if (!is_near(outline, before, outline.length_at(i), 1.5 * share * outline.perimeter()) &&
+                !is_near(outline, places, outline.length_at(i), 1.5 * corner_reach.back() * outline.perimeter()))
+                found.push_back(i);
     }
+    places.insert(places.end(), found.begin(), found.end());
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
     if (places.empty()) { // a smooth loop begins low on the left
@@ -184,20 +187,26 @@ void require_plain(const std::vector<std::vector<int>>& loops, const Blank& blan
 
 } // namespace
 
+double vertex_spacing(const TriMesh& part, const Blank& blank, const LayoutOptions& options)
+{
+    const auto loops = boundary_loops(part);
+    double sheet = 0;
+    for (const auto& loop : loops)
+        for (size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++)
+            sheet += 0.5 * (blank.position(0, loop[j]) * blank.position(1, loop[i]) -
+                            blank.position(0, loop[i]) * blank.position(1, loop[j]));
+    return options.spacing * std::sqrt(sheet / std::max<double>(1, double(loops.size()) - 1));
+}
+
 PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOptions& options,
                         const std::vector<int>& forced, bool only_forced)
 {
     const auto loops = boundary_loops(part);
     const size_t outer = size_t(outer_loop(loops, blank.position));
     require_plain(loops, blank, options.file_number);
-    double sheet = 0;
-    for (const auto& loop : loops)
-        for (size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++)
-            sheet += 0.5 * (blank.position(0, loop[j]) * blank.position(1, loop[i]) -
-                            blank.position(0, loop[i]) * blank.position(1, loop[j]));
-    const double spacing = options.spacing * std::sqrt(sheet / std::max<double>(1, double(loops.size()) - 1));
+    const double spacing = vertex_spacing(part, blank, options);
     std::vector<double> corner_reach = {0.02}; // of a loop's length
-    if (options.layers)
+    if (options.layers || has_edges(part, options))
         corner_reach.push_back(0.005); // two corners side by side as well
     std::vector<LoopPlaces> chosen;
     for (size_t l = 0; l < loops.size(); ++l)

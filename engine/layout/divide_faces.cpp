@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -37,7 +38,8 @@ int halve(const PlaneGraph& old, int curve, PlaneGraph& graph)
     const int vertex = int(graph.vertex.size());
     graph.vertex.push_back(middle);
     graph.border.push_back(std::nullopt); // all lines to it are drawn already
-    LayoutCurve first{{whole.vertex[0], vertex}, {}, {}}, second{{vertex, whole.vertex[1]}, {}, {}};
+    LayoutCurve first{{whole.vertex[0], vertex}, {}, {}, whole.kept},
+        second{{vertex, whole.vertex[1]}, {}, {}, whole.kept};
     const auto split = [&](const auto& points, const auto& at, auto& one, auto& other) {
         one.resize(points.rows(), before + 2);
         one << points.leftCols(before + 1), at;
@@ -100,7 +102,14 @@ std::optional<Eigen::Vector2d> middle_of(const std::vector<Eigen::Vector2d>& cor
         mean += (corners[k] + 2 * middles[k]) / (3. * double(corners.size()));
     const auto quality = [&](const Eigen::Vector2d& place) {
         const double sine = worst_corner(place, middles, ahead, behind);
-        return sine > least_sine && sees(place, middles, polygon) ? sine : 0;
+        if (!(sine > least_sine) || !sees(place, middles, polygon))
+            return 0.;
+        double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+        for (const Eigen::Vector2d& middle : middles) {
+            shortest = std::min(shortest, (middle - place).norm());
+            longest = std::max(longest, (middle - place).norm());
+        }
+        return std::min(sine, 5 * shortest / longest); // patches of 1 to 10 as bad as corners of 30 degrees
     };
     Eigen::Vector2d best = mean;
     double best_quality = quality(mean);

@@ -169,7 +169,7 @@ bool pair_triangles(PlaneGraph& graph, std::vector<Face>& faces, double worst_an
     std::map<int, std::vector<int>> sides_of; // per inner curve its faces
     for (int f = 0; f < int(faces.size()); ++f)
         for (const CurveUse use : faces[size_t(f)])
-            if (!graph.curve[size_t(use.curve)].on_border())
+            if (const LayoutCurve& curve = graph.curve[size_t(use.curve)]; !curve.on_border() && !curve.kept)
                 sides_of[use.curve].push_back(f);
     struct Pair {
         std::array<int, 2> face;

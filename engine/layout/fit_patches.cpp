@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/layout/patches_judge.h"
-#include "engine/layout/smooth_fit.h"
 #include "engine/mesh/locate.h"
-#include "engine/nurbs/certificate.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_patch.h"
 #include "engine/nurbs/missing_knots.h"
@@ -201,37 +197,79 @@ Fitted fit_over(const Strips& strips, const Layout& layout, const Sources& sourc
     return result;
 }
 
-/// The spans halved that want to be, by all patches of a strip. @returns false if none may be
+double control_points(const Strips& strips, const Layout& layout, int degree)
+{
+    const auto along = [&](const LayoutPatch& patch, size_t side) {
+        return double(strips.of_side(patch, side).size()) - 1 + degree;
+    };
+    double count = 0;
+    for (const LayoutPatch& patch : layout.patch)
+        count += along(patch, 0) * along(patch, 1);
+    return count;
+}
+
+/// Halves the spans of a patch that want to be, in whole strips.
+void refine_for(int p, Strips& strips, const Strips& before, const Layout& layout, const Fitted& fitted,
+                const PatchesJudgement& judgement)
+{
+    const MissingKnots urgency =
+        missing_knots(fitted.patches.patch[size_t(p)], judgement.missing[size_t(p)], fitted.points[size_t(p)],
+                      fitted.along_u[size_t(p)], fitted.along_v[size_t(p)]);
+    for (const size_t k : {size_t(0), size_t(1)}) {
+        const CurveUse use = layout.patch[size_t(p)][k];
+        const std::vector<double> borders = before.of_side(layout.patch[size_t(p)], k);
+        const std::vector<double>& wanted = k == 0 ? urgency.u : urgency.v;
+        std::vector<char> halve(wanted.size(), 0);
+        for (size_t s = 0; s < wanted.size(); ++s)
+            halve[s] = wanted[s] > 0 && may_halve(borders[s], borders[s + 1], {});
+        const std::vector<double> more = halved(borders, halve);
+        strips.unite(use.curve, use.reversed ? mirrored(more) : more);
+    }
+}
+
+/// The spans halved that want to be, as far as the control points go: those of the farthest patches first.
+/// @returns false if none may be
 bool refine(Strips& strips, const Layout& layout, const Fitted& fitted, const PatchesJudgement& judgement,
             const PatchesFitOptions& options)
 {
-    Strips next = strips;
-    for (int p = 0; p < int(layout.patch.size()); ++p) {
-        const auto& missing = judgement.missing[size_t(p)];
-        if (missing.empty())
-            continue;
-        const MissingKnots urgency = missing_knots(fitted.patches.patch[size_t(p)], missing, fitted.points[size_t(p)],
-                                                   fitted.along_u[size_t(p)], fitted.along_v[size_t(p)]);
-        for (const size_t k : {size_t(0), size_t(1)}) {
-            const CurveUse use = layout.patch[size_t(p)][k];
-            const std::vector<double> borders = strips.of_side(layout.patch[size_t(p)], k);
-            const std::vector<double>& wanted = k == 0 ? urgency.u : urgency.v;
-            std::vector<char> halve(wanted.size(), 0);
-            for (size_t s = 0; s < wanted.size(); ++s)
-                halve[s] = wanted[s] > 0 && may_halve(borders[s], borders[s + 1], {});
-            const std::vector<double> more = halved(borders, halve);
-            next.unite(use.curve, use.reversed ? mirrored(more) : more);
+    std::vector<int> order;
+    for (int p = 0; p < int(layout.patch.size()); ++p)
+        if (!judgement.missing[size_t(p)].empty())
+            order.push_back(p);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int p, int q) { return judgement.patch_max[size_t(p)] > judgement.patch_max[size_t(q)]; });
+    const Strips before = strips;
+    Strips all = strips;
+    for (const int p : order)
+        refine_for(p, all, before, layout, fitted, judgement);
+    if (control_points(all, layout, options.degree) <= options.max_control_points)
+        strips.set(all.borders());
+    else
+        for (const int p : order) {
+            Strips next = strips;
+            refine_for(p, next, before, layout, fitted, judgement);
+            if (control_points(next, layout, options.degree) <= options.max_control_points)
+                strips.set(next.borders());
         }
+    return strips.borders() != before.borders();
+}
+
+/// The spans that the curves need for themselves: within the tolerance, or as near as the control points allow.
+Strips first_strips(const Layout& layout, const Chords& chords, const Sources& sources,
+                    const PatchesFitOptions& options)
+{
+    constexpr double farthest = 1e6; // times the tolerance: no curve has more than one span then
+    CurveFitOptions of_curve;
+    of_curve.degree = options.degree;
+    of_curve.most_spans = 512;
+    for (double looser = 1;; looser *= 4) {
+        Strips strips(chords, CurveEnds::averaged_knots);
+        of_curve.tolerance = looser * options.tolerance;
+        for (int c = 0; c < int(layout.curve.size()); ++c)
+            strips.unite(c, fit_curve([&](const auto& t) { return sources.on_curve(c, t); }, of_curve).borders);
+        if (looser > farthest || control_points(strips, layout, options.degree) <= options.max_control_points)
+            return strips;
     }
-    if (next.borders() == strips.borders())
-        return false;
-    double count = 0;
-    for (const LayoutPatch& patch : layout.patch)
-        count += double(next.of_side(patch, 0).size()) * double(next.of_side(patch, 1).size());
-    if (count > options.max_control_points)
-        return false;
-    strips.set(next.borders());
-    return true;
 }
 
 } // namespace
@@ -249,14 +287,7 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
     const Sources sources(part, blank, layout, grids);
     const PatchesJudge judge(part, blank, layout, options.tolerance);
 
-    Strips strips(chords, CurveEnds::averaged_knots);
-    CurveFitOptions of_curve;
-    of_curve.tolerance = options.tolerance;
-    of_curve.degree = options.degree;
-    of_curve.most_spans = 512;
-    for (int c = 0; c < int(layout.curve.size()); ++c)
-        strips.unite(c, fit_curve([&](const auto& t) { return sources.on_curve(c, t); }, of_curve).borders);
-
+    Strips strips = first_strips(layout, chords, sources, options);
     PatchesFit result;
     std::optional<PatchesJudgement> best;
     for (int round = 1; round <= options.most_rounds; ++round) {
@@ -288,92 +319,6 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
     result.reached = best->max() <= options.tolerance;
     require_watertight(result.patches);
     return result;
-}
-
-namespace {
-
-/// The ways to divide a blank, in turn: as few patches as there can be, then more of them with better corners.
-std::vector<LayoutOptions> ways_to_divide(const LayoutOptions& layout)
-{
-    std::vector<LayoutOptions> ways(2, layout);
-    ways[1].layers = true;
-    for (const auto& [corner, closer] : {std::pair(1., 1.), std::pair(1., 0.5), std::pair(1.5, 0.5)}) {
-        LayoutOptions divided =
-            layout; // with other vertices on the border where a face has a corner without room for cells
-        divided.split = true;
-        divided.corner_deg *= corner;
-        divided.spacing *= closer;
-        ways.push_back(divided);
-    }
-    ways.push_back(ways[1]);
-    ways.back().split = true;
-    return ways;
-}
-
-/// What a fit is worth: no fold, then the tolerance, then to be near.
-struct Worth {
-    bool suited = false, reached = false;
-    double deviation = std::numeric_limits<double>::infinity();
-
-    bool all() const { return suited && reached; }
-    bool better_than(const Worth& other) const
-    {
-        return std::tuple(suited, reached, -deviation) > std::tuple(other.suited, other.reached, -other.deviation);
-    }
-};
-
-PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
-                        const PatchesFitOptions& options, const Progress& progress)
-{
-    progress.checkpoint(0, "dividing the blank into patches");
-    std::optional<PatchesFit> best;
-    std::optional<InputError> first;
-    Worth best_worth;
-    Layout last;
-    const std::vector<LayoutOptions> ways = ways_to_divide(layout);
-    for (size_t k = 0; k < ways.size() && !best_worth.all(); ++k) {
-        const Progress here = progress.part(double(k) / double(ways.size()), double(k + 1) / double(ways.size()));
-        try {
-            Layout divided = make_layout(part, blank, ways[k]);
-            if (k > 0 && divided.patch == last.patch && divided.vertex.cols() == last.vertex.cols() &&
-                divided.vertex == last.vertex)
-                continue; // this way makes no difference
-            last = divided;
-            PatchesFit fit = fit_patches(part, blank, divided, options, here);
-            const Worth now{certify(fit.patches).suited(), fit.reached, fit.deviation_max()};
-            if (!best || now.better_than(best_worth)) {
-                best = std::move(fit);
-                best_worth = now;
-            }
-            if (k >= 2 && best_worth.suited)
-                break; // sharp edges of the part are in the way, whatever the patches
-        } catch (const InputError& error) {
-            if (!first)
-                first = error;
-        }
-    }
-    if (!best)
-        throw *first;
-    return std::move(*best);
-}
-
-} // namespace
-
-PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
-                         const PatchesFitOptions& options, const Progress& progress)
-{
-    if (!options.smooth_joins)
-        return best_patches(part, blank, layout, options, progress);
-    PatchesFit fit = best_patches(part, blank, layout, options, progress.part(0, 0.7));
-    const PatchesJudge judge(part, blank, fit.layout, options.tolerance);
-    const PatchesJudgement judged = smooth_fit(fit, judge, judge.judge(fit.patches.patch, progress.part(0.7, 0.75)),
-                                               options.tolerance, progress.part(0.75, 1));
-    fit.surface_to_mesh = judged.surface_to_mesh;
-    fit.mesh_to_surface = judged.mesh_to_surface;
-    fit.at_vertex = judged.at_vertex;
-    fit.patch_deviation = judged.patch_max;
-    fit.reached = judged.max() <= options.tolerance;
-    return fit;
 }
 
 } // namespace spia

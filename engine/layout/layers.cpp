@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "engine/layout/plane_graph.h"
@@ -53,8 +54,13 @@ public:
         for (const LayoutCurve& curve : graph_.curve)
             for (Eigen::Index i = 0; i + 1 < curve.plane.cols(); ++i)
                 border_.push_back({curve.plane.col(i), curve.plane.col(i + 1)});
+        std::vector<char> on_edge(graph_.vertex.size(), 0); // of the part: patches end there, and so do layers
+        for (const LayoutCurve& curve : graph_.curve)
+            if (!curve.on_border())
+                on_edge[size_t(curve.vertex[0])] = on_edge[size_t(curve.vertex[1])] = 1;
         for (const LayoutCurve& curve : graph_.curve) // as a whole: straight pieces of a bent arc meet at flat corners
-            layered_.push_back(is_bent(curve));
+            layered_.push_back(curve.on_border() && !on_edge[size_t(curve.vertex[0])] &&
+                               !on_edge[size_t(curve.vertex[1])] && is_bent(curve));
         divide_arcs();
         look_around();
         for (int round = 0; round < most_rounds && adjust(); ++round) {
@@ -79,6 +85,8 @@ private:
         in_.assign(n, -1);
         out_.assign(n, -1);
         for (int c = 0; c < int(graph_.curve.size()); ++c) {
+            if (!graph_.curve[size_t(c)].on_border())
+                continue;
             out_[size_t(graph_.curve[size_t(c)].vertex[0])] = c;
             in_[size_t(graph_.curve[size_t(c)].vertex[1])] = c;
         }
@@ -89,7 +97,10 @@ private:
                 look_inwards(v);
     }
 
-    bool has_layer(int v) const { return layered_[size_t(in_[size_t(v)])] || layered_[size_t(out_[size_t(v)])]; }
+    bool has_layer(int v) const
+    {
+        return in_[size_t(v)] >= 0 && (layered_[size_t(in_[size_t(v)])] || layered_[size_t(out_[size_t(v)])]);
+    }
 
     Point leaving(int v, bool forwards) const
     {
@@ -267,18 +278,26 @@ private:
 
     void split(int c)
     {
-        LayoutCurve first = graph_.curve[size_t(c)], second = first;
+        LayoutCurve first = graph_.curve[size_t(c)];
+        if (first.plane.cols() == 2) { // a cut
+            const Point middle = points_on(first, {0.5}).col(0);
+            first.plane = (Eigen::Matrix2Xd(2, 3) << first.plane.col(0), middle, first.plane.col(1)).finished();
+        }
+        LayoutCurve second = first;
         const Eigen::Index n = first.plane.cols(), at = place_to_split(first);
         const int vertex = int(graph_.vertex.size());
         graph_.vertex.push_back(first.plane.col(at));
-        graph_.border.push_back(BorderTurn{first.plane.col(at - 1), first.plane.col(at + 1)});
+        graph_.border.push_back(std::nullopt);
         const auto cut = [&](auto& points, bool head) {
             points = head ? points.leftCols(at + 1).eval() : points.rightCols(n - at).eval();
         };
+        if (first.on_border()) {
+            graph_.border.back() = BorderTurn{first.plane.col(at - 1), first.plane.col(at + 1)};
+            cut(first.part, true);
+            cut(second.part, false);
+        }
         cut(first.plane, true);
-        cut(first.part, true);
         cut(second.plane, false);
-        cut(second.part, false);
         first.vertex[1] = second.vertex[0] = vertex;
         graph_.curve[size_t(c)] = std::move(first);
         graph_.curve.push_back(std::move(second));
@@ -286,11 +305,11 @@ private:
     }
 
     /// Divides arcs that wind, and those that are long beside their distance from the rest of the border, so that patches grow step
-    /// by step.
+    /// by step; cuts and edges likewise.
     void divide_arcs()
     {
         for (int c = 0; c < int(graph_.curve.size()); ++c)
-            while (graph_.curve[size_t(c)].plane.cols() > 2 &&
+            while ((graph_.curve[size_t(c)].kept || graph_.curve[size_t(c)].plane.cols() > 2) &&
                    (range_of_turns(graph_.curve[size_t(c)]) > most_turn ||
                     length(graph_.curve[size_t(c)]) > longest_arc * distance_to_rest(c)))
                 split(c);
@@ -303,12 +322,16 @@ private:
         double least = std::numeric_limits<double>::infinity();
         for (const LayoutCurve& other : graph_.curve) {
             if (other.vertex[0] == arc.vertex[0] || other.vertex[0] == arc.vertex[1] ||
-                other.vertex[1] == arc.vertex[0])
+                other.vertex[1] == arc.vertex[0] || other.vertex[1] == arc.vertex[1])
                 continue;
             for (Eigen::Index i = 0; i < arc.plane.cols(); ++i)
                 for (Eigen::Index k = 0; k + 1 < other.plane.cols(); ++k)
                     least = std::min(least,
                                      distance_to_segment(arc.plane.col(i), other.plane.col(k), other.plane.col(k + 1)));
+            for (Eigen::Index i = 0; arc.kept && i + 1 < arc.plane.cols(); ++i) // it may be long between its points
+                for (Eigen::Index k = 0; k < other.plane.cols(); ++k)
+                    least = std::min(least,
+                                     distance_to_segment(other.plane.col(k), arc.plane.col(i), arc.plane.col(i + 1)));
         }
         return least;
     }

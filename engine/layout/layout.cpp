@@ -55,6 +55,7 @@ void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& option
             LayoutCurve curve;
             curve.vertex = {vertex_of(run.front(), false), vertex_of(run.back(), false)};
             curve.plane = blank.position(Eigen::all, run);
+            curve.kept = true;
             for (const LayoutCurve& other : graph.curve)
                 for (Eigen::Index a = 0; a + 1 < curve.plane.cols(); ++a)
                     for (Eigen::Index b = 0; b + 1 < other.plane.cols(); ++b) {
@@ -94,6 +95,13 @@ Layout layout_of(const PlaneGraph& graph, const std::vector<Face>& faces)
     return layout;
 }
 
+std::vector<std::vector<int>> edges_of(const TriMesh& part, const LayoutOptions& options)
+{
+    if (!options.cuts.empty() || !options.corners.empty() || options.edge_deg >= 180)
+        return {};
+    return sharp_edges(part, options.edge_deg * std::numbers::pi / 180);
+}
+
 bool all_four_sided(const std::vector<Face>& faces)
 {
     return std::all_of(faces.begin(), faces.end(), [](const Face& face) { return face.size() == 4; });
@@ -101,29 +109,42 @@ bool all_four_sided(const std::vector<Face>& faces)
 
 } // namespace
 
+bool has_edges(const TriMesh& part, const LayoutOptions& options) { return !edges_of(part, options).empty(); }
+
 Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options)
 {
     std::vector<int> forced = options.corners;
     for (const LayoutCut& cut : options.cuts)
         if (!cut.empty())
             forced.insert(forced.end(), {cut.front(), cut.back()});
-    const bool whole = forced.empty() && !options.split && boundary_loops(part).size() == 1;
+    const auto loops = boundary_loops(part);
+    const std::vector<std::vector<int>> edges = edges_of(part, options);
+    std::vector<char> on_border(size_t(part.vertices()), 0);
+    for (const auto& loop : loops)
+        for (const int v : loop)
+            on_border[size_t(v)] = 1;
+    for (const std::vector<int>& edge : edges)
+        for (const int v : {edge.front(), edge.back()})
+            if (on_border[size_t(v)])
+                forced.push_back(v);
+    const bool whole = forced.empty() && edges.empty() && !options.split && loops.size() == 1;
     if (whole) {
         const auto corner = propose_corners(blank, part);
         forced.assign(corner.begin(), corner.end());
     }
     PlaneGraph graph = border_graph(part, blank, options, forced, whole || !options.corners.empty());
     add_cuts(graph, blank, options);
+    add_edges(graph, blank, edges, vertex_spacing(part, blank, options));
     std::vector<Face> faces;
-    if (boundary_loops(part).size() == 1 || !options.corners.empty())
+    if ((loops.size() == 1 && edges.empty()) || !options.corners.empty())
         faces = faces_of(graph);
     const bool ready = !faces.empty() && all_four_sided(faces);
     if (!ready) {
-        if (options.corners.empty() && options.cuts.empty())
+        if (options.corners.empty())
             options.layers ? add_layers(graph) : add_rings(graph);
         const int first_line = int(graph.curve.size());
         triangulate(graph, options.layers);
-        if (options.layers)
+        if (options.layers || !edges.empty())
             flip_lines(graph, first_line);
         faces = faces_of(graph);
         join_arcs(graph, faces);
@@ -145,6 +166,7 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         divide_faces(graph, faces, options.split);
     Layout layout = layout_of(graph, faces);
     layout.split = split;
+    layout.edges = int(edges.size());
     return layout;
 }
 

@@ -13,7 +13,8 @@ struct LayoutCurve {
     std::array<int, 2> vertex = {-1, -1}; ///< of the layout: where it begins and ends
     Eigen::Matrix2Xd plane;               ///< 2 by #points, mm, on the blank; both ends included
     Eigen::Matrix3Xd
-        part; ///< 3 by #points, mm, the same on the part where the curve is a piece of its border; else empty
+        part;          ///< 3 by #points, mm, the same on the part where the curve is a piece of its border; else empty
+    bool kept = false; ///< within the sheet: a cut or an edge of the part, on which patches have to end
 
     bool on_border() const { return part.cols() > 0; }
 };
@@ -35,6 +36,7 @@ struct Layout {
     std::vector<LayoutCurve> curve;
     std::vector<LayoutPatch> patch;
     bool split = false; ///< faces were divided at the middles of their sides, for not all triangles paired
+    int edges = 0;      ///< #lines along sharp edges of the part that are sides of patches: see add_edges()
 };
 
 /// A line along which the user wants the sheet to be divided: vertices of the part, the first and the last on its border, in their
@@ -51,20 +53,25 @@ struct LayoutOptions {
     double spacing = 1.2;        ///< of vertices along the outline, over the mean distance of holes
     bool split = false;          ///< divide every face, even where triangles pair
     bool layers = false;         ///< rows of patches along all arcs that bulge into the sheet: see add_layers()
+    double edge_deg = 45;        ///< turn of the sheet over a line on which patches end; 180: none do
     bool smooth_joins = false;   ///< of the fit: take the angles out of the joins of the patches, see smooth_joins()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 
     friend bool operator==(const LayoutOptions&, const LayoutOptions&) = default;
 };
 
-/// Divides the blank into four-sided patches around its holes. Corners of outline and holes, and vertices between them where an
-/// arc turns far or is long, are joined by straight lines, short and steep ones first, until none is left that neither crosses
-/// another nor leaves the blank (exact predicates): the faces are triangles with the border's arcs as sides. Pairs of them become
+/// Divides the blank into four-sided patches around its holes and along the sharp edges of the part. Corners of outline and holes,
+/// vertices between them where an arc turns far or is long, and the ends of edges (where there are neither cuts nor corners nor
+/// layers) are joined by straight lines, short and steep ones first, until none is left that neither crosses another nor leaves
+/// the blank (exact predicates): the faces are triangles with the border's arcs and the edges as sides. Pairs of them become
 /// patches [matching: Edmonds 1965]; those left over are divided from their middles, and the strips beside them along
 /// (divide_faces()). Deterministic.
 /// @throws InputError if the blank lies on itself, a cut is none (its ends are not on the border, it leaves the sheet, crosses another) or
 ///         a face cannot be divided; the message says which
 Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options = {});
+
+/// Whether the part has sharp edges on which patches would end: none where there are cuts or corners.
+bool has_edges(const TriMesh& part, const LayoutOptions& options);
 
 /// Points of a curve at shares of its length that rise from 0 to 1: the ends are those of the curve to the last bit.
 Eigen::Matrix2Xd points_on(const LayoutCurve& curve, const std::vector<double>& t);

@@ -28,13 +28,27 @@ using Face = std::vector<CurveUse>;
 PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOptions& options,
                         const std::vector<int>& forced, bool only_forced);
 
+/// mm: the distance of vertices along the border that are there for nothing but its length.
+double vertex_spacing(const TriMesh& part, const Blank& blank, const LayoutOptions& options);
+
+/// Rows of vertices of the part along its sharp edges, from where they end, meet or turn to the next such place; a closed one begins
+/// and ends at the same vertex. Loose ends shorter than 1/50 of the diagonal are noise. Nothing if there are more than 200: the part is rough.
+/// @param angle  radians between the normals of two faces
+std::vector<std::vector<int>> sharp_edges(const TriMesh& part, double angle);
+
+/// Draws the edges of the part, in pieces, as curves on which patches end.
+/// @pre where an edge ends on the border there is a vertex
+/// @param longest  mm, of a piece
+void add_edges(PlaneGraph& graph, const Blank& blank, const std::vector<std::vector<int>>& edges, double longest);
+
 /// Draws a ring of four-sided faces around every hole that is small beside the distance to the rest of the border, so that patches grow
 /// from hole to hole step by step.
 void add_rings(PlaneGraph& graph);
 
 /// Lays a row of four-sided faces along every arc of the border that bulges into the sheet, as thin as its surroundings ask for;
 /// the arc is divided where it is bent too much for that. What is left of the sheet has straight sides there.
-/// @pre the graph has the border alone, all of its vertices on it
+/// Arcs at which an edge of the part ends get none.
+/// @pre the graph has the border and edges of the part, no other lines
 void add_layers(PlaneGraph& graph);
 
 /// Joins vertices by straight lines until no more is possible.

@@ -19,11 +19,12 @@ std::vector<std::vector<int>> rows_of(const PlaneGraph& graph)
 {
     std::map<int, int> leaving; // vertex to arc
     for (int c = 0; c < int(graph.curve.size()); ++c)
-        leaving[graph.curve[size_t(c)].vertex[0]] = c;
+        if (graph.curve[size_t(c)].on_border())
+            leaving[graph.curve[size_t(c)].vertex[0]] = c;
     std::vector<std::vector<int>> rows;
     std::vector<char> seen(graph.curve.size(), 0);
     for (int c = 0; c < int(graph.curve.size()); ++c) {
-        if (seen[size_t(c)])
+        if (seen[size_t(c)] || !graph.curve[size_t(c)].on_border())
             continue;
         rows.emplace_back();
         for (int at = c; !seen[size_t(at)]; at = leaving.at(graph.curve[size_t(at)].vertex[1])) {
@@ -71,6 +72,9 @@ void add_rings(PlaneGraph& graph)
         for (size_t other = 0; other < rows.size(); ++other)
             for (Eigen::Index i = 0, j = points[other].cols() - 1; other != h && i < points[other].cols(); j = i++)
                 away = std::min(away, distance_to_segment(middle, points[other].col(j), points[other].col(i)));
+        for (const LayoutCurve& curve : graph.curve) // edges of the part
+            for (Eigen::Index i = 0; curve.kept && i + 1 < curve.plane.cols(); ++i)
+                away = std::min(away, distance_to_segment(middle, curve.plane.col(i), curve.plane.col(i + 1)));
         const size_t count = rows[h].size();
         if (!(away - radius > small_hole * radius) || count < 4)
             continue;

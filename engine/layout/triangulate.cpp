@@ -59,15 +59,30 @@ double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
     return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
 
-/// Radians, the least between the line and the border at both ends, up to a right angle.
-double angle_to_border(const PlaneGraph& graph, int from, int to)
+/// Per vertex the points to which the border and the lines that are kept lead from it.
+std::vector<std::vector<Eigen::Vector2d>> fixed_ways(const PlaneGraph& graph)
+{
+    std::vector<std::vector<Eigen::Vector2d>> ways(graph.vertex.size());
+    for (size_t v = 0; v < ways.size(); ++v)
+        if (const auto& border = graph.border[v])
+            ways[v] = {border->before, border->after};
+    for (const LayoutCurve& curve : graph.curve)
+        if (curve.kept) {
+            ways[size_t(curve.vertex[0])].push_back(curve.plane.col(1));
+            ways[size_t(curve.vertex[1])].push_back(curve.plane.col(curve.plane.cols() - 2));
+        }
+    return ways;
+}
+
+/// Radians, the least between the line and what is fixed at both ends, up to a right angle.
+double angle_to_fixed(const PlaneGraph& graph, const std::vector<std::vector<Eigen::Vector2d>>& ways, int from, int to)
 {
     double least = std::numbers::pi / 2;
-    for (const auto& [v, w] : {std::pair(from, to), std::pair(to, from)})
-        if (const auto& border = graph.border[size_t(v)]) {
-            const Eigen::Vector2d at = graph.vertex[size_t(v)], d = graph.vertex[size_t(w)] - at;
-            least = std::min({least, angle_between(d, border->before - at), angle_between(d, border->after - at)});
-        }
+    for (const auto& [v, w] : {std::pair(from, to), std::pair(to, from)}) {
+        const Eigen::Vector2d at = graph.vertex[size_t(v)], d = graph.vertex[size_t(w)] - at;
+        for (const Eigen::Vector2d& way : ways[size_t(v)])
+            least = std::min(least, angle_between(d, way - at));
+    }
     return least;
 }
 
@@ -87,11 +102,12 @@ void triangulate(PlaneGraph& graph, bool complete)
     std::set<std::array<int, 2>> beside; // a line along an arc would leave a face of two sides
     for (const LayoutCurve& curve : graph.curve)
         beside.insert({std::min(curve.vertex[0], curve.vertex[1]), std::max(curve.vertex[0], curve.vertex[1])});
+    const auto ways = fixed_ways(graph);
     const int n = int(graph.vertex.size());
     for (int i = 0; i < n; ++i)
         for (int j = i + 1; j < n; ++j)
             if (!beside.contains({i, j}) && leaves_into_sheet(graph, i, j) && leaves_into_sheet(graph, j, i))
-                if (const double angle = angle_to_border(graph, i, j);
+                if (const double angle = angle_to_fixed(graph, ways, i, j);
                     angle > (complete ? rounding : least_angle)) // long ones and flat ones are dear
                     lines.push_back(
                         {i, j, (graph.vertex[size_t(j)] - graph.vertex[size_t(i)]).norm() / std::sin(angle)});

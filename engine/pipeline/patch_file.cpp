@@ -32,7 +32,7 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
         return layout;
     const Json json = read_json(choice, true);
     const Place top(choice);
-    members::require_object(json, top, {"cuts", "corners", "smooth_joins"});
+    members::require_object(json, top, {"cuts", "corners", "edge_deg", "smooth_joins"});
     if (const Json* cuts = members::find(json, top, "cuts", false)) {
         if (!cuts->is_array())
             top.member("cuts").fail("must be a list of paths [[12, 40], ...]");
@@ -46,8 +46,13 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
             top.member("smooth_joins").fail("must be true or false");
         layout.smooth_joins = smooth->get<bool>();
     }
-    if (layout.cuts.empty() && layout.corners.empty() && !layout.smooth_joins)
-        top.fail("must have cuts, corners or \"smooth_joins\": true; --patches auto needs no file");
+    if (const Json* edge = members::find(json, top, "edge_deg", false)) {
+        if (!edge->is_number() || !(edge->get<double>() >= 1) || !(edge->get<double>() <= 180))
+            top.member("edge_deg").fail("must be an angle in degrees, from 1 to 180");
+        layout.edge_deg = edge->get<double>();
+    }
+    if (layout == LayoutOptions{})
+        top.fail("must have cuts, corners, edge_deg or \"smooth_joins\": true; --patches auto needs no file");
     return layout;
 }
 

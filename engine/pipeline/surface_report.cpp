@@ -89,6 +89,7 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
                     {"places_of_edges", j->edges}};
     return {{"patches", list},
             {"faces_divided", fit.layout.split},
+            {"edges", fit.layout.edges},
             {"interfaces", joints},
             {"interface_angle_max_deg", degrees(greatest)},
             {"interface_angle_mean_deg", joints > 0 ? degrees(sum) / double(joints) : 0},

@@ -22,5 +22,19 @@ run 2 "--smooth-joins is for patches" "$channel" --smooth-joins
 echo '{"smooth_joins": true}' > "$out/smooth.json"
 run 0 "^joins     angle up to" "$parts/perforated-channel.obj" --patches "$out/smooth.json" --tolerance 0.5
 echo '{"smooth_joins": false}' > "$out/smooth.json"
-run 2 'must have cuts, corners or "smooth_joins": true' "$channel" --patches "$out/smooth.json"
+run 2 'must have cuts, corners, edge_deg or "smooth_joins": true' "$channel" --patches "$out/smooth.json"
+# A sheet of 100 x 60 mm, folded up at x = 50.
+awk 'BEGIN { for (j = 0; j <= 6; ++j) for (i = 0; i <= 10; ++i) print "v", i < 5 ? 10 * i : 50, 10 * j, i < 5 ? 0 : 10 * i - 50
+             for (j = 0; j < 6; ++j) for (i = 1; i <= 10; ++i) print "f", 11 * j + i, 11 * j + i + 1, 11 * j + i + 12, 11 * j + i + 11 }' > "$out/fold.obj"
+run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches auto --json "$out/a.json"
+grep -q '"edges": 1' "$out/a.json" || fail "the report does not tell the edge"
+run 0 "1 patches with" "$out/fold.obj" --patches auto --patch-edges 91 --json "$out/a.json"
+grep -q '"edges": 0' "$out/a.json" || fail "the report tells an edge on which no patch ends"
+echo '{"edge_deg": 91}' > "$out/edges.json"
+run 0 "1 patches with" "$out/fold.obj" --patches "$out/edges.json"
+run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches "$out/edges.json" --patch-edges 60
+run 2 "--patch-edges is for patches" "$out/fold.obj" --patch-edges 60
+run 2 "from 1 to 180" "$out/fold.obj" --patches auto --patch-edges nan
+echo '{"edge_deg": 0}' > "$out/edges.json"
+run 2 "edge_deg.* must be an angle in degrees, from 1 to 180" "$out/fold.obj" --patches "$out/edges.json"
 echo "grid: all as it should be"

@@ -1,54 +1,16 @@
 #include "tests/robustness/layout_run.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
-#include <set>
 #include <vector>
 
 #include "engine/core/error.h"
-#include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
+#include "tests/support/check_layout.h"
 
 namespace spia {
 
 namespace {
-
-double area_of(const TriMesh& flat)
-{
-    double sum = 0;
-    for (int f = 0; f < flat.triangles(); ++f) {
-        const Eigen::Vector3d a = flat.position.col(flat.triangle(0, f)), b = flat.position.col(flat.triangle(1, f)),
-                              c = flat.position.col(flat.triangle(2, f));
-        sum += 0.5 * (b - a).cross(c - a).norm();
-    }
-    return sum;
-}
-
-std::string fault_of_layout(const Layout& layout, const TriMesh& part)
-{
-    std::vector<int> uses(layout.curve.size(), 0);
-    std::set<int> vertices;
-    double area_of_patches = 0;
-    for (const LayoutPatch& patch : layout.patch) {
-        for (const CurveUse use : patch)
-            ++uses[size_t(use.curve)];
-        area_of_patches += area(layout, patch);
-    }
-    for (size_t c = 0; c < uses.size(); ++c) {
-        vertices.insert({layout.curve[c].vertex[0], layout.curve[c].vertex[1]});
-        if (uses[c] != (layout.curve[c].on_border() ? 1 : 2))
-            return fmt::format("curve {} is a side of {} patches", c, uses[c]);
-    }
-    const int loops = int(boundary_loops(part).size()),
-              euler = int(vertices.size()) - int(uses.size()) + int(layout.patch.size());
-    if (euler != 2 - loops) // V - E + F of a disk with holes
-        return fmt::format("V - E + F is {} where the plate has {} loops", euler, loops);
-    if (const double plate = area_of(part); std::abs(area_of_patches - plate) > 1e-9 * plate)
-        return fmt::format("the patches cover {:.9g} of {:.9g} mm2", area_of_patches, plate);
-    return "";
-}
 
 /// Shared sides again, from the control points alone.
 std::string fault_of_sides(const MultiPatch& patches, int inner_curves)
@@ -99,7 +61,7 @@ LayoutRun run_layout(const shapes::OutlineByLot& lot)
         result.patches = int(fit.patches.patch.size());
         result.split = fit.layout.split;
         result.reached = fit.reached;
-        result.fault = fault_of_layout(fit.layout, lot.part);
+        result.fault = shapes::fault_of_layout(fit.layout, lot.part, Blank{plane});
         if (result.fault.empty())
             result.fault = fault_of_sides(fit.patches, inner_curves(fit.layout));
         const Certificate certificate = certify(fit.patches);

@@ -109,7 +109,7 @@ struct SetFit {
     FitChoice fit;
 };
 
-/// "set_patches", of the surface: patches {cuts [[vertex of the file, ...], ...], corners [vertex of the file, ...], smooth_joins}, patches around the holes;
+/// "set_patches", of the surface: patches {cuts [[vertex of the file, ...], ...], corners [vertex of the file, ...], edge_deg, smooth_joins}, patches around the holes;
 /// null: one patch.
 struct SetPatches {
     std::optional<LayoutOptions> patches = {};

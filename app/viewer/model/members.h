@@ -126,6 +126,7 @@ inline constexpr auto is_cut = [](const std::vector<LayoutCut>& cuts, const Plac
 template <>
 inline constexpr auto members_of<LayoutOptions> =
     std::tuple{member("cuts", &LayoutOptions::cuts, is_cut), member("corners", &LayoutOptions::corners, any_index),
+               member("edge_deg", &LayoutOptions::edge_deg, Between{1, 180}),
                member("smooth_joins", &LayoutOptions::smooth_joins)};
 
 inline constexpr Between lattice_points{2, 64}, lattice_degrees{1, 5};

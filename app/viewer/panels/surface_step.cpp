@@ -168,6 +168,16 @@ void patches_editor(Frame& frame)
         ImGui::SameLine();
         muted(frame, cut_name(patches->cuts[k]));
     }
+    const double all_edges = LayoutOptions{}.edge_deg, no_edge = 180;
+    bool at_edges = patches->edge_deg < no_edge;
+    if (patches->cuts.empty() && ImGui::Checkbox("End at sharp edges", &at_edges)) {
+        LayoutOptions changed = *patches;
+        changed.edge_deg = at_edges ? all_edges : no_edge;
+        frame.actions.push(SetPatches{changed});
+    }
+    if (patches->cuts.empty())
+        tooltip(
+            "Patches end where the sheet turns sharply over a line: a smooth surface needs few control points then");
     bool smooth = patches->smooth_joins;
     if (ImGui::Checkbox("Smooth joins", &smooth)) {
         LayoutOptions changed = *patches;
@@ -183,6 +193,8 @@ void surface_figures(Frame& frame, const SurfaceStage& surface)
 {
     if (const auto& patches = surface.patches) {
         figure(frame, "Patches", fmt::format("{}", patches->patches.patch.size()));
+        if (patches->layout.edges > 0)
+            figure(frame, "Sharp edges", fmt::format("{}", patches->layout.edges));
         figure(frame, "Control points", fmt::format("{}", shared_controls(patches->patches).count));
         tooltip("Those of joints count once");
     } else {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/layout/layout.h"
+#include "tests/support/check_layout.h"
 #include "tests/support/outlines_by_lot.h"
 #include "tests/support/shapes.h"
 
@@ -50,6 +51,29 @@ TEST(Layers, CornersAroundRoundHolesAreFarFromFlat)
         corners_of(layered(shapes::plate({100, 80, {{{30, 30}, 12}, {{62, 45}, 14}}, 6000})));
     EXPECT_GT(least, 10);
     EXPECT_LT(greatest, 160);
+}
+
+TEST(Layers, KeepClearOfCuts)
+{
+    const TriMesh part = shapes::plate({100, 80, {{{30, 30}, 12}, {{66, 45}, 14}}, 6000});
+    const Blank blank{part.position.topRows(2)};
+    const auto nearest = [&](double x, double y) {
+        Eigen::Index v;
+        (blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
+        return int(v);
+    };
+    LayoutOptions options;
+    options.layers = true;
+    options.cuts = {{nearest(46, 0), nearest(46, 80)}};
+    const Layout layout = make_layout(part, blank, options);
+    EXPECT_EQ(shapes::fault_of_layout(layout, part, blank), "");
+    double kept = 0;
+    for (const LayoutCurve& curve : layout.curve)
+        kept += curve.kept ? length(curve) : 0;
+    EXPECT_NEAR(kept, 80, 0.5);
+    const auto [least, greatest] = corners_of(layout);
+    EXPECT_GT(least, 10);
+    EXPECT_LT(greatest, 165);
 }
 
 class LayersOfPlates : public testing::TestWithParam<int> {};
