@@ -37,8 +37,7 @@ std::vector<LayoutOptions> ways_to_divide(const TriMesh& part, const LayoutOptio
     add(plain, true, false, 1, 1);
     add(plain, true, false, 1, 0.5);
     add(plain, false, true, 1, 1);
-    add(plain, false, true, 1,
-        0.5); // with other vertices on the border where a face has a corner without room for cells
+    add(plain, false, true, 1, 0.5); // other vertices on the border, where a face has a corner without room for cells
     add(plain, false, true, 1.5, 0.5);
     add(plain, true, true, 1, 1);
     return ways;
@@ -80,7 +79,7 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
                 best_worth = now;
             }
             if (k >= 2 && best_worth.suited)
-                break; // sharp edges of the part are in the way, whatever the patches
+                break; // it is control points that lack, or flatter edges that are in the way, whatever the patches
         } catch (const InputError& error) {
             if (!first)
                 first = error;

@@ -47,8 +47,9 @@ struct PatchesFit {
 PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& layout,
                        const PatchesFitOptions& options = {}, const Progress& progress = {});
 
-/// Layout and fit: where a patch of the plain layout has no grid without folds, is not proved to be free of them or stays beyond the tolerance,
-/// every face is divided instead, if that is better.
+/// Layout and fit: where a patch has no grid without folds, is not proved to be free of them or stays beyond the tolerance, the blank
+/// is divided in other ways, and the best fit is taken: first along the edges of the part, then without them; as few patches as
+/// there can be, layers along the border, vertices closer together, every face divided.
 /// @throws InputError as make_layout() and fit_patches()
 PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout = {},
                          const PatchesFitOptions& options = {}, const Progress& progress = {});

@@ -47,8 +47,8 @@ void add_rings(PlaneGraph& graph);
 
 /// Lays a row of four-sided faces along every arc of the border that bulges into the sheet, as thin as its surroundings ask for;
 /// the arc is divided where it is bent too much for that. What is left of the sheet has straight sides there.
-/// Arcs at which an edge of the part ends get none.
-/// @pre the graph has the border and edges of the part, no other lines
+/// Arcs at which a cut or an edge of the part ends get none; cuts and edges that are long beside their distance from the rest are divided.
+/// @pre the graph has the border, cuts and edges of the part, no other lines
 void add_layers(PlaneGraph& graph);
 
 /// Joins vertices by straight lines until no more is possible.

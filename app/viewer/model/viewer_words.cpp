@@ -17,6 +17,8 @@ std::string in_viewer_words(std::string text)
         {"--no-remesh", "\"Remesh\" in the step Part"},
         {"--remesh", "\"Remesh\" in the step Part"},
         {"take one patch (--patches one)", "choose \"one patch\" in the step NURBS surface"},
+        {"(--patch-edges DEG)", "(\"Edges from\" in the step NURBS surface)"},
+        {"--patch-edges", "\"Edges from\" in the step NURBS surface"},
         {"(--patches FILE)", "(pick their ends with the tool Vertex)"},
         {" (--max-control-points)", ""},
         {"--max-control-points", "the greatest number of control points"},

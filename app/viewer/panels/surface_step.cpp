@@ -145,6 +145,27 @@ bool surface_look_combo(const Frame& frame, SurfaceLook& look)
     return changed;
 }
 
+/// On which edges of the part patches end.
+void edges_editor(Frame& frame, const LayoutOptions& patches)
+{
+    constexpr double none = 180;
+    LayoutOptions changed = patches;
+    bool at_edges = patches.edge_deg < none;
+    if (ImGui::Checkbox("End at sharp edges", &at_edges)) {
+        changed.edge_deg = at_edges ? LayoutOptions{}.edge_deg : none;
+        frame.actions.push(SetPatches{changed});
+    }
+    tooltip("Patches end where the sheet turns sharply over a line: a smooth surface needs few control points then");
+    if (!at_edges)
+        return;
+    ImGui::SetNextItemWidth(70 * frame.ui.scale);
+    if (typed_number(frame, "Edges from, degrees", changed.edge_deg, "%.4g")) {
+        changed.edge_deg = std::clamp(changed.edge_deg, 1., none);
+        frame.actions.push(SetPatches{changed});
+    }
+    tooltip("How far the sheet turns over an edge at which patches end");
+}
+
 void patches_editor(Frame& frame)
 {
     const Session& session = frame.state.document.session;
@@ -168,16 +189,8 @@ void patches_editor(Frame& frame)
         ImGui::SameLine();
         muted(frame, cut_name(patches->cuts[k]));
     }
-    const double all_edges = LayoutOptions{}.edge_deg, no_edge = 180;
-    bool at_edges = patches->edge_deg < no_edge;
-    if (patches->cuts.empty() && ImGui::Checkbox("End at sharp edges", &at_edges)) {
-        LayoutOptions changed = *patches;
-        changed.edge_deg = at_edges ? all_edges : no_edge;
-        frame.actions.push(SetPatches{changed});
-    }
     if (patches->cuts.empty())
-        tooltip(
-            "Patches end where the sheet turns sharply over a line: a smooth surface needs few control points then");
+        edges_editor(frame, *patches);
     bool smooth = patches->smooth_joins;
     if (ImGui::Checkbox("Smooth joins", &smooth)) {
         LayoutOptions changed = *patches;

@@ -44,8 +44,9 @@ TEST(KeepShapes, CellsThatFoldAreUnfoldedToTheMeanShapeOfTheOthers)
     EXPECT_LT((grid.position - exact.position).norm(), 0.3 * before);
     for (int n = 0; n < grid.nodes(); ++n) {
         const int i = n % (columns + 1), j = n / (columns + 1);
-        if (i == 0 || j == 0 || i == columns || j == rows)
+        if (i == 0 || j == 0 || i == columns || j == rows) {
             EXPECT_EQ(grid.position.col(n), exact.position.col(n));
+        }
     }
 }
 

@@ -91,7 +91,9 @@ TEST(Lattice, BeyondTheBoxMovesAsItsNearestPlace)
     const Lattice lattice = slanted({4, 4, 4}, {3, 3, 3});
     const LatticeMap map(lattice);
     EXPECT_LT((map.displacement(lattice.origin + lattice.edge * Eigen::Vector3d(0.3, 0.4, 9)) -
-               map.displacement(lattice.origin + lattice.edge * Eigen::Vector3d(0.3, 0.4, 1))).norm(), 1e-12);
+               map.displacement(lattice.origin + lattice.edge * Eigen::Vector3d(0.3, 0.4, 1)))
+                  .norm(),
+              1e-12);
 }
 
 TEST(Deform, AnAffineLatticeMovesTheSurfaceAffinely)
@@ -194,8 +196,9 @@ TEST(Deform, BendsAPlateToAnArc)
         }
         EXPECT_LT(result.off_lattice, 0.1);
         if (last > 0 &&
-            points < 33) // a spline of its control points' places: second order, till the strip's own net limits it
+            points < 33) { // a spline of its control points' places: second order, till the strip's own net limits it
             EXPECT_NEAR(last / worst, 4, 1.6);
+        }
         last = worst;
     }
     EXPECT_LT(last, 0.1);

@@ -205,8 +205,9 @@ TEST(RemeshedNumbers, FacesOfTheFileAreTheTrianglesOnThem)
         for (int f = 0; f < part.mesh.triangles(); ++f) {
             const double x = part.mesh.position(0, Eigen::all)(part.mesh.triangle.col(f)).mean();
             const double edge = std::sqrt(4 / std::sqrt(3.0) * area(given.mesh) / given.mesh.triangles());
-            if (std::abs(x - middle) > edge) // both sides of the border are the file's triangles
+            if (std::abs(x - middle) > edge) { // both sides of the border are the file's triangles
                 EXPECT_EQ(bool(chosen[size_t(f)]), x < middle) << f;
+            }
         }
         EXPECT_GT(
             each.dot(Eigen::Map<const Eigen::Array<char, Eigen::Dynamic, 1>>(chosen.data(), Eigen::Index(chosen.size()))

@@ -51,8 +51,9 @@ TEST(CorrectParameters, ComesCloserOnThePartAndDoesNotLeanOver)
             correct_parameters(fit, slide);
             const AtData after(fit);
             EXPECT_LT(after.largest_distance, before.largest_distance);
-            if (which == 2 && spans <= 2)
+            if (which == 2 && spans <= 2) {
                 EXPECT_LT(after.largest_distance, before.largest_distance / 5);
+            }
             EXPECT_GE(after.least_sine, 0.5 * before.least_sine);
             double off = 0;
             for (Eigen::Index n = 0; n < fit.points.cols(); ++n)

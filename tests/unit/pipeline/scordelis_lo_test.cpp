@@ -106,8 +106,9 @@ TEST(ScordelisLo, OfTheExactRationalRoofConvergesToTheReference)
     double last = 0;
     for (const int times : {4, 5, 6}) {
         const double error = std::abs(sinking(analysis::refined({{roof}, {}}, times)) / reference - 1);
-        if (last > 0)
+        if (last > 0) {
             EXPECT_LT(error, last / 4) << times;
+        }
         last = error;
     }
     EXPECT_LT(last, 3e-4);

@@ -121,6 +121,7 @@ TEST_F(PatchesChoice, AreKeptWithTheProject)
     const ScratchFolder folder;
     LayoutOptions patches;
     patches.cuts = {{3, 8}};
+    patches.edge_deg = 30;
     model.apply(SetPatches{patches});
     model.apply(CancelJob{});
     wait();

@@ -76,8 +76,9 @@ TEST(PatchColours, AreNeverThoseOfANeighbour)
     for (const patches::Sample& sample : patches::samples()) {
         const std::vector<int> colour = patch_colours(sample.patches);
         for (const PatchInterface& joint : sample.patches.interfaces)
-            if (joint.first.patch != joint.second.patch)
+            if (joint.first.patch != joint.second.patch) {
                 EXPECT_NE(colour[size_t(joint.first.patch)], colour[size_t(joint.second.patch)]) << sample.name;
+            }
         const StageShape shape = surface_shape(sample.patches, part, SurfaceLook::patches, 0.1);
         Eigen::Index triangles = 0;
         for (const SceneLayer& layer : shape.layers)
