@@ -87,17 +87,19 @@ void print_summary(const Session& session)
     const NurbsSurface& surface = session.surface->result.surface;
     const auto& patches = session.surface->patches;
     say("surface   {}, deviation max {:.4g} mm, rms {:.4g} mm\n",
-        patches ? fmt::format("{} patches with {} control points", patches->patches.patch.size(),
-                              shared_controls(patches->patches).count)
-                : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
+        patches
+            ? fmt::format("{} with {} control points", counted(int(patches->patches.patch.size()), "patch", "patches"),
+                          shared_controls(patches->patches).count)
+            : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
         deviation.max(), std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
     if (const TrimResult& trim = session.surface->trim; !trim.loop.empty())
         say("holes     {}, of IGES and STEP files, within {:.2g} mm of {} vertices\n",
             counted(int(trim.loop.size()), "trimming curve", "trimming curves"), trim.distance,
             trim.loop.size() == 1 ? "its" : "their");
     if (const auto& fit = session.surface->fit; fit && patches)
-        say("          {} {:.4g} mm in {} rounds, {} interfaces{}\n", fit->reached ? "within" : "NOT within",
-            fit->tolerance, fit->rounds, patches->patches.interfaces.size(),
+        say("          {} {:.4g} mm in {}, {}{}\n", fit->reached ? "within" : "NOT within", fit->tolerance,
+            counted(fit->rounds, "round", "rounds"),
+            counted(int(patches->patches.interfaces.size()), "interface", "interfaces"),
             patches->layout.edges > 0
                 ? fmt::format(", patches end on {}", counted(patches->layout.edges, "sharp edge", "sharp edges"))
                 : "");

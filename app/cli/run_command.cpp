@@ -97,6 +97,9 @@ SessionOptions options(const RunArguments& arguments)
         throw InputError("--patch-edges is for patches; ask for them with --patches auto, or leave it out");
     if (arguments.patch_edges && !(*arguments.patch_edges >= 1 && *arguments.patch_edges <= 180)) // a NaN, likewise
         throw InputError("--patch-edges is an angle in degrees, from 1 to 180");
+    if (arguments.patch_edges && (!result.patches->cuts.empty() || !result.patches->corners.empty()))
+        throw InputError(
+            "--patch-edges is not for layouts with cuts or corners, where no edges are looked for; leave it out");
     if (arguments.patch_edges)
         result.patches->edge_deg = *arguments.patch_edges;
     if (result.patches && arguments.degree.front() != arguments.degree.back())

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -14,46 +15,71 @@ namespace spia {
 
 namespace {
 
-/// The ways to divide a blank, in turn: patches that end on its edges, where it has some; as few patches as there can be without;
-/// then more of them with better corners.
-std::vector<LayoutOptions> ways_to_divide(const TriMesh& part, const LayoutOptions& layout)
+/// Ways to divide a blank, in turn.
+struct Ways {
+    std::vector<LayoutOptions> layout;
+    size_t dividing_all = 0; ///< from here on every face is divided: only where a fold is in the way
+};
+
+/// As few patches as there can be, then more of them with better corners; each along the edges of the part, where it has some, and
+/// without.
+Ways ways_to_divide(const TriMesh& part, const LayoutOptions& layout)
 {
-    std::vector<LayoutOptions> ways;
-    LayoutOptions plain = layout;
-    plain.edge_deg = 180;
-    const auto add = [&](const LayoutOptions& from, bool layers, bool split, double corner, double closer) {
-        LayoutOptions& way = ways.emplace_back(from);
-        way.layers = layers;
-        way.split = split;
-        way.corner_deg *= corner;
-        way.spacing *= closer;
-    };
+    std::vector<LayoutOptions> along = {layout};
     if (has_edges(part, layout)) {
-        add(layout, false, false, 1, 1);
-        add(layout, true, false, 1, 1);
-        add(layout, true, false, 1, 0.5);
+        along.push_back(layout);
+        along.back().edge_deg = 180;
     }
-    add(plain, false, false, 1, 1);
-    add(plain, true, false, 1, 1);
-    add(plain, true, false, 1, 0.5);
-    add(plain, false, true, 1, 1);
-    add(plain, false, true, 1, 0.5); // other vertices on the border, where a face has a corner without room for cells
-    add(plain, false, true, 1.5, 0.5);
-    add(plain, true, true, 1, 1);
+    Ways ways;
+    const auto add = [&](bool layers, bool split, double corner, double closer) {
+        for (const LayoutOptions& each : along) {
+            LayoutOptions& way = ways.layout.emplace_back(each);
+            way.layers = layers;
+            way.split = split;
+            way.corner_deg *= corner;
+            way.spacing *= closer;
+        }
+    };
+    add(false, false, 1, 1);
+    add(true, false, 1, 1);
+    add(true, false, 1, 0.5);
+    ways.dividing_all = ways.layout.size();
+    along = {along.back()};
+    add(false, true, 1, 1);
+    add(false, true, 1, 0.5); // other vertices on the border, where a face has a corner without room for cells
+    add(false, true, 1.5, 0.5);
+    add(true, true, 1, 1);
     return ways;
 }
 
-/// What a fit is worth: no fold, then the tolerance, then to be near.
+/// What a fit is worth: no fold, then the tolerance, then few control points, or to be near.
 struct Worth {
     bool suited = false, reached = false;
     double deviation = std::numeric_limits<double>::infinity();
+    int control_points = std::numeric_limits<int>::max();
 
     bool all() const { return suited && reached; }
     bool better_than(const Worth& other) const
     {
+        if (all() && other.all())
+            return control_points < other.control_points;
         return std::tuple(suited, reached, -deviation) > std::tuple(other.suited, other.reached, -other.deviation);
     }
 };
+
+Worth worth_of(const PatchesFit& fit)
+{
+    return {certify(fit.patches).suited(), fit.reached, fit.deviation_max(), shared_controls(fit.patches).count};
+}
+
+bool same(const Layout& a, const Layout& b)
+{
+    return a.patch == b.patch && std::equal(a.curve.begin(), a.curve.end(), b.curve.begin(), b.curve.end(),
+                                            [](const LayoutCurve& c, const LayoutCurve& d) {
+                                                return c.vertex == d.vertex && c.plane.cols() == d.plane.cols() &&
+                                                       c.plane == d.plane;
+                                            });
+}
 
 PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout,
                         const PatchesFitOptions& options, const Progress& progress)
@@ -61,27 +87,31 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
     progress.checkpoint(0, "dividing the blank into patches");
     std::optional<PatchesFit> best;
     std::optional<InputError> first;
-    Worth best_worth;
+    Worth worth;
     Layout last;
-    const std::vector<LayoutOptions> ways = ways_to_divide(part, layout);
-    for (size_t k = 0; k < ways.size() && !best_worth.all(); ++k) {
-        const Progress here = progress.part(double(k) / double(ways.size()), double(k + 1) / double(ways.size()));
+    const Ways ways = ways_to_divide(part, layout);
+    const size_t count = ways.layout.size();
+    for (size_t k = 0; k < count; ++k) {
+        // Patches along edges are compared with those without, whose fit may cost no more.
+        const bool compare = worth.all() && best->layout.edges > 0 && k == 1;
+        if ((worth.all() && !compare) || (worth.suited && k >= ways.dividing_all))
+            break; // what lacks then is control points, or an edge is in the way whatever the patches
         try {
-            Layout divided = make_layout(part, blank, ways[k]);
-            if (k > 0 && divided.patch == last.patch && divided.vertex.cols() == last.vertex.cols() &&
-                divided.vertex == last.vertex)
+            const Progress here = progress.part(double(k) / double(count), double(k + 1) / double(count));
+            Layout divided = make_layout(part, blank, ways.layout[k], here.part(0, 0.1));
+            if (k > 0 && same(divided, last))
                 continue; // this way makes no difference
             last = divided;
-            PatchesFit fit = fit_patches(part, blank, divided, options, here);
-            const Worth now{certify(fit.patches).suited(), fit.reached, fit.deviation_max()};
-            if (!best || now.better_than(best_worth)) {
+            PatchesFitOptions fitting = options;
+            if (compare)
+                fitting.max_control_points = std::min(options.max_control_points, worth.control_points);
+            PatchesFit fit = fit_patches(part, blank, divided, fitting, here.part(0.1, 1));
+            if (const Worth now = worth_of(fit); !best || now.better_than(worth)) {
                 best = std::move(fit);
-                best_worth = now;
+                worth = now;
             }
-            if (k >= 2 && best_worth.suited)
-                break; // it is control points that lack, or flatter edges that are in the way, whatever the patches
         } catch (const InputError& error) {
-            if (!first)
+            if (!first || k == 1) // without edges, where the first way has some
                 first = error;
         }
     }

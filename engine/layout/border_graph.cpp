@@ -83,6 +83,15 @@ double turn_between(const Outline& outline, const std::vector<int>& loop, const 
     return std::abs(turn);
 }
 
+/// Whether a loop turns at a vertex itself, not over some length.
+bool is_sharp(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, int i, double corner_turn)
+{
+    const int n = int(loop.size());
+    const Eigen::Vector2d at = plane.col(loop[size_t(i)]), in = at - plane.col(loop[size_t((i + n - 1) % n)]),
+                          out = plane.col(loop[size_t((i + 1) % n)]) - at;
+    return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > corner_turn;
+}
+
 struct LoopPlaces {
     std::vector<int> loop;
     Places place;
@@ -105,7 +114,9 @@ Places places_of(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane, bo
         const Places before = found;
         for (const int i : corners(outline, corner_turn, share))
             if (!is_near(outline, before, outline.length_at(i), 1.5 * share * outline.perimeter()) &&
-                !is_near(outline, places, outline.length_at(i), 1.5 * corner_reach.back() * outline.perimeter()))
+                (is_sharp(loop, plane, i, corner_turn) ? std::find(places.begin(), places.end(), i) == places.end()
+                                                       : !is_near(outline, places, outline.length_at(i),
+                                                                  1.5 * corner_reach.back() * outline.perimeter())))
                 found.push_back(i);
     }
     places.insert(places.end(), found.begin(), found.end());
@@ -199,14 +210,14 @@ double vertex_spacing(const TriMesh& part, const Blank& blank, const LayoutOptio
 }
 
 PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOptions& options,
-                        const std::vector<int>& forced, bool only_forced)
+                        const std::vector<int>& forced, bool only_forced, bool close_corners)
 {
     const auto loops = boundary_loops(part);
     const size_t outer = size_t(outer_loop(loops, blank.position));
     require_plain(loops, blank, options.file_number);
     const double spacing = vertex_spacing(part, blank, options);
     std::vector<double> corner_reach = {0.02}; // of a loop's length
-    if (options.layers || has_edges(part, options))
+    if (close_corners)
         corner_reach.push_back(0.005); // two corners side by side as well
     std::vector<LoopPlaces> chosen;
     for (size_t l = 0; l < loops.size(); ++l)

@@ -12,8 +12,10 @@ namespace spia {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double shortest = 0.02;  ///< over the diagonal: loose ends below it are no edges but noise of the mesh
-constexpr size_t most_lines = 200; ///< more of them: a rough surface, not a part with edges
+constexpr double shortest = 0.02; ///< over the diagonal: loose ends below it are no edges but noise of the mesh
+constexpr size_t most_lines =
+    200; ///< more of them: only sharper ones count, or it is a rough surface, not a part with edges
+constexpr double rough = pi / 4; ///< the angle from which on too many are too many
 constexpr double most_turn = 100 * pi / 180;
 
 /// Radians that the line has turned at each of its vertices, and its length so far.
@@ -37,13 +39,14 @@ Progression along(const std::vector<int>& row, const Eigen::Matrix2Xd& plane)
     return result;
 }
 
-/// The row in pieces that neither wind nor are longer than that: a closed one in four or more, as it turns all around.
+/// The row in pieces that neither wind nor are longer than that: a closed one in four or more.
 std::vector<std::vector<int>> pieces_of(const std::vector<int>& row, const Eigen::Matrix2Xd& plane, double longest)
 {
     const Progression so_far = along(row, plane);
     const int by_length = int(std::lround(so_far.length.back() / longest)),
               by_turn = int(std::ceil(so_far.turn.back() / most_turn - 1e-9));
-    const int count = std::min(int(row.size()) - 1, std::max({1, by_length, by_turn}));
+    const int least = row.front() == row.back() ? 4 : 1; // where it closes it may turn as well
+    const int count = std::min(int(row.size()) - 1, std::max({least, by_length, by_turn}));
     std::vector<std::vector<int>> result;
     size_t from = 0;
     for (int k = 1; k <= count; ++k) {
@@ -64,16 +67,58 @@ std::vector<std::vector<int>> pieces_of(const std::vector<int>& row, const Eigen
 std::vector<std::vector<int>> sharp_edges(const TriMesh& part, double angle)
 {
     const double never = 2 * pi;
-    const KeptLines lines = kept_lines(part, {}, angle, never, shortest * bounding_diagonal(part));
     const EdgeGraph graph = edge_graph(part);
-    std::vector<std::vector<int>> result;
-    for (const std::vector<int>& row : lines.line)
-        if (!graph.edge[size_t(graph.find(row[0], row[1]))].boundary())
-            result.push_back(row);
-    if (result.size() > most_lines)
-        result.clear();
-    return result;
+    for (;; angle = std::min(1.25 * angle, std::max(angle, rough))) {
+        const KeptLines lines = kept_lines(part, {}, angle, never, shortest * bounding_diagonal(part));
+        std::vector<std::vector<int>> result;
+        for (const std::vector<int>& row : lines.line)
+            if (!graph.edge[size_t(graph.find(row[0], row[1]))].boundary())
+                result.push_back(row);
+        if (result.size() <= most_lines)
+            return result;
+        if (angle >= rough)
+            return {};
+    }
 }
+
+namespace {
+
+/// Divides an arc of the border at its point next to the middle.
+void divide_arc(PlaneGraph& graph, size_t c)
+{
+    LayoutCurve first = graph.curve[c], second = first;
+    const Eigen::Vector2d middle = points_on(first, {0.5}).col(0);
+    Eigen::Index at = 1;
+    for (Eigen::Index i = 2; i + 1 < first.plane.cols(); ++i)
+        if ((first.plane.col(i) - middle).norm() < (first.plane.col(at) - middle).norm())
+            at = i;
+    const int vertex = int(graph.vertex.size());
+    graph.vertex.push_back(first.plane.col(at));
+    graph.border.push_back(BorderTurn{first.plane.col(at - 1), first.plane.col(at + 1)});
+    const Eigen::Index n = first.plane.cols();
+    first.plane = second.plane.leftCols(at + 1).eval();
+    first.part = second.part.leftCols(at + 1).eval();
+    second.plane = second.plane.rightCols(n - at).eval();
+    second.part = second.part.rightCols(n - at).eval();
+    first.vertex[1] = second.vertex[0] = vertex;
+    graph.curve[c] = std::move(first);
+    graph.curve.push_back(std::move(second));
+}
+
+/// A face between an edge and one arc of the border would have two sides.
+void divide_arcs_beside_edges(PlaneGraph& graph)
+{
+    const size_t count = graph.curve.size();
+    for (size_t e = 0; e < count; ++e)
+        for (size_t c = 0; graph.curve[e].kept && c < count; ++c) {
+            const LayoutCurve &edge = graph.curve[e], &arc = graph.curve[c];
+            if (arc.on_border() && arc.plane.cols() > 2 &&
+                (arc.vertex == edge.vertex || arc.vertex == std::array{edge.vertex[1], edge.vertex[0]}))
+                divide_arc(graph, c);
+        }
+}
+
+} // namespace
 
 void add_edges(PlaneGraph& graph, const Blank& blank, const std::vector<std::vector<int>>& edges, double longest)
 {
@@ -94,6 +139,7 @@ void add_edges(PlaneGraph& graph, const Blank& blank, const std::vector<std::vec
             curve.kept = true;
             graph.curve.push_back(std::move(curve));
         }
+    divide_arcs_beside_edges(graph);
 }
 
 } // namespace spia

@@ -142,7 +142,7 @@ void join_arcs(PlaneGraph& graph, std::vector<Face>& faces)
         for (const int v : curve.vertex)
             ++curves_at[size_t(v)];
     for (Face& face : faces)
-        for (size_t k = 0; k < face.size() && face.size() > 2;) {
+        for (size_t k = 0; k < face.size() && face.size() > 3;) {
             const size_t before = (k + face.size() - 1) % face.size();
             LayoutCurve &first = graph.curve[size_t(face[before].curve)], &second = graph.curve[size_t(face[k].curve)];
             if (curves_at[size_t(start_of(graph, face[k]))] > 2 || !first.on_border() || !second.on_border() ||

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/layout/plane_graph.h"
+#include "engine/layout/plane_lines.h"
 #include "engine/mesh/orient2d.h"
 
 namespace spia {
@@ -31,11 +32,44 @@ int apex(const PlaneGraph& graph, const Face& face, int curve)
     return -1;
 }
 
+/// The points of a curve as it is used.
+Eigen::Matrix2Xd points_of(const PlaneGraph& graph, CurveUse use)
+{
+    const Eigen::Matrix2Xd& p = graph.curve[size_t(use.curve)].plane;
+    return use.reversed ? p.rowwise().reverse().eval() : p;
+}
+
+/// Whether a straight line from the apex of a face on a curve runs within it at first, and meets neither of its other sides.
+bool clear_of_sides(const PlaneGraph& graph, const Face& face, int curve, const Eigen::Vector2d& from,
+                    const Eigen::Vector2d& to)
+{
+    const size_t k =
+        size_t(std::find_if(face.begin(), face.end(), [&](CurveUse u) { return u.curve == curve; }) - face.begin());
+    const Eigen::Matrix2Xd in = points_of(graph, face[(k + 1) % 3]), out = points_of(graph, face[(k + 2) % 3]);
+    if (!leads_inside(in.col(in.cols() - 2), from, out.col(1), to))
+        return false;
+    for (const Eigen::Matrix2Xd* side : {&in, &out})
+        for (Eigen::Index i = 0; i + 1 < side->cols(); ++i) {
+            const Eigen::Vector2d a = side->col(i), b = side->col(i + 1);
+            if (a != from && b != from && segments_meet(from, to, a, b))
+                return false;
+        }
+    return true;
+}
+
+bool joined_already(const PlaneGraph& graph, int a, int b)
+{
+    return std::any_of(graph.curve.begin(), graph.curve.end(), [&](const LayoutCurve& curve) {
+        return curve.vertex == std::array{a, b} || curve.vertex == std::array{b, a};
+    });
+}
+
 } // namespace
 
-void flip_lines(PlaneGraph& graph, int first_line)
+void flip_lines(PlaneGraph& graph, int first_line, const Progress& progress)
 {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+        progress.checkpoint(double(sweep) / most_sweeps, "turning lines of the layout");
         const std::vector<Face> faces = faces_of(graph);
         std::map<int, std::vector<int>> sides_of;
         for (int f = 0; f < int(faces.size()); ++f)
@@ -62,6 +96,10 @@ void flip_lines(PlaneGraph& graph, int first_line)
                              std::min(least_angle(at(right), at(b), at(left)), least_angle(at(left), at(a), at(right)));
             if (after <= before + worth_it)
                 continue;
+            if (joined_already(graph, left, right) ||
+                !clear_of_sides(graph, faces[size_t(two[0])], c, at(left), at(right)) ||
+                !clear_of_sides(graph, faces[size_t(two[1])], c, at(right), at(left)))
+                continue; // their sides are bent
             line.vertex = {right, left};
             line.plane << at(right), at(left);
             changed[size_t(two[0])] = changed[size_t(two[1])] = 1;

@@ -28,6 +28,8 @@ constexpr double least_corner = 25 * pi / 180; ///< of a layer's patches, and it
 constexpr double thinner = 0.7;
 constexpr int most_rounds = 200;
 constexpr double longest_arc = 4; ///< over its distance from the rest of the border
+constexpr double least_piece =
+    1. / 40; ///< of the blank's size, of cuts and edges: they may run as close to others as they like
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -47,7 +49,7 @@ struct Segment {
 
 class Layers {
 public:
-    explicit Layers(PlaneGraph& graph) : graph_(graph) {}
+    Layers(PlaneGraph& graph, const Progress& progress) : graph_(graph), progress_(progress) {}
 
     void add()
     {
@@ -63,8 +65,8 @@ public:
                                !on_edge[size_t(curve.vertex[1])] && is_bent(curve));
         divide_arcs();
         look_around();
-        for (int round = 0; round < most_rounds && adjust(); ++round) {
-        }
+        for (int round = 0; round < most_rounds && adjust(); ++round)
+            progress_.checkpoint(double(round) / most_rounds, "laying patches along the border");
         draw();
     }
 
@@ -308,11 +310,20 @@ private:
     /// by step; cuts and edges likewise.
     void divide_arcs()
     {
-        for (int c = 0; c < int(graph_.curve.size()); ++c)
+        double low = border_[0].a.sum(), high = low; // the blank's size, roughly
+        for (const Segment& s : border_) {
+            low = std::min(low, s.a.sum());
+            high = std::max(high, s.a.sum());
+        }
+        for (int c = 0; c < int(graph_.curve.size()); ++c) {
+            progress_.checkpoint(0, "dividing the border");
             while ((graph_.curve[size_t(c)].kept || graph_.curve[size_t(c)].plane.cols() > 2) &&
                    (range_of_turns(graph_.curve[size_t(c)]) > most_turn ||
-                    length(graph_.curve[size_t(c)]) > longest_arc * distance_to_rest(c)))
+                    length(graph_.curve[size_t(c)]) >
+                        std::max(longest_arc * distance_to_rest(c),
+                                 graph_.curve[size_t(c)].kept ? least_piece * (high - low) : 0)))
                 split(c);
+        }
     }
 
     /// From an arc to the border but for itself and the arcs beside it.
@@ -382,6 +393,7 @@ private:
     }
 
     PlaneGraph& graph_;
+    const Progress& progress_;
     std::vector<Segment> border_;
     std::vector<char> layered_; // per curve
     std::vector<int> in_, out_; // per vertex: the arcs of the border that end and begin there
@@ -391,6 +403,6 @@ private:
 
 } // namespace
 
-void add_layers(PlaneGraph& graph) { Layers(graph).add(); }
+void add_layers(PlaneGraph& graph, const Progress& progress) { Layers(graph, progress).add(); }
 
 } // namespace spia

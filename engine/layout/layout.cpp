@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <numbers>
+#include <set>
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
@@ -14,20 +15,28 @@ namespace spia {
 
 namespace {
 
-/// The cuts as curves of the graph, divided where another one ends.
-void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& options)
+/// Vertices at which cuts are divided: their ends, those on the border and those of two cuts.
+std::set<int> breaks_of(const std::vector<LayoutCut>& cuts, const std::vector<char>& on_border)
 {
-    const auto number = [&](int v) { return options.file_number.empty() ? v : options.file_number[size_t(v)]; };
-    std::vector<int> ends;
-    for (const LayoutCut& cut : options.cuts) {
+    std::set<int> breaks, seen;
+    for (const LayoutCut& cut : cuts) {
         if (cut.size() < 2)
             throw InputError("a cut needs two vertices or more");
-        for (const int v : cut)
-            if (v < 0 || v >= blank.position.cols())
+        for (const int v : cut) {
+            if (v < 0 || size_t(v) >= on_border.size())
                 throw InputError(fmt::format("a cut names vertex {}, which the part does not have", v));
-        ends.push_back(cut.front());
-        ends.push_back(cut.back());
+            if (!seen.insert(v).second || on_border[size_t(v)])
+                breaks.insert(v);
+        }
+        breaks.insert({cut.front(), cut.back()});
     }
+    return breaks;
+}
+
+/// The cuts as curves of the graph, divided where they meet.
+void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& options, const std::set<int>& breaks)
+{
+    const auto number = [&](int v) { return options.file_number.empty() ? v : options.file_number[size_t(v)]; };
     const auto vertex_of = [&](int v, bool may_add) {
         const Eigen::Vector2d place = blank.position.col(v);
         const auto found = std::find(graph.vertex.begin(), graph.vertex.end(), place);
@@ -42,15 +51,15 @@ void add_cuts(PlaneGraph& graph, const Blank& blank, const LayoutOptions& option
         graph.border.push_back(std::nullopt);
         return int(graph.vertex.size()) - 1;
     };
-    for (const LayoutCut& cut : options.cuts) // inner vertices of cuts at which others end
+    for (const LayoutCut& cut : options.cuts) // inner vertices of cuts that are others' as well
         for (size_t i = 1; i + 1 < cut.size(); ++i)
-            if (std::find(ends.begin(), ends.end(), cut[i]) != ends.end())
+            if (breaks.contains(cut[i]))
                 vertex_of(cut[i], true);
     for (const LayoutCut& cut : options.cuts) {
         std::vector<int> run = {cut.front()};
         for (size_t i = 1; i < cut.size(); ++i) {
             run.push_back(cut[i]);
-            if (i + 1 < cut.size() && std::find(ends.begin(), ends.end(), cut[i]) == ends.end())
+            if (i + 1 < cut.size() && !breaks.contains(cut[i]))
                 continue;
             LayoutCurve curve;
             curve.vertex = {vertex_of(run.front(), false), vertex_of(run.back(), false)};
@@ -111,18 +120,17 @@ bool all_four_sided(const std::vector<Face>& faces)
 
 bool has_edges(const TriMesh& part, const LayoutOptions& options) { return !edges_of(part, options).empty(); }
 
-Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options)
+Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options, const Progress& progress)
 {
-    std::vector<int> forced = options.corners;
-    for (const LayoutCut& cut : options.cuts)
-        if (!cut.empty())
-            forced.insert(forced.end(), {cut.front(), cut.back()});
     const auto loops = boundary_loops(part);
-    const std::vector<std::vector<int>> edges = edges_of(part, options);
     std::vector<char> on_border(size_t(part.vertices()), 0);
     for (const auto& loop : loops)
         for (const int v : loop)
             on_border[size_t(v)] = 1;
+    const std::set<int> breaks = breaks_of(options.cuts, on_border);
+    std::vector<int> forced = options.corners;
+    forced.insert(forced.end(), breaks.begin(), breaks.end());
+    const std::vector<std::vector<int>> edges = edges_of(part, options);
     for (const std::vector<int>& edge : edges)
         for (const int v : {edge.front(), edge.back()})
             if (on_border[size_t(v)])
@@ -132,8 +140,9 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
         const auto corner = propose_corners(blank, part);
         forced.assign(corner.begin(), corner.end());
     }
-    PlaneGraph graph = border_graph(part, blank, options, forced, whole || !options.corners.empty());
-    add_cuts(graph, blank, options);
+    PlaneGraph graph =
+        border_graph(part, blank, options, forced, whole || !options.corners.empty(), options.layers || !edges.empty());
+    add_cuts(graph, blank, options, breaks);
     add_edges(graph, blank, edges, vertex_spacing(part, blank, options));
     std::vector<Face> faces;
     if ((loops.size() == 1 && edges.empty()) || !options.corners.empty())
@@ -141,11 +150,11 @@ Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions&
     const bool ready = !faces.empty() && all_four_sided(faces);
     if (!ready) {
         if (options.corners.empty())
-            options.layers ? add_layers(graph) : add_rings(graph);
+            options.layers ? add_layers(graph, progress.part(0, 0.3)) : add_rings(graph);
         const int first_line = int(graph.curve.size());
-        triangulate(graph, options.layers);
+        triangulate(graph, options.layers, progress.part(0.3, 0.6));
         if (options.layers || !edges.empty())
-            flip_lines(graph, first_line);
+            flip_lines(graph, first_line, progress.part(0.6, 1));
         faces = faces_of(graph);
         join_arcs(graph, faces);
     }

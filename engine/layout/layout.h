@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/forming/blank.h"
 #include "engine/mesh/tri_mesh.h"
 
@@ -61,14 +62,14 @@ struct LayoutOptions {
 };
 
 /// Divides the blank into four-sided patches around its holes and along the sharp edges of the part. Corners of outline and holes,
-/// vertices between them where an arc turns far or is long, and the ends of edges (where there are neither cuts nor corners nor
-/// layers) are joined by straight lines, short and steep ones first, until none is left that neither crosses another nor leaves
+/// vertices between them where an arc turns far or is long, and the ends of edges (where there are neither cuts nor corners) are joined by straight lines, short and steep ones first, until none is left that neither crosses another nor leaves
 /// the blank (exact predicates): the faces are triangles with the border's arcs and the edges as sides. Pairs of them become
 /// patches [matching: Edmonds 1965]; those left over are divided from their middles, and the strips beside them along
 /// (divide_faces()). Deterministic.
 /// @throws InputError if the blank lies on itself, a cut is none (its ends are not on the border, it leaves the sheet, crosses another) or
 ///         a face cannot be divided; the message says which
-Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options = {});
+Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options = {},
+                   const Progress& progress = {});
 
 /// Whether the part has sharp edges on which patches would end: none where there are cuts or corners.
 bool has_edges(const TriMesh& part, const LayoutOptions& options);

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/layout/layout.h"
 
 namespace spia {
@@ -24,19 +25,22 @@ using Face = std::vector<CurveUse>;
 
 /// The border with its vertices: corners, ends of cuts, and more where an arc turns far or is long beside the spacing of the holes.
 /// Cuts divide it already.
-/// @param forced  vertices of the part that become vertices of the layout; if not empty and `only_forced`, no others do
+/// @param forced         vertices of the part that become vertices of the layout; if not empty and `only_forced`, no others do
+/// @param close_corners  two corners side by side are two vertices
 PlaneGraph border_graph(const TriMesh& part, const Blank& blank, const LayoutOptions& options,
-                        const std::vector<int>& forced, bool only_forced);
+                        const std::vector<int>& forced, bool only_forced, bool close_corners);
 
 /// mm: the distance of vertices along the border that are there for nothing but its length.
 double vertex_spacing(const TriMesh& part, const Blank& blank, const LayoutOptions& options);
 
 /// Rows of vertices of the part along its sharp edges, from where they end, meet or turn to the next such place; a closed one begins
-/// and ends at the same vertex. Loose ends shorter than 1/50 of the diagonal are noise. Nothing if there are more than 200: the part is rough.
+/// and ends at the same vertex. Loose ends shorter than 1/50 of the diagonal are noise. If there are more than 200 lines, only sharper ones
+/// count, up to 45 degrees; if there are as many then, nothing: the part is rough.
 /// @param angle  radians between the normals of two faces
 std::vector<std::vector<int>> sharp_edges(const TriMesh& part, double angle);
 
-/// Draws the edges of the part, in pieces, as curves on which patches end.
+/// Draws the edges of the part, in pieces, as curves on which patches end. Arcs of the border that join the ends of such a curve are
+/// divided.
 /// @pre where an edge ends on the border there is a vertex
 /// @param longest  mm, of a piece
 void add_edges(PlaneGraph& graph, const Blank& blank, const std::vector<std::vector<int>>& edges, double longest);
@@ -49,15 +53,15 @@ void add_rings(PlaneGraph& graph);
 /// the arc is divided where it is bent too much for that. What is left of the sheet has straight sides there.
 /// Arcs at which a cut or an edge of the part ends get none; cuts and edges that are long beside their distance from the rest are divided.
 /// @pre the graph has the border, cuts and edges of the part, no other lines
-void add_layers(PlaneGraph& graph);
+void add_layers(PlaneGraph& graph, const Progress& progress = {});
 
 /// Joins vertices by straight lines until no more is possible.
 /// @param complete  even by lines that leave the border at next to no angle
-void triangulate(PlaneGraph& graph, bool complete);
+void triangulate(PlaneGraph& graph, bool complete, const Progress& progress = {});
 
 /// Turns lines between two triangles to the other diagonal where that makes their least angle greater [Lawson 1977].
 /// @param first_line  curve from which on lines may be turned
-void flip_lines(PlaneGraph& graph, int first_line);
+void flip_lines(PlaneGraph& graph, int first_line, const Progress& progress = {});
 
 /// The faces on the sheet. @throws InputError if a part of the border is joined to the rest by no line
 std::vector<Face> faces_of(const PlaneGraph& graph);

@@ -96,7 +96,7 @@ bool leaves_into_sheet(const PlaneGraph& graph, int v, int to)
 
 } // namespace
 
-void triangulate(PlaneGraph& graph, bool complete)
+void triangulate(PlaneGraph& graph, bool complete, const Progress& progress)
 {
     std::vector<Line> lines;
     std::set<std::array<int, 2>> beside; // a line along an arc would leave a face of two sides
@@ -114,7 +114,10 @@ void triangulate(PlaneGraph& graph, bool complete)
     std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.cost < b.cost; });
     const std::vector<Wall> fixed = walls_of(graph);
     std::vector<Wall> taken;
-    for (const Line& line : lines) {
+    for (size_t k = 0; k < lines.size(); ++k) {
+        const Line& line = lines[k];
+        if (k % 1000 == 0)
+            progress.checkpoint(double(k) / double(lines.size()), "dividing the blank into triangles");
         const auto blocked = [&](const Wall& wall) { return blocks(wall, graph, line); };
         if (std::any_of(taken.begin(), taken.end(), blocked) || std::any_of(fixed.begin(), fixed.end(), blocked))
             continue;

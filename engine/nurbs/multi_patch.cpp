@@ -1,7 +1,9 @@
 #include "engine/nurbs/multi_patch.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/core.h>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -150,16 +152,42 @@ SharedControls shared_controls(const MultiPatch& patches)
     return result;
 }
 
+namespace {
+
+/// The first and the last control point of a side, the smaller one first.
+std::array<double, 6> ends_of(const NurbsSurface& surface, Side side)
+{
+    const std::vector<int> along = side_controls(surface, side);
+    std::array<double, 3> a, b;
+    for (int k = 0; k < 3; ++k) {
+        a[size_t(k)] = surface.control(k, along.front());
+        b[size_t(k)] = surface.control(k, along.back());
+    }
+    if (b < a)
+        std::swap(a, b);
+    return {a[0], a[1], a[2], b[0], b[1], b[2]};
+}
+
+} // namespace
+
 MultiPatch joined(std::vector<NurbsSurface> patches)
 {
     MultiPatch result{std::move(patches), {}};
     std::vector<PatchSide> open;
+    std::map<std::array<double, 6>, std::vector<size_t>> by_ends; // the same curve has the same ends
+    std::vector<const std::vector<size_t>*> candidates;
     for (int p = 0; p < int(result.patch.size()); ++p)
         for (const Side side : sides)
-            if (!collapsed(result, {p, side}))
+            if (!collapsed(result, {p, side})) {
+                auto& beside = by_ends[ends_of(result.patch[size_t(p)], side)];
+                beside.push_back(open.size());
+                candidates.push_back(&beside);
                 open.push_back({p, side});
+            }
     for (size_t a = 0; a < open.size(); ++a)
-        for (size_t b = a + 1; b < open.size(); ++b) {
+        for (const size_t b : *candidates[a]) {
+            if (b <= a)
+                continue;
             const bool same = !difference(result, {open[a], open[b], false});
             const bool mirrored = !difference(result, {open[a], open[b], true});
             if (same && mirrored)

@@ -50,8 +50,10 @@ std::optional<LayoutOptions> patch_layout(const std::string& choice)
         if (!edge->is_number() || !(edge->get<double>() >= 1) || !(edge->get<double>() <= 180))
             top.member("edge_deg").fail("must be an angle in degrees, from 1 to 180");
         layout.edge_deg = edge->get<double>();
+        if (!layout.cuts.empty() || !layout.corners.empty())
+            top.member("edge_deg").fail("cannot be with cuts or corners, where no edges are looked for; leave it out");
     }
-    if (layout == LayoutOptions{})
+    if (layout.cuts.empty() && layout.corners.empty() && !layout.smooth_joins && !json.contains("edge_deg"))
         top.fail("must have cuts, corners, edge_deg or \"smooth_joins\": true; --patches auto needs no file");
     return layout;
 }

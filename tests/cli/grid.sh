@@ -28,13 +28,19 @@ awk 'BEGIN { for (j = 0; j <= 6; ++j) for (i = 0; i <= 10; ++i) print "v", i < 5
              for (j = 0; j < 6; ++j) for (i = 1; i <= 10; ++i) print "f", 11 * j + i, 11 * j + i + 1, 11 * j + i + 12, 11 * j + i + 11 }' > "$out/fold.obj"
 run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches auto --json "$out/a.json"
 grep -q '"edges": 1' "$out/a.json" || fail "the report does not tell the edge"
-run 0 "1 patches with" "$out/fold.obj" --patches auto --patch-edges 91 --json "$out/a.json"
+run 0 "1 patch with" "$out/fold.obj" --patches auto --patch-edges 91 --json "$out/a.json"
 grep -q '"edges": 0' "$out/a.json" || fail "the report tells an edge on which no patch ends"
 echo '{"edge_deg": 91}' > "$out/edges.json"
-run 0 "1 patches with" "$out/fold.obj" --patches "$out/edges.json"
+run 0 "1 patch with" "$out/fold.obj" --patches "$out/edges.json"
 run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches "$out/edges.json" --patch-edges 60
 run 2 "--patch-edges is for patches" "$out/fold.obj" --patch-edges 60
 run 2 "from 1 to 180" "$out/fold.obj" --patches auto --patch-edges nan
 echo '{"edge_deg": 0}' > "$out/edges.json"
 run 2 "edge_deg.* must be an angle in degrees, from 1 to 180" "$out/fold.obj" --patches "$out/edges.json"
+echo '{"edge_deg": 45}' > "$out/edges.json"
+run 0 "patches end on 1 sharp edge" "$out/fold.obj" --patches "$out/edges.json"
+echo '{"cuts": [[5, 71]]}' > "$out/cut.json"
+run 2 "is not for layouts with cuts or corners" "$out/fold.obj" --patches "$out/cut.json" --patch-edges 60
+echo '{"cuts": [[5, 71]], "edge_deg": 45}' > "$out/cut.json"
+run 2 "cannot be with cuts or corners" "$out/fold.obj" --patches "$out/cut.json"
 echo "grid: all as it should be"

@@ -328,7 +328,7 @@ const char* const moves_seed =
  "lattice": {"count": [3, 4, 2], "degree": [2, 3, 1], "origin": [0, 0, 0], "edges": [[10, 0, 0], [0, 20, 0], [0, 0, 5]],
   "moves": [{"at": [1, 1, 1], "by": [1, 2, 3]}]}})";
 
-const char* const cuts_seed = R"({"cuts": [[12, 40, 77], [1, 2]], "corners": [3, 9, 60, 88], "edge_deg": 45, "smooth_joins": true})";
+const char* const cuts_seed = R"({"cuts": [[12, 40, 77], [1, 2]], "corners": [3, 9, 60, 88], "smooth_joins": true})";
 
 std::vector<FuzzTarget> make_targets()
 {

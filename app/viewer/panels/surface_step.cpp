@@ -189,7 +189,7 @@ void patches_editor(Frame& frame)
         ImGui::SameLine();
         muted(frame, cut_name(patches->cuts[k]));
     }
-    if (patches->cuts.empty())
+    if (patches->cuts.empty() && patches->corners.empty())
         edges_editor(frame, *patches);
     bool smooth = patches->smooth_joins;
     if (ImGui::Checkbox("Smooth joins", &smooth)) {

@@ -1,10 +1,14 @@
 // Patches that end on the sharp edges of a part: folded sheets, whose flat sides four control points each way hold exactly.
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <memory>
 #include <numbers>
 
+#include "engine/core/error.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/layout/plane_graph.h"
 #include "engine/mesh/topology.h"
@@ -102,6 +106,14 @@ int control_points(const PatchesFit& fit)
     for (const NurbsSurface& patch : fit.patches.patch)
         count += int(patch.control.cols());
     return count;
+}
+
+/// Along its edges, whatever that costs.
+PatchesFit fitted_along(const Sheet& sheet, double tolerance)
+{
+    PatchesFitOptions options;
+    options.tolerance = tolerance;
+    return fit_patches(sheet.part, sheet.blank, make_layout(sheet.part, sheet.blank), options);
 }
 
 double length_of_kept(const Layout& layout)
@@ -219,7 +231,7 @@ TEST(Edges, AFoldMayEndWithinTheSheet)
     // A crease along x = 50 that is flat at y = 0 and sharper and sharper from there on; its projection is taken for the blank.
     const auto creased = [](double x, double y) { return Eigen::Vector3d(x, y, std::abs(x - 50) * y / 60); };
     const Sheet crease = sheet(20, 24, everywhere, creased);
-    const PatchesFit fit = fitted(crease, 0.05);
+    const PatchesFit fit = fitted_along(crease, 0.05);
     EXPECT_EQ(fit.layout.edges, 1);
     EXPECT_EQ(shapes::fault_of_layout(fit.layout, crease.part, crease.blank), "");
     // The normals beside it are 2 atan(y / 60) apart: 45 degrees at y = 24.9; edges are 5 mm long.
@@ -271,6 +283,129 @@ TEST(Edges, ControlPointsThatAreNotEnoughGoToTheFarthestPatches)
         EXPECT_LT(fit.deviation_max(), before);
         before = fit.deviation_max();
     }
+}
+
+TEST(Edges, AFlangeMayBeNarrow)
+{
+    // Its corner is right beside the end of the fold, and is a corner of patches all the same.
+    for (const double width : {0.2, 1., 2.4, 5.}) {
+        const Sheet fold = sheet(11, 12, everywhere, folded(pi / 2));
+        Sheet narrow = fold;
+        for (Eigen::Index v = 0; v < fold.part.position.cols(); ++v)
+            if (fold.blank.position(0, v) > 50) {
+                narrow.blank.position(0, v) = 50 + width;
+                narrow.part.position.col(v) << 50, fold.blank.position(1, v), width;
+            }
+        const PatchesFit fit = fitted(narrow, 0.01);
+        EXPECT_EQ(fit.patches.patch.size(), 2u) << width;
+        EXPECT_LT(fit.deviation_max(), 1e-9) << width;
+    }
+}
+
+TEST(Edges, FoldsMayBeCloseTogether)
+{
+    // Two folds 0.05 mm apart on 60 mm: layers beside them are as thin, but not as short.
+    Sheet step = sheet(11, 12, everywhere, folded(0));
+    for (Eigen::Index v = 0; v < step.part.position.cols(); ++v) {
+        const double x = step.blank.position(0, v), up = std::clamp(x - 45, 0., 5.) / 100, on = std::max(0., x - 50);
+        step.blank.position(0, v) = std::min(x, 45.) + up + on;
+        step.part.position.col(v) << std::min(x, 45.) + on, step.blank.position(1, v), up;
+    }
+    LayoutOptions options;
+    options.layers = true;
+    const Layout layout = make_layout(step.part, step.blank, options);
+    EXPECT_EQ(layout.edges, 2);
+    EXPECT_EQ(shapes::fault_of_layout(layout, step.part, step.blank), "");
+    EXPECT_LT(layout.patch.size(), 600u);
+    EXPECT_LT(fitted(step, 0.01).deviation_max(), 1e-9);
+}
+
+TEST(Edges, AChordOfARoundSheetMayBeFolded)
+{
+    // The arc beside the chord has no corner: the face between them would have two sides.
+    const Sheet fold = round_sheet({10, 20, 30, 40, 50}, true,
+                                   [](const Eigen::Vector2d& at) { return Eigen::Vector3d(at.x(), at.y(), 0); });
+    Sheet chord = fold;
+    constexpr double x0 =
+        50 * 0.92387953251128674; // cos(22.5 degrees): the line through the vertices 3 and -3 of the rim
+    for (Eigen::Index v = 0; v < chord.part.position.cols(); ++v) {
+        Eigen::Vector2d at = fold.blank.position.col(v);
+        // The last ring but one is moved onto the chord where it is beside it; its first vertex close to the rim's.
+        const double angle = std::atan2(at.y(), at.x()) * 180 / pi;
+        if (std::abs(at.norm() - 40) < 1e-9 && angle > -22.6 && angle < 22.4)
+            at = Eigen::Vector2d(x0, angle < -22.4 ? -17 : x0 * std::tan(angle * pi / 180));
+        chord.blank.position.col(v) = at;
+        const double beyond = std::max(0., at.x() - x0);
+        chord.part.position.col(v) << at.x() - beyond, at.y(), beyond;
+    }
+    const PatchesFit fit = fitted_along(chord, 0.1);
+    EXPECT_EQ(fit.layout.edges, 1);
+    EXPECT_EQ(shapes::fault_of_layout(fit.layout, chord.part, chord.blank), "");
+    EXPECT_TRUE(fit.reached) << fit.deviation_max();
+    EXPECT_TRUE(certify(fit.patches).suited());
+}
+
+TEST(Edges, MoreThanTheyMayBeAreTakenFromASharperAngleOn)
+{
+    // 240 folds of 20 degrees, one of 60.
+    Sheet many = sheet(250, 2, everywhere, folded(0));
+    Eigen::Vector2d at(0, 0);
+    double angle = 0;
+    std::vector<Eigen::Vector2d> profile = {at};
+    for (int i = 0; i < 250; ++i) {
+        at += 5 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        profile.push_back(at);
+        angle = i == 245 ? 60 * pi / 180 : i < 241 ? (i % 2 ? 0 : 20 * pi / 180) : 0;
+    }
+    for (Eigen::Index v = 0; v < many.part.position.cols(); ++v) {
+        const Eigen::Vector2d p = profile[size_t(std::lround(many.blank.position(0, v) / 5))];
+        many.part.position.col(v) << p.x(), many.blank.position(1, v), p.y();
+    }
+    EXPECT_EQ(sharp_edges(many.part, 50 * pi / 180).size(), 2u); // up and down again
+    EXPECT_EQ(sharp_edges(many.part, 10 * pi / 180).size(), 2u) << "not none, and not all 240";
+}
+
+TEST(Edges, CutsMayCrossAtAVertexAndTouchTheBorder)
+{
+    const Sheet flat = sheet(20, 12, everywhere, folded(0));
+    const auto vertex = [&](double x, double y) {
+        Eigen::Index v;
+        (flat.blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
+        return int(v);
+    };
+    const std::vector<std::vector<LayoutCut>> all = {
+        {{vertex(50, 0), vertex(50, 30), vertex(50, 60)}, {vertex(0, 30), vertex(50, 30), vertex(100, 30)}},
+        {{vertex(25, 0), vertex(50, 60), vertex(75, 0)}}};
+    for (const auto& cuts : all)
+        for (const bool layers : {false, true}) {
+            LayoutOptions options;
+            options.cuts = cuts;
+            options.layers = layers;
+            const Layout layout = make_layout(flat.part, flat.blank, options);
+            EXPECT_EQ(shapes::fault_of_layout(layout, flat.part, flat.blank), "");
+            EXPECT_NEAR(length_of_kept(layout), cuts.size() == 2 ? 160 : 130, 1e-9);
+        }
+}
+
+TEST(Edges, ALayoutCanBeCancelled)
+{
+    const Sheet fold = sheet(20, 12, everywhere, folded(pi / 2));
+    for (const bool layers : {false, true}) {
+        LayoutOptions options;
+        options.layers = layers;
+        int left = 1;
+        const auto stop = std::make_shared<std::atomic<bool>>(false);
+        const Progress progress([&](double, std::string_view) { stop->store(--left <= 0); }, stop);
+        EXPECT_THROW(make_layout(fold.part, fold.blank, options, progress), Cancelled) << layers;
+    }
+}
+
+TEST(Edges, WithoutEdgesIsTakenWhereThatCostsLess)
+{
+    // A fold of 46 degrees that a coarse tolerance does not see.
+    const Sheet fold = sheet(20, 12, everywhere, folded(46 * pi / 180));
+    EXPECT_EQ(fitted(fold, 30).layout.edges, 0);
+    EXPECT_EQ(fitted(fold, 0.1).layout.edges, 1);
 }
 
 TEST(Edges, CutsStaySidesOfPatches)
