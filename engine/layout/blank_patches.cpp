@@ -22,33 +22,38 @@ struct Ways {
 };
 
 /// As few patches as there can be, then more of them with better corners; each along the edges of the part, where it has some, and
-/// without.
+/// without; along flatter edges where these are not enough.
 Ways ways_to_divide(const TriMesh& part, const LayoutOptions& layout)
 {
-    std::vector<LayoutOptions> along = {layout};
-    if (has_edges(part, layout)) {
-        along.push_back(layout);
-        along.back().edge_deg = 180;
-    }
+    constexpr double flat_deg = 20; // flatter ones are bends that a smooth surface follows
+    LayoutOptions plain = layout, flat = layout;
+    plain.edge_deg = 180;
+    flat.edge_deg = std::min(layout.edge_deg, flat_deg);
+    const int edges = edge_count(part, layout), flat_edges = layout.edge_deg < 180 ? edge_count(part, flat) : 0;
     Ways ways;
-    const auto add = [&](bool layers, bool split, double corner, double closer) {
-        for (const LayoutOptions& each : along) {
-            LayoutOptions& way = ways.layout.emplace_back(each);
-            way.layers = layers;
-            way.split = split;
-            way.corner_deg *= corner;
-            way.spacing *= closer;
-        }
+    const auto add = [&](const LayoutOptions& from, bool layers, bool split, double corner, double closer) {
+        LayoutOptions& way = ways.layout.emplace_back(from);
+        way.layers = layers;
+        way.split = split;
+        way.corner_deg *= corner;
+        way.spacing *= closer;
     };
-    add(false, false, 1, 1);
-    add(true, false, 1, 1);
-    add(true, false, 1, 0.5);
+    const auto add_both = [&](bool layers, double closer) {
+        if (edges > 0)
+            add(layout, layers, false, 1, closer);
+        add(plain, layers, false, 1, closer);
+    };
+    add_both(false, 1);
+    add_both(true, 1);
+    for (const bool layers : {false, true})
+        if (flat_edges > edges)
+            add(flat, layers, false, 1, 1);
+    add_both(true, 0.5);
     ways.dividing_all = ways.layout.size();
-    along = {along.back()};
-    add(false, true, 1, 1);
-    add(false, true, 1, 0.5); // other vertices on the border, where a face has a corner without room for cells
-    add(false, true, 1.5, 0.5);
-    add(true, true, 1, 1);
+    add(plain, false, true, 1, 1);
+    add(plain, false, true, 1, 0.5); // other vertices on the border, where a face has a corner without room for cells
+    add(plain, false, true, 1.5, 0.5);
+    add(plain, true, true, 1, 1);
     return ways;
 }
 
@@ -111,7 +116,7 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
                 worth = now;
             }
         } catch (const InputError& error) {
-            if (!first || k == 1) // without edges, where the first way has some
+            if (!first || k == 1) // that of a way without edges, where the first one has some
                 first = error;
         }
     }

@@ -49,7 +49,7 @@ PatchesFit fit_patches(const TriMesh& part, const Blank& blank, const Layout& la
 
 /// Layout and fit: where a patch has no grid without folds, is not proved to be free of them or stays beyond the tolerance, the blank
 /// is divided in other ways, and the best fit is taken: as few patches as there can be, layers along the border, vertices closer
-/// together, each along the edges of the part and without them; then every face divided. Of two that have it all the one with
+/// together, each along the edges of the part and without them, and along flatter ones; then every face divided. Of two that have it all the one with
 /// fewer control points.
 /// @throws InputError as make_layout() and fit_patches()
 PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOptions& layout = {},

@@ -118,7 +118,7 @@ bool all_four_sided(const std::vector<Face>& faces)
 
 } // namespace
 
-bool has_edges(const TriMesh& part, const LayoutOptions& options) { return !edges_of(part, options).empty(); }
+int edge_count(const TriMesh& part, const LayoutOptions& options) { return int(edges_of(part, options).size()); }
 
 Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options, const Progress& progress)
 {

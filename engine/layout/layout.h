@@ -54,7 +54,8 @@ struct LayoutOptions {
     double spacing = 1.2;        ///< of vertices along the outline, over the mean distance of holes
     bool split = false;          ///< divide every face, even where triangles pair
     bool layers = false;         ///< rows of patches along all arcs that bulge into the sheet: see add_layers()
-    double edge_deg = 45;        ///< turn of the sheet over a line on which patches end; 180: none do
+    double edge_deg = 45;        ///< turn of the sheet over a line on which patches end; 180: none do. blank_patches()
+                                 ///< takes flatter ones as well where the tolerance is missed
     bool smooth_joins = false;   ///< of the fit: take the angles out of the joins of the patches, see smooth_joins()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 
@@ -71,8 +72,8 @@ struct LayoutOptions {
 Layout make_layout(const TriMesh& part, const Blank& blank, const LayoutOptions& options = {},
                    const Progress& progress = {});
 
-/// Whether the part has sharp edges on which patches would end: none where there are cuts or corners.
-bool has_edges(const TriMesh& part, const LayoutOptions& options);
+/// How many lines along sharp edges of the part there are on which patches would end: none where there are cuts or corners.
+int edge_count(const TriMesh& part, const LayoutOptions& options);
 
 /// Points of a curve at shares of its length that rise from 0 to 1: the ends are those of the curve to the last bit.
 Eigen::Matrix2Xd points_on(const LayoutCurve& curve, const std::vector<double>& t);

@@ -400,6 +400,22 @@ TEST(Edges, ALayoutCanBeCancelled)
     }
 }
 
+TEST(Edges, FlatterOnesAreTakenWhereTheToleranceLacks)
+{
+    const Sheet fold = sheet(23, 12, everywhere, folded(pi / 6));
+    PatchesFitOptions options;
+    options.tolerance = 1e-4;
+    options.max_control_points = 200;
+    const PatchesFit fit = blank_patches(fold.part, fold.blank, {}, options);
+    EXPECT_TRUE(fit.reached);
+    EXPECT_EQ(fit.layout.edges, 1);
+    LayoutOptions none;
+    none.edge_deg = 180;
+    EXPECT_FALSE(blank_patches(fold.part, fold.blank, none, options).reached);
+    options.tolerance = 10;
+    EXPECT_EQ(blank_patches(fold.part, fold.blank, {}, options).layout.edges, 0);
+}
+
 TEST(Edges, WithoutEdgesIsTakenWhereThatCostsLess)
 {
     // A fold of 46 degrees that a coarse tolerance does not see.
