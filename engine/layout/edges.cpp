@@ -83,28 +83,6 @@ std::vector<std::vector<int>> sharp_edges(const TriMesh& part, double angle)
 
 namespace {
 
-/// Divides an arc of the border at its point next to the middle.
-void divide_arc(PlaneGraph& graph, size_t c)
-{
-    LayoutCurve first = graph.curve[c], second = first;
-    const Eigen::Vector2d middle = points_on(first, {0.5}).col(0);
-    Eigen::Index at = 1;
-    for (Eigen::Index i = 2; i + 1 < first.plane.cols(); ++i)
-        if ((first.plane.col(i) - middle).norm() < (first.plane.col(at) - middle).norm())
-            at = i;
-    const int vertex = int(graph.vertex.size());
-    graph.vertex.push_back(first.plane.col(at));
-    graph.border.push_back(BorderTurn{first.plane.col(at - 1), first.plane.col(at + 1)});
-    const Eigen::Index n = first.plane.cols();
-    first.plane = second.plane.leftCols(at + 1).eval();
-    first.part = second.part.leftCols(at + 1).eval();
-    second.plane = second.plane.rightCols(n - at).eval();
-    second.part = second.part.rightCols(n - at).eval();
-    first.vertex[1] = second.vertex[0] = vertex;
-    graph.curve[c] = std::move(first);
-    graph.curve.push_back(std::move(second));
-}
-
 /// A face between an edge and one arc of the border would have two sides.
 void divide_arcs_beside_edges(PlaneGraph& graph)
 {
@@ -114,7 +92,7 @@ void divide_arcs_beside_edges(PlaneGraph& graph)
             const LayoutCurve &edge = graph.curve[e], &arc = graph.curve[c];
             if (arc.on_border() && arc.plane.cols() > 2 &&
                 (arc.vertex == edge.vertex || arc.vertex == std::array{edge.vertex[1], edge.vertex[0]}))
-                divide_arc(graph, c);
+                split_curve(graph, int(c), next_to_middle(arc));
         }
 }
 

@@ -267,42 +267,21 @@ private:
     /// Where an arc becomes two: at its sharpest point, or at the one next to the middle of its length if none is sharp.
     static Eigen::Index place_to_split(const LayoutCurve& arc)
     {
-        const Point middle = points_on(arc, {0.5}).col(0);
-        Eigen::Index sharpest = 1, next = 1;
-        for (Eigen::Index i = 2; i + 1 < arc.plane.cols(); ++i) {
+        Eigen::Index sharpest = 1;
+        for (Eigen::Index i = 2; i + 1 < arc.plane.cols(); ++i)
             if (std::abs(turn_at(arc, i)) > std::abs(turn_at(arc, sharpest)))
                 sharpest = i;
-            if ((arc.plane.col(i) - middle).norm() < (arc.plane.col(next) - middle).norm())
-                next = i;
-        }
-        return std::abs(turn_at(arc, sharpest)) > sharp ? sharpest : next;
+        return std::abs(turn_at(arc, sharpest)) > sharp ? sharpest : next_to_middle(arc);
     }
 
     void split(int c)
     {
-        LayoutCurve first = graph_.curve[size_t(c)];
-        if (first.plane.cols() == 2) { // a cut
-            const Point middle = points_on(first, {0.5}).col(0);
-            first.plane = (Eigen::Matrix2Xd(2, 3) << first.plane.col(0), middle, first.plane.col(1)).finished();
+        LayoutCurve& curve = graph_.curve[size_t(c)];
+        if (curve.plane.cols() == 2) { // a cut
+            const Point middle = points_on(curve, {0.5}).col(0);
+            curve.plane = (Eigen::Matrix2Xd(2, 3) << curve.plane.col(0), middle, curve.plane.col(1)).finished();
         }
-        LayoutCurve second = first;
-        const Eigen::Index n = first.plane.cols(), at = place_to_split(first);
-        const int vertex = int(graph_.vertex.size());
-        graph_.vertex.push_back(first.plane.col(at));
-        graph_.border.push_back(std::nullopt);
-        const auto cut = [&](auto& points, bool head) {
-            points = head ? points.leftCols(at + 1).eval() : points.rightCols(n - at).eval();
-        };
-        if (first.on_border()) {
-            graph_.border.back() = BorderTurn{first.plane.col(at - 1), first.plane.col(at + 1)};
-            cut(first.part, true);
-            cut(second.part, false);
-        }
-        cut(first.plane, true);
-        cut(second.plane, false);
-        first.vertex[1] = second.vertex[0] = vertex;
-        graph_.curve[size_t(c)] = std::move(first);
-        graph_.curve.push_back(std::move(second));
+        split_curve(graph_, c, place_to_split(curve));
         layered_.push_back(layered_[size_t(c)]);
     }
 

@@ -39,6 +39,12 @@ double vertex_spacing(const TriMesh& part, const Blank& blank, const LayoutOptio
 /// @param angle  radians between the normals of two faces
 std::vector<std::vector<int>> sharp_edges(const TriMesh& part, double angle);
 
+/// Divides a curve at one of its inner points, which becomes a vertex; the second half comes last.
+void split_curve(PlaneGraph& graph, int c, Eigen::Index at);
+
+/// The inner point of a curve next to half its length. @pre it has one
+Eigen::Index next_to_middle(const LayoutCurve& curve);
+
 /// Draws the edges of the part, in pieces, as curves on which patches end. Arcs of the border that join the ends of such a curve are
 /// divided.
 /// @pre where an edge ends on the border there is a vertex

@@ -49,4 +49,11 @@ std::string fault_of_layout(const Layout& layout, const TriMesh& part, const Bla
     return "";
 }
 
+int vertex_near(const Blank& blank, double x, double y)
+{
+    Eigen::Index v;
+    (blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
+    return int(v);
+}
+
 } // namespace spia::shapes

@@ -9,4 +9,7 @@ namespace spia::shapes {
 /// border as the part has; areas that add up to the blank's. Checked without the layout's code but for its areas.
 std::string fault_of_layout(const Layout& layout, const TriMesh& part, const Blank& blank);
 
+/// The vertex nearest to a place of the blank.
+int vertex_near(const Blank& blank, double x, double y);
+
 } // namespace spia::shapes

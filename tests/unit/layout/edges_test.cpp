@@ -368,11 +368,7 @@ TEST(Edges, MoreThanTheyMayBeAreTakenFromASharperAngleOn)
 TEST(Edges, CutsMayCrossAtAVertexAndTouchTheBorder)
 {
     const Sheet flat = sheet(20, 12, everywhere, folded(0));
-    const auto vertex = [&](double x, double y) {
-        Eigen::Index v;
-        (flat.blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
-        return int(v);
-    };
+    const auto vertex = [&](double x, double y) { return shapes::vertex_near(flat.blank, x, y); };
     const std::vector<std::vector<LayoutCut>> all = {
         {{vertex(50, 0), vertex(50, 30), vertex(50, 60)}, {vertex(0, 30), vertex(50, 30), vertex(100, 30)}},
         {{vertex(25, 0), vertex(50, 60), vertex(75, 0)}}};
@@ -428,11 +424,7 @@ TEST(Edges, CutsStaySidesOfPatches)
 {
     const TriMesh part = shapes::plate({100, 80, {{{25, 40}, 12}, {{75, 40}, 12}}, 4000});
     const Blank blank{part.position.topRows(2)};
-    const auto nearest = [&](double x, double y) {
-        Eigen::Index v;
-        (blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
-        return int(v);
-    };
+    const auto nearest = [&](double x, double y) { return shapes::vertex_near(blank, x, y); };
     LayoutOptions options;
     options.cuts = {{nearest(50, 0), nearest(50, 80)}};
     const double cut = (blank.position.col(options.cuts[0][0]) - blank.position.col(options.cuts[0][1])).norm();

@@ -57,11 +57,7 @@ TEST(Layers, KeepClearOfCuts)
 {
     const TriMesh part = shapes::plate({100, 80, {{{30, 30}, 12}, {{66, 45}, 14}}, 6000});
     const Blank blank{part.position.topRows(2)};
-    const auto nearest = [&](double x, double y) {
-        Eigen::Index v;
-        (blank.position.colwise() - Eigen::Vector2d(x, y)).colwise().norm().minCoeff(&v);
-        return int(v);
-    };
+    const auto nearest = [&](double x, double y) { return shapes::vertex_near(blank, x, y); };
     LayoutOptions options;
     options.layers = true;
     options.cuts = {{nearest(46, 0), nearest(46, 80)}};
