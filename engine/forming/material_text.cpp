@@ -42,15 +42,25 @@ std::string hardening_text(const Hardening& law) { return hardening_json(law).du
 
 std::string material_text(const Material& material)
 {
-    const Json json = {{"name", material.name},
-                       {"young_MPa", material.young_MPa},
-                       {"poisson", material.poisson},
-                       {"density_kg_m3", material.density_kg_m3},
-                       {"hardening", hardening_json(material.hardening)},
-                       {"r0", material.r0},
-                       {"r45", material.r45},
-                       {"r90", material.r90},
-                       {"source", material.source}};
+    Json json = {{"name", material.name},
+                 {"young_MPa", material.young_MPa},
+                 {"poisson", material.poisson},
+                 {"density_kg_m3", material.density_kg_m3},
+                 {"hardening", hardening_json(material.hardening)},
+                 {"r0", material.r0},
+                 {"r45", material.r45},
+                 {"r90", material.r90},
+                 {"source", material.source}};
+    const GradeLimit& limit = material.limit;
+    if (limit.n || !limit.minor.empty()) {
+        Json& written = json["forming_limit"];
+        if (limit.n)
+            written["n"] = *limit.n;
+        if (!limit.minor.empty()) {
+            written["minor"] = limit.minor;
+            written["major"] = limit.major;
+        }
+    }
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -153,6 +153,9 @@ std::optional<FormingLimitCurve> curve_for(const Material& material, double thic
         return {};
     if (options.source == Source::points)
         return options.curve;
+    const GradeLimit& known = material.limit;
+    if (options.source == Source::automatic && !known.minor.empty())
+        return curve_through(known.minor, known.major, true, material.name);
     if (options.source == Source::automatic && !is_steel(material)) {
         notes.push_back(fmt::format("no forming limit curve: Keeler-Brazier is made for low-carbon steel, and {} is "
                                     "none; give measured points",
@@ -170,7 +173,7 @@ std::optional<FormingLimitCurve> curve_for(const Material& material, double thic
             "{} strains uniformly up to {:.2f}, as austenitic and TRIP steels do; Keeler-Brazier is made for low-carbon"
             " steel, not for them: give measured points",
             material.name, uniform));
-    return keeler_brazier(thickness, options.n ? *options.n : uniform);
+    return keeler_brazier(thickness, options.n ? *options.n : known.n ? *known.n : uniform);
 }
 
 /// What the faces of one sheet are judged by.
@@ -343,7 +346,10 @@ LimitsResult forming_limits(const TriMesh& part, const SheetFields& face, const 
     for (const PieceLimits& piece : out.pieces)
         judges.push_back({curve_of(piece), piece.margin});
     out.zones = judged(part, face, judges, sheet, out.settings);
-    count_beyond(face, judges, sheet, options.source == LimitsOptions::Source::points, out);
+    using Source = LimitsOptions::Source;
+    const bool by_points =
+        options.source == Source::points || (options.source == Source::automatic && !material.limit.minor.empty());
+    count_beyond(face, judges, sheet, by_points, out);
     return out;
 }
 

@@ -101,14 +101,14 @@ std::vector<Zone> zones_at_vertices(const TriMesh& part, const std::vector<Zone>
 
 struct LimitsOptions {
     enum class Source {
-        automatic,      ///< Keeler-Brazier for steel, none for other metals
+        automatic, ///< the grade's own points (Material::limit), else Keeler-Brazier for steel, none for other metals
         keeler_brazier, ///< whatever the metal; a note says where it is not made for it
         points,         ///< `curve`, for all faces
         none
     };
     Source source = Source::automatic;
     FormingLimitCurve curve = {};      ///< for Source::points
-    std::optional<double> n = {};      ///< of the base sheet, for Keeler-Brazier; else the uniform strain of its law
+    std::optional<double> n = {};      ///< of the base sheet, for Keeler-Brazier; else that of its grade or its law
     std::optional<double> margin = {}; ///< of all faces; else 0.10, and 0.08 where the sheet is aluminium
     ZoneOptions zones = {};            ///< its margin is overwritten
 
@@ -135,8 +135,8 @@ struct LimitsResult {
     std::vector<std::string> notes; ///< what to mind, in words
 };
 
-/// Judges a formed sheet: the curve by the options, and the zones by it. The n of Keeler-Brazier is the uniform
-/// strain of the hardening law, which for Hollomon's law is its n [Considere 1885].
+/// Judges a formed sheet: the curve by the options, and the zones by it. The n of Keeler-Brazier is that of the
+/// options, else of the grade (Material::limit), else the uniform strain of the hardening law, which for Hollomon's law is its n [Considere 1885].
 /// @param face  one entry per face; @param material, thickness  of the base sheet; mm, flat
 /// @param pieces  of a tailored blank: each face has the curve and the margin of its own grade and gauge; where two
 ///                overlap the later one counts
