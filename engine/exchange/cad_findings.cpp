@@ -176,9 +176,8 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
         others.erase(face);
     finding.advice = "leave the ones out that are double or branch off: choose the others (--part)";
     if (!others.empty())
-        finding.advice = fmt::format(
-            "leave the ones out that are double or branch off: choose the others (--part {})",
-            ranges(others));
+        finding.advice = fmt::format("leave the ones out that are double or branch off: choose the others (--part {})",
+                                     ranges(others));
     findings.push_back(std::move(finding));
 }
 
@@ -292,15 +291,23 @@ void name_pieces(const CadContent& cad, PartFile& part)
     }
 }
 
+/// As IGES files call it, and STEP files.
+bool is_mm(const std::string& unit)
+{
+    std::string small = unit;
+    std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return small == "mm" || small == "millimetre" || small == "millimeter";
+}
+
 } // namespace
 
 void report_cad(const CadContent& cad, PartFile& part)
 {
     part.notes.push_back(fmt::format("{} CAD faces{}{}; triangles within {:.3g} mm of them", cad.faces,
                                      cad.taken < cad.faces ? fmt::format(", {} of them taken", cad.taken) : "",
-                                     cad.unit.empty()   ? ""
-                                     : cad.unit == "MM" ? ", lengths in mm"
-                                                        : fmt::format(", lengths converted from {} to mm", cad.unit),
+                                     cad.unit.empty()  ? ""
+                                     : is_mm(cad.unit) ? ", lengths in mm"
+                                                       : fmt::format(", lengths converted from {} to mm", cad.unit),
                                      cad.deflection));
     part.notes.push_back(cad.sewing_tolerance > 0
                              ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",

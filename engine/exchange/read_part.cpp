@@ -226,8 +226,9 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
         return;
     if (total_curvature(part.mesh) < unrolls) {
         if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
-            part.notes.push_back("its narrow triangles are strips along the straight lines of a surface that unrolls: "
-                                 "their strains are right");
+            part.notes.push_back(
+                "its long narrow triangles follow the straight lines of a surface that can be unrolled: "
+                "they do not spoil the strains");
         return;
     }
     try {

@@ -99,7 +99,7 @@ private:
     void lay(const std::vector<int>& cluster, int depth, bool unite)
     {
         const auto cannot = [&](const std::string& why) {
-            result_.notes.push_back(fmt::format("{} cannot be laid flat for itself: {}", names(map_, cluster), why));
+            result_.notes.push_back(fmt::format("{} cannot be laid flat on its own: {}", names(map_, cluster), why));
         };
         const int carrier = carrier_of(cluster, depth);
         if (carrier < 0)
