@@ -167,7 +167,8 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.held.reset();
     aside.left_work.reset();
     aside.sample = false;
-    aside.show_export = aside.show_picture = aside.show_report = aside.show_material = aside.show_shortcuts = false;
+    aside.show_export = aside.show_picture = aside.show_report = aside.show_material = aside.materials.appears =
+        aside.show_shortcuts = false;
     std::array<Renderer::Image, 4> images;
     std::vector<Renderer::Image> steps;
     Renderer::Image beside;

@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
+#include <set>
 
 #include "app/viewer/gl_window.h"
 #include "app/viewer/model/file_writer.h"
@@ -21,6 +22,7 @@
 #include "app/viewer/model/script_player.h"
 #include "app/viewer/model/state_report.h"
 #include "app/viewer/panels/gui_frame.h"
+#include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/pictures.h"
 #include "app/viewer/render/picture_file.h"
@@ -47,8 +49,6 @@ public:
         if (!ui_.fonts.missing.empty())
             model_.say(Severity::warning,
                        fmt::format("The font {} is missing (Debian package fonts-inter).", ui_.fonts.missing));
-        for (const auto& file : material_files(options.assets / "materials"))
-            ui_.grades.push_back(file.stem().string());
         ui_.recent = recent_files();
         glfwSetWindowUserPointer(window_.get(), this);
         glfwSetDropCallback(window_.get(), [](GLFWwindow* window, int count, const char** paths) {
@@ -201,8 +201,15 @@ private:
             dark_ = model_.state().view.dark;
             apply_theme(*dark_, ui_.scale);
         }
+        // The dialog of files has its own keys for its list, a view that has the keyboard as well; Alt leads from it to the menus.
+        ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+        const bool alt = glfwGetKey(window_.get(), GLFW_KEY_LEFT_ALT) == GLFW_PRESS ||
+                         glfwGetKey(window_.get(), GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
+        flags = (ui_.focus && !alt) || ui_.files.is_open() ? flags & ~ImGuiConfigFlags_NavEnableKeyboard
+                                                           : flags | ImGuiConfigFlags_NavEnableKeyboard;
         ImGui_ImplOpenGL3_NewFrame();
         ImGui_ImplGlfw_NewFrame();
+        const bool menu_takes_return = take_return_in_menus();
         GlWindow::place_mouse();
         window_.call(window_title(model_.state()));
         if (options_.exit) // nobody is there: where the mouse happens to be is not to be seen
@@ -226,9 +233,21 @@ private:
                 return reinterpret_cast<ImTextureID>(
                     uintptr_t(images_.draw_small(1 + step, picture.scene, picture.camera, w, h, look())));
             }};
-        ui_.keys = std::exchange(ui_.keys_later, {});
-        for (const KeyPress& press : std::exchange(GlWindow::keys(), {}))
-            ui_.keys.push_back(press);
+        // One key a frame, in the order in which they were pressed: what a key does is there for the next one.
+        // Letters that are typed into a field are ImGui's.
+        for (const KeyPress& press : std::exchange(GlWindow::keys(), {})) {
+            constexpr int last_printable = 255; // of GLFW's numbers
+            const bool typed = ImGui::GetIO().WantTextInput && press.key <= last_printable &&
+                               !(press.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT));
+            const bool taken = menu_takes_return && (press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER);
+            if (!typed && !taken)
+                ui_.keys_later.push_back(press);
+        }
+        ui_.keys.clear();
+        if (!ui_.keys_later.empty()) {
+            ui_.keys.push_back(ui_.keys_later.front());
+            ui_.keys_later.erase(ui_.keys_later.begin());
+        }
         ui_.path = GlWindow::take_path();
         if (!pictures_.empty()) // a picture shows what hides its labels, however busy the machine is
             model_.pickers().picker(model_.state().document.session, View::part);
@@ -240,6 +259,10 @@ private:
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        if (options_.follow) {
+            texts_ = texts_on_screen(*ImGui::GetDrawData());
+            marked_ = marked_item();
+        }
         take_pictures(width, height);
         const double busy = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         times_.all.push_back(busy);
@@ -247,6 +270,8 @@ private:
             times_.solving.push_back(busy);
         glfwSwapBuffers(window_.get());
         for (Action& action : queue_.take()) {
+            if (options_.follow)
+                pushed_.emplace(viewer::name(action));
             if (auto* settings = std::get_if<SetViewSettings>(&action)) { // a panel changes what it means to change
                 ViewSettings merged = model_.state().view;
                 take_changes(seen, settings->view, merged);
@@ -442,7 +467,7 @@ private:
         return json;
     }
 
-    /// What only the window knows: its size, where the pictures of the views and the items of the steps lie, the mouse as the last frame saw it. Pixels.
+    /// What only the window knows: its size, the texts it shows, which actions were pushed, where the pictures of the views and the items of the steps lie, the mouse as the last frame saw it. Pixels.
     Json window_json() const
     {
         const auto pair = [](ImVec2 v) { return Json{v.x, v.y}; };
@@ -456,7 +481,14 @@ private:
         Json items = Json::object();
         for (const auto& [name, place] : ui_.items)
             items[name] = {{"at", pair(place[0])}, {"size", pair({place[1].x - place[0].x, place[1].y - place[0].y})}};
+        Json texts = Json::array();
+        for (const ScreenText& text : texts_)
+            texts.push_back({{"text", text.text}, {"at", pair(text.at)}, {"size", pair(text.size)}});
         return {{"size", pair(io.DisplaySize)},
+                {"texts", texts},
+                {"marked", marked_ ? Json{{"at", pair((*marked_)[0])}, {"to", pair((*marked_)[1])}} : Json(nullptr)},
+                {"pushed", pushed_},
+                {"focus", ui_.focus ? Json(name(*ui_.focus)) : Json(nullptr)},
                 {"views", views},
                 {"items", items},
                 {"mouse", ImGui::IsMousePosValid() ? pair(io.MousePos) : Json(nullptr)},
@@ -479,6 +511,9 @@ private:
     KeptWork kept_{[] { glfwPostEmptyEvent(); }};
     std::shared_ptr<const PartFile> known_part_;
     FrameTimes times_;
+    std::vector<ScreenText> texts_;               ///< of the last frame, with --follow
+    std::optional<std::array<ImVec2, 2>> marked_; ///< likewise
+    std::set<std::string, std::less<>> pushed_;   ///< names of the actions so far, with --follow
     size_t actions_done_ = 0;
     int idle_frames_ = 0, failed_frames_ = 0, exit_code_ = 0;
     bool quit_ = false, opening_sample_ = false;

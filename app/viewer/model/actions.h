@@ -85,6 +85,16 @@ struct FitMaterial {
     std::filesystem::path table, out;
     MaterialFitOptions fit;
 };
+/// "save_material": material (as in a material file) becomes a grade of the user's own, see model/grades.h; replaces: the own grade
+/// that it was before, which goes if the name has changed. Where the part is of that grade it gets the new values.
+struct SaveMaterial {
+    Material material;
+    std::string replaces = {};
+};
+/// "remove_material": a grade of the user's own, by its stem or file
+struct RemoveMaterial {
+    std::string material;
+};
 struct SetThickness {
     double thickness = 1;
 }; ///< "set_thickness", mm
@@ -368,6 +378,12 @@ struct ShowFault {
 };
 struct HideFault {}; ///< "hide_fault": its mark goes, the views stay
 
+/// "keep_reference": the blank that there is, for later ones to be compared with; name may be empty. Not kept in projects.
+struct KeepReference {
+    std::string name;
+};
+struct DropReference {}; ///< "drop_reference"
+
 // --- the document and files
 struct Undo {}; ///< "undo"
 struct Redo {}; ///< "redo"
@@ -397,18 +413,17 @@ struct Screenshot {
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
-using Action =
-    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
-                 SetMaterial, FitMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
-                 SetFit, SetPatches, AddCut, RemoveCut, SetLattice, PickHandle, SelectHandles, MoveHandles,
-                 ResetHandles, OpenDeformation, SaveDeformation, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps,
-                 OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep,
-                 SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex, UseVerticesAsCorners,
-                 GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion, ChangeRegion,
-                 RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices, SetProcess,
-                 SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
-                 SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, Undo, Redo, OpenProject,
-                 SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+using Action = std::variant<
+    ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob, SetMaterial,
+    FitMaterial, SaveMaterial, RemoveMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
+    SetFit, SetPatches, AddCut, RemoveCut, SetLattice, PickHandle, SelectHandles, MoveHandles, ResetHandles,
+    OpenDeformation, SaveDeformation, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep,
+    ChangeStep, SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
+    SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
+    MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
+    SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
+    SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, KeepReference, DropReference, Undo,
+    Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

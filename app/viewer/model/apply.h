@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
 
@@ -46,6 +48,8 @@ struct ViewerModel::Apply {
     void operator()(const CancelJob&);
     void operator()(const SetMaterial& action);
     void operator()(const FitMaterial& action);
+    void operator()(const SaveMaterial& action);
+    void operator()(const RemoveMaterial& action);
     void operator()(const SetThickness& action);
     void operator()(const SetSkins& action);
     void operator()(const SetDirection& action);
@@ -126,6 +130,8 @@ struct ViewerModel::Apply {
     /// Changes what the process is made of, and with it the solver's conditions; all or nothing.
     /// @param edit  gets a copy of the document
     template <class Edit> void change_process(std::string name, bool merge, const Edit& edit);
+    /// The same for the grade of the part or of a region.
+    void change_material(std::string name, const std::function<void(Document&)>& edit);
     size_t line(int number) const;
     void operator()(const SetContact& action);
     void operator()(const SetOwnSheet& action);
@@ -152,6 +158,8 @@ struct ViewerModel::Apply {
     void look_at(const std::vector<int>& vertices);
     void operator()(const ShowFault& action);
     void operator()(const HideFault&) { state.fault.reset(); }
+    void operator()(const KeepReference& action);
+    void operator()(const DropReference&) { state.reference = nullptr; }
 
     // --- the document and files
     void operator()(const Undo&) { go(&History::undo); }

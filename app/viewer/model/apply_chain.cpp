@@ -72,6 +72,8 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.display = document.display;
     fresh.display.range.reset();
     fresh.material = document.material;
+    fresh.material_from = document.material_from;
+    fresh.thickness_from = document.thickness_from == SheetSource::assumed ? SheetSource::assumed : SheetSource::before;
     fresh.limits = document.limits;
     fresh.session.options.limits = session.options.limits;
     fresh.session.options.flatten.material = session.options.flatten.material;
@@ -168,8 +170,7 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         return;
     }
     part();
-    for (Message& message : state.messages) // of the run before
-        message.dismissed |= message.severity != Severity::error;
+    dismiss_before_run(state.messages);
     if (model.export_job_)
         throw InputError("Wait for the export to end.");
     if (model.steps_job_)

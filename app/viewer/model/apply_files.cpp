@@ -47,6 +47,7 @@ void ViewerModel::Apply::operator()(const ExportFiles& action)
         throw InputError("Wait for the running job to end, then export.");
     if (!session.blank)
         throw InputError("There is nothing to export yet: run the chain first.");
+    state.exported.reset();
     state.job = JobView{};
     state.job.running = true;
     state.job.title = "Exporting";
@@ -65,11 +66,19 @@ void ViewerModel::Apply::operator()(const DismissMessages&)
 
 void ViewerModel::apply(const Action& action)
 {
+    const int said_before = said_, document_before = state_.history.now();
     try {
         std::visit(Apply{*this}, action);
     } catch (const std::exception& error) {
-        say(Severity::error, error.what());
+        say(Severity::error, error.what(), about_refusal(state_));
     }
+    follow_reference();
+    follow_doubts();
+    const Subject subject = state_.history.now() == document_before ? about_refusal(state_) : about_change(state_);
+    for (Message& message : state_.messages) // of the action
+        if (message.number > said_before && message.subject.kind == Subject::Kind::none)
+            message.subject = subject;
+    follow_messages();
 }
 
 } // namespace spia::viewer

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/clear_sight.h"
+#include "app/viewer/model/comparison.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -13,6 +14,12 @@ void ViewerModel::Apply::operator()(const SetDisplay& action)
     change("Change display", true);
     document.display = action.display;
     document.display.per_face |= action.display.field == Field::zone; // nothing lies between two zones
+}
+
+void ViewerModel::Apply::operator()(const KeepReference& action)
+{
+    state.reference = std::make_shared<const Reference>(reference_of(document, action.name));
+    model.say(Severity::done, fmt::format("Kept as reference: {}.", state.reference->name));
 }
 
 void ViewerModel::Apply::operator()(const LookFrom& action)

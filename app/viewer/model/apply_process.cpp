@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/apply.h"
+#include "app/viewer/model/chain.h"
+#include "app/viewer/model/grades.h"
 #include "app/viewer/model/names.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_library.h"
@@ -18,11 +20,26 @@ template <class Edit> void ViewerModel::Apply::change_process(std::string name, 
     document = std::move(edited);
 }
 
+/// What only judges a sheet takes effect at once, as SetLimits does: the blank need not be made anew.
+void ViewerModel::Apply::change_material(std::string name, const std::function<void(Document&)>& edit)
+{
+    change_process(std::move(name), false, edit);
+    const Material& wanted = session.options.flatten.material;
+    Material& made = document.made_with.flatten.material;
+    if (!session.blank || made == wanted || !formed_alike(made, wanted))
+        return;
+    made = wanted;
+    session.limits = judge_limits(as_made(document)).limits;
+}
+
 void ViewerModel::Apply::operator()(const SetMaterial& action)
 {
-    const Material material = find_material(action.material, model.assets() / "materials");
-    change_process("Change material", false, [&](Document& edited) {
-        edited.material = action.material;
+    const Grade* grade = grade_called(*state.grades, action.material);
+    const std::string reference = grade && grade->own ? grade->reference : action.material; // a file keeps its meaning
+    const Material material = find_material(reference, model.assets() / "materials");
+    change_material("Change material", [&](Document& edited) {
+        edited.material = reference;
+        edited.material_from = SheetSource::chosen;
         edited.session.options.flatten.material = material;
     });
 }
@@ -37,6 +54,9 @@ void ViewerModel::Apply::operator()(const FitMaterial& action)
         options.name = out.stem().string();
     const MaterialFit fit = fit_material(action.table, options);
     write_atomically(out, material_text(fit.material));
+    if (out.parent_path() == own_materials())
+        state.grades =
+            std::make_shared<const std::vector<Grade>>(read_grades(model.assets() / "materials", own_materials()));
     (*this)(SetMaterial{out.string()});
     model.say(Severity::hint,
               fmt::format("The material {} was written to {}: {}.", options.name, out.string(), fit.material.source));
@@ -46,8 +66,10 @@ void ViewerModel::Apply::operator()(const SetThickness& action)
 {
     if (!(action.thickness > 0 && action.thickness < 1000))
         throw InputError("The thickness must be above 0 and below 1000 mm.");
-    change_process("Change thickness", true,
-                   [&](Document& edited) { edited.session.options.flatten.thickness = action.thickness; });
+    change_process("Change thickness", true, [&](Document& edited) {
+        edited.session.options.flatten.thickness = action.thickness;
+        edited.thickness_from = SheetSource::chosen;
+    });
 }
 
 void ViewerModel::Apply::operator()(const ChangeRegion& action)

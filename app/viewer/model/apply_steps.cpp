@@ -93,8 +93,7 @@ void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
         model.say(Severity::hint, "The blank of the steps is in use already, and everything is up to date.");
         return;
     }
-    for (Message& message : state.messages) // of the run before
-        message.dismissed |= message.severity != Severity::error;
+    dismiss_before_run(state.messages);
     const bool unsaved = state.unsaved;
     change(action.polish ? "Polish the blank of the steps" : "Use the blank of the steps");
     session.options.steps = wanted;

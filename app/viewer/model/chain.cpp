@@ -16,7 +16,7 @@ bool same(const ReadOptions& a, const ReadOptions& b)
 
 bool same(const FlattenOptions& a, const FlattenOptions& b)
 {
-    return a.material == b.material && a.thickness == b.thickness && a.direction == b.direction &&
+    return formed_alike(a.material, b.material) && a.thickness == b.thickness && a.direction == b.direction &&
            a.process == b.process && a.skins == b.skins;
 }
 

@@ -56,6 +56,15 @@ struct FieldDisplay {
     bool isolines = false;
     bool extremes = true;    ///< mark least and greatest
     bool directions = false; ///< glyphs of the principal strains
+    bool difference = false; ///< now minus reference; only where there is one, see comparison.h
+};
+
+/// Who says what the sheet is.
+enum class SheetSource {
+    assumed, ///< nobody: the program took something
+    before,  ///< it was that of another part
+    file,    ///< the file of the part
+    chosen   ///< the user
 };
 
 /// What the user made: everything that undo brings back and a project file keeps. A copy is cheap, results are shared.
@@ -63,8 +72,9 @@ struct Document {
     Session session;                     ///< its options are what is wanted; results may be older, see first_stale()
     SessionOptions made_with;            ///< the options that the results of the session were made with
     std::string material = "mild_steel"; ///< a built-in grade, or the path of a material file
-    std::vector<int> selected;           ///< faces of the part, ascending
-    std::vector<int> vertices;           ///< picked ones of the part, ascending
+    SheetSource material_from = SheetSource::assumed, thickness_from = SheetSource::assumed;
+    std::vector<int> selected;                 ///< faces of the part, ascending
+    std::vector<int> vertices;                 ///< picked ones of the part, ascending
     std::vector<int> controls, lattice_points; ///< picked handles of the surface, ascending; see handles.h
     std::vector<FaceRegion> regions;
     std::vector<ProcessLine> lines;

@@ -26,11 +26,16 @@ Eigen::VectorXd vertex_mean(const TriMesh& part, const Eigen::VectorXd& of_face)
     return sum.cwiseQuotient(weight);
 }
 
-Eigen::VectorXd face_mean(const TriMesh& part, const Eigen::VectorXd& of_vertex)
+/// Of the corners the value of greatest size.
+Eigen::VectorXd farthest_corner(const TriMesh& part, const Eigen::VectorXd& of_vertex)
 {
     Eigen::VectorXd result(part.triangles());
-    for (int f = 0; f < part.triangles(); ++f)
-        result[f] = of_vertex(part.triangle.col(f)).mean();
+    for (int f = 0; f < part.triangles(); ++f) {
+        result[f] = of_vertex[part.triangle(0, f)];
+        for (const int v : part.triangle.col(f))
+            if (std::abs(of_vertex[v]) > std::abs(result[f]))
+                result[f] = of_vertex[v];
+    }
     return result;
 }
 
@@ -70,7 +75,6 @@ Eigen::VectorXd of_sheet(const SheetFields& sheet, Field field)
     switch (field) {
     case Field::thickness: return sheet.thickness;
     case Field::thinning: return 100 * sheet.thinning;
-    case Field::thickening: return -100 * sheet.thinning;
     case Field::strain_major: return sheet.strain_major;
     case Field::strain_minor: return sheet.strain_minor;
     case Field::strain_equivalent: return sheet.strain_equivalent;
@@ -104,9 +108,8 @@ const std::vector<FieldInfo>& all_fields()
         {Field::none, "none", "No field", "", false, "The plain sheet."},
         {Field::thickness, "thickness", "Thickness", "mm", false, "Thickness of the sheet after forming."},
         {Field::thinning, "thinning", "Thinning", "%", true,
-         "Loss of thickness by forming; positive where the sheet became thinner and may tear, negative where thicker."},
-        {Field::thickening, "thickening", "Thickening", "%", true,
-         "Gain of thickness by forming; positive where the sheet was pushed together and may wrinkle."},
+         "Loss of thickness by forming; positive where the sheet became thinner and may tear, negative where it became "
+         "thicker and may wrinkle."},
         {Field::strain_major, "strain_major", "Major strain", "", false,
          "Logarithmic strain in the direction in which the sheet was stretched most."},
         {Field::strain_minor, "strain_minor", "Minor strain", "", true,
@@ -142,8 +145,8 @@ const std::vector<FieldInfo>& all_fields()
         {Field::zone, "zone", "Forming zone", "zone", false,
          "What forming does to the place: cracks, at risk, marginal, thinned or thickened too much, may wrinkle, hardly stretched, "
          "safe. See Forming limits."},
-        {Field::limit_distance, "limit_distance", "Distance to limit", "%", false,
-         "Engineering major strain that is left up to the forming limit curve; below 0 the sheet cracks."},
+        {Field::limit_distance, "limit_distance", "Margin to the limit", "%", false,
+         "Engineering major strain that is left up to the forming limit curve, in percentage points; below 0 the sheet cracks."},
         {Field::deviation, "deviation", "Deviation", "mm", true,
          "Distance from the part to the NURBS surface; positive where the surface runs on the outer side of the part."},
     };
@@ -154,6 +157,8 @@ const FieldInfo& info(Field field) { return all_fields()[size_t(field)]; }
 
 Field field_by_name(std::string_view name)
 {
+    if (name == "thickening")
+        return Field::thinning;
     std::string names;
     for (const FieldInfo& field : all_fields()) {
         if (field.name == name)
@@ -193,7 +198,7 @@ Eigen::VectorXd values(const Session& session, Field field, bool per_face)
     if (field == Field::deviation) {
         // The part's vertices come first, those of filled holes follow.
         const Eigen::VectorXd at_vertex = session.surface->deviation.at_vertex.head(part.vertices());
-        return per_face ? face_mean(part, at_vertex) : at_vertex;
+        return per_face ? farthest_corner(part, at_vertex) : at_vertex;
     }
     if (field == Field::zone) {
         const std::vector<Zone> zone =

@@ -13,7 +13,6 @@ enum class Field {
     none,
     thickness,
     thinning,
-    thickening,
     strain_major,
     strain_minor,
     strain_equivalent,
@@ -48,7 +47,8 @@ struct FieldInfo {
 /// All of them, in the order of the menu.
 const std::vector<FieldInfo>& all_fields();
 const FieldInfo& info(Field field);
-Field field_by_name(std::string_view name); ///< @throws InputError
+/// "thickening", which older projects and scripts have, is thinning: negative where the sheet became thicker. @throws InputError
+Field field_by_name(std::string_view name);
 
 /// Whether the session has what the field needs.
 bool available(const Session& session, Field field);
@@ -56,7 +56,7 @@ bool available(const Session& session, Field field);
 bool of_skins(Field field);
 
 /// Values in the unit of the field, one per vertex of the part or one per face; empty for Field::none. The deviation has no values per
-/// face of its own: the mean of its corners.
+/// face of its own: that of the corner where it is greatest. What is said in numbers is face_values().
 /// @throws InputError if it is not available
 Eigen::VectorXd values(const Session& session, Field field, bool per_face);
 

@@ -1,12 +1,21 @@
 #include "app/viewer/model/figures.h"
 
+#include <cmath>
+
+#include "app/viewer/model/face_values.h"
 #include "engine/coons/cell_quality.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
 namespace {
 
-std::array<double, 2> range(const Eigen::VectorXd& value) { return {value.minCoeff(), value.maxCoeff()}; }
+/// As face_values() says them, in shares.
+std::array<double, 2> range(const Eigen::VectorXd& value)
+{
+    const double floor = noise(Field::strain_major, 0);
+    const auto said = [&](double v) { return std::abs(v) < floor ? 0 : v; };
+    return {said(value.minCoeff()), said(value.maxCoeff())};
+}
 
 } // namespace
 
@@ -22,7 +31,7 @@ SheetFigures sheet_figures(const FlattenResult& flat)
 {
     const Eigen::Matrix2Xd& plane = flat.blank.position;
     return {plane.rowwise().maxCoeff() - plane.rowwise().minCoeff(), range(flat.face.thinning),
-            range(flat.face.strain_major), range(flat.face.strain_minor), flat.face.strain_equivalent.maxCoeff()};
+            range(flat.face.strain_major), range(flat.face.strain_minor), range(flat.face.strain_equivalent)[1]};
 }
 
 GridFigures grid_figures(const GridStage& grid, const Blank& blank)

@@ -13,7 +13,7 @@ struct PartFigures {
 };
 PartFigures part_figures(const PartFile& part);
 
-/// Least and greatest values over the faces.
+/// Least and greatest values over the faces; what is noise() is 0.
 struct SheetFigures {
     Eigen::Vector2d size{0, 0}; ///< mm, of the blank
     std::array<double, 2> thinning{}, strain_major{}, strain_minor{};

@@ -1,5 +1,6 @@
 #include "app/viewer/model/history.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace spia::viewer {
@@ -9,13 +10,22 @@ void History::remember(std::string name, const Document& before, bool merge)
     future_.clear();
     const bool same = merge && open_ && !past_.empty() && past_.back().name == name;
     open_ = merge;
+    const int number = std::exchange(now_, ++last_);
     if (same)
         return;
-    past_.push_back({std::move(name), before});
+    past_.push_back({std::move(name), before, number});
     if (past_.size() > most_) {
         past_.erase(past_.begin());
+        oldest_ = past_.front().number;
         ++forgotten_;
     }
+}
+
+bool History::has(int number) const
+{
+    // What is too old to be taken back is still so.
+    return number == now_ || number < oldest_ ||
+           std::any_of(past_.begin(), past_.end(), [&](const Entry& entry) { return entry.number == number; });
 }
 
 std::string History::undo_name() const { return past_.empty() ? "" : past_.back().name; }
@@ -27,6 +37,7 @@ void History::undo(Document& current)
         return;
     open_ = false;
     std::swap(current, past_.back().document);
+    std::swap(now_, past_.back().number);
     future_.push_back(std::move(past_.back()));
     past_.pop_back();
 }
@@ -37,6 +48,7 @@ void History::redo(Document& current)
         return;
     open_ = false;
     std::swap(current, future_.back().document);
+    std::swap(now_, future_.back().number);
     past_.push_back(std::move(future_.back()));
     future_.pop_back();
 }

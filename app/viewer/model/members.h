@@ -235,7 +235,8 @@ inline constexpr auto members_of<FieldDisplay> = std::tuple{member("field", &Fie
                                                             member("bands", &FieldDisplay::bands, Between{0, 256}),
                                                             member("isolines", &FieldDisplay::isolines),
                                                             member("extremes", &FieldDisplay::extremes),
-                                                            member("directions", &FieldDisplay::directions)};
+                                                            member("directions", &FieldDisplay::directions),
+                                                            member("difference", &FieldDisplay::difference)};
 
 template <>
 inline constexpr auto members_of<Camera> =

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/viewer/model/actions.h"
+#include "app/viewer/model/lights.h"
 #include "engine/core/error.h"
 
 /// The names that enumerations have in scripts, projects and reports: one table each.
@@ -115,6 +116,15 @@ template <>
 inline constexpr std::array names_of<ColourMap>{Names<ColourMap>{ColourMap::viridis, "viridis"},
                                                 Names<ColourMap>{ColourMap::diverging, "diverging"},
                                                 Names<ColourMap>{ColourMap::grey, "grey"}};
+template <>
+inline constexpr std::array names_of<ChainStep>{
+    Names<ChainStep>{ChainStep::part, "part"}, Names<ChainStep>{ChainStep::sheet, "sheet"},
+    Names<ChainStep>{ChainStep::unfold, "unfold"}, Names<ChainStep>{ChainStep::grid, "grid"},
+    Names<ChainStep>{ChainStep::surface, "surface"}};
+template <>
+inline constexpr std::array names_of<SheetSource>{
+    Names<SheetSource>{SheetSource::assumed, "assumed"}, Names<SheetSource>{SheetSource::before, "before"},
+    Names<SheetSource>{SheetSource::file, "file"}, Names<SheetSource>{SheetSource::chosen, "chosen"}};
 template <>
 inline constexpr std::array names_of<Severity>{
     Names<Severity>{Severity::hint, "hint"}, Names<Severity>{Severity::done, "done"},

@@ -36,6 +36,7 @@ struct StoredProject {
     std::string material; ///< a grade; empty: of the file
     std::optional<StoredPath> material_file;
     double thickness = 1;
+    SheetSource material_from = SheetSource::chosen, thickness_from = SheetSource::chosen; ///< as older files mean it
     bool skins = false;
     std::optional<Eigen::Vector3d> direction;
     GridOptions grid;
@@ -158,6 +159,8 @@ inline constexpr auto members_of<StoredProject> =
                member("material", &StoredProject::material),
                member("material_file", &StoredProject::material_file),
                required("thickness", &StoredProject::thickness, Between{1e-6, 1e6}),
+               member("material_from", &StoredProject::material_from),
+               member("thickness_from", &StoredProject::thickness_from),
                member("skins", &StoredProject::skins),
                member("direction", &StoredProject::direction),
                member("grid", &StoredProject::grid),
@@ -239,6 +242,15 @@ void translate_older(Json& json)
     if (const auto part = json.find("part");
         part != json.end() && part->is_object() && !part->contains("keep_triangles"))
         (*part)["keep_triangles"] = true;
+    // Thickening was a field of its own; it is thinning below 0.
+    if (const auto display = json.find("display");
+        display != json.end() && display->is_object() && display->value("field", Json()) == "thickening") {
+        (*display)["field"] = "thinning";
+        if (const auto range = display->find("range"); range != display->end() && range->is_array() &&
+                                                       range->size() == 2 && (*range)[0].is_number() &&
+                                                       (*range)[1].is_number())
+            *range = {-(*range)[1].get<double>(), -(*range)[0].get<double>()};
+    }
     const auto view = json.find("view");
     if (view == json.end() || !view->is_object())
         return;
@@ -280,6 +292,8 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
         throw InputError(fmt::format("{}: its material is not to be had: {}", file.string(), error.what()));
     }
     session.options.flatten.thickness = stored.thickness;
+    document.material_from = stored.material_from;
+    document.thickness_from = stored.thickness_from;
     session.options.flatten.skins = stored.skins;
     session.options.flatten.direction = stored.direction;
     session.options.grid = stored.grid;
@@ -324,6 +338,8 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     else
         stored.material = document.material;
     stored.thickness = session.options.flatten.thickness;
+    stored.material_from = document.material_from;
+    stored.thickness_from = document.thickness_from;
     stored.skins = session.options.flatten.skins;
     stored.direction = session.options.flatten.direction;
     stored.grid = session.options.grid;

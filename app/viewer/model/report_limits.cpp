@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/face_values.h"
 #include "app/viewer/model/html_text.h"
 #include "app/viewer/model/svg_chart.h"
 #include "app/viewer/model/zone_look.h"
@@ -78,20 +79,21 @@ std::string spot_table(const LimitsResult& limits, const PartFile& part)
     std::string rows;
     for (size_t i = 0; i < std::min(spots.size(), most); ++i) {
         const WorstSpot& spot = spots[i];
+        const auto margin = margin_of(limits, spot.face);
         rows +=
             fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}, {}, {}</td>"
                         "<td>{}</td></tr>\n",
-                        zone_words(spot.zone), fixed(100 * spot.value, 1), fixed(spot.strain_major, 3),
+                        zone_words(spot.zone), margin ? fixed(100 * *margin, 1) : "\u2013", fixed(spot.strain_major, 3),
                         fixed(spot.strain_minor, 3), fixed(100 * spot.thinning, 1), fixed(spot.position[0], 1),
                         fixed(spot.position[1], 1), fixed(spot.position[2], 1), part.source_face[size_t(spot.face)]);
     }
     if (rows.empty())
         return "";
     return fmt::format(
-        "<table class=\"spots\"><tr><th>Worst spot</th><th>Value, %</th><th>Major strain</th>"
+        "<table class=\"spots\"><tr><th>Worst spot</th><th>Margin, points</th><th>Major strain</th>"
         "<th>Minor strain</th><th>Thinning, %</th><th>At x, y, z, mm</th><th>Face of the file</th></tr>\n"
-        "{}</table>\n<p>Value: for crack, risk and marginal the points of engineering major strain that are left "
-        "up to the curve, below 0 beyond it; else the thinning or thickening.</p>\n",
+        "{}</table>\n<p>Margin: percentage points of engineering major strain that are left up to the forming limit curve, "
+        "below 0 beyond it. Thinning: below 0 the sheet became thicker.</p>\n",
         rows);
 }
 

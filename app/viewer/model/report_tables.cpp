@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "app/viewer/model/face_values.h"
 #include "app/viewer/model/html_text.h"
-#include "app/viewer/model/statistics.h"
 #include "app/viewer/model/svg_chart.h"
 #include "engine/exchange/text_encoding.h"
 #include "engine/pipeline/certificate_report.h"
@@ -240,9 +240,7 @@ std::string thinnest_places(const Session& session)
     int rank = 0;
     const TriMesh& mesh = session.part->mesh;
     constexpr int most = 5;
-    for (const int f : worst_spots(mesh, face.thinning, most, false)) {
-        if (!(face.thinning[f] > 0)) // only thicker places are left
-            break;
+    for (const int f : worst_faces(mesh, face_values(session, Field::thinning), Field::thinning, most)) {
         const Eigen::Vector3d at = mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
         rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                             ++rank, fixed(100 * face.thinning[f], 1), fixed(face.thickness[f], 3),

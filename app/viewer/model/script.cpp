@@ -7,6 +7,7 @@
 
 #include "app/viewer/model/members.h"
 #include "engine/core/error.h"
+#include "engine/forming/material_text.h"
 
 namespace spia::viewer {
 
@@ -17,6 +18,13 @@ inline constexpr auto members_of<Expect> =
                member("above", &Expect::above),       member("below", &Expect::below),
                member("near", &Expect::near),         member("tolerance", &Expect::tolerance, Between{0, 1e300}),
                member("contains", &Expect::contains), member("exists", &Expect::exists)};
+
+/// A grade is written as in its file.
+template <> void read(const Json& json, Material& material, const Place& place)
+{
+    material = material_from(json.dump(), place.text());
+}
+template <> Json written(const Material& material) { return Json::parse(material_text(material)); }
 
 namespace {
 
@@ -76,6 +84,9 @@ constexpr std::tuple forms{
     form<SetMaterial>("set_material", required("material", &SetMaterial::material, not_empty)),
     form<FitMaterial>("fit_material", required("table", &FitMaterial::table, not_empty),
                       required("out", &FitMaterial::out, not_empty), member("fit", &FitMaterial::fit)),
+    form<SaveMaterial>("save_material", required("material", &SaveMaterial::material),
+                       member("replaces", &SaveMaterial::replaces)),
+    form<RemoveMaterial>("remove_material", required("material", &RemoveMaterial::material, not_empty)),
     form<SetThickness>("set_thickness", required("thickness", &SetThickness::thickness, Between{1e-6, 1e6})),
     form<SetSkins>("set_skins", required("skins", &SetSkins::skins)),
     form<SetDirection>("set_direction", member("direction", &SetDirection::direction, has_a_direction)),
@@ -177,6 +188,8 @@ constexpr std::tuple forms{
     form<ShowFault>("show_fault", required("finding", &ShowFault::finding, any_index),
                     member("entry", &ShowFault::entry, any_index)),
     form<HideFault>("hide_fault"),
+    form<KeepReference>("keep_reference", member("name", &KeepReference::name)),
+    form<DropReference>("drop_reference"),
     form<Undo>("undo"),
     form<Redo>("redo"),
     form<OpenProject>("open_project", required("file", &OpenProject::file, not_empty)),
@@ -391,6 +404,11 @@ Action action_from_json(const Json& json)
 {
     ViewerState new_program;
     return action_from_json(json, new_program);
+}
+
+std::string_view name(const Action& action)
+{
+    return std::visit([]<class T>(const T&) -> std::string_view { return form_of<T>.name; }, action);
 }
 
 Json to_json(const Action& action)

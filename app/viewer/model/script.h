@@ -34,6 +34,9 @@ Action action_from_json(const Json& json, const ViewerState& present, const std:
 /// In a new program.
 Action action_from_json(const Json& json);
 
+/// What it is called: its "do".
+std::string_view name(const Action& action);
+
 /// With all of its members; action_from_json() gives the same action back, whatever the state.
 Json to_json(const Action& action);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "app/viewer/model/document.h"
 #include "app/viewer/model/file_listing.h"
 #include "app/viewer/model/history.h"
+#include "app/viewer/model/message.h"
 
 namespace spia::viewer {
 
@@ -75,16 +77,6 @@ struct ViewSettings {
     bool field_on_steps = false; ///< the field of the states instead of the marks
 };
 
-enum class Severity { hint, done, warning, error };
-
-/// What the program says to the user, the newest last.
-struct Message {
-    Severity severity;
-    std::string text;
-    int number = 0;         ///< counts all that was ever said
-    bool dismissed = false; ///< read; kept for the list of messages
-};
-
 /// A place where the mesh of the part is at fault.
 struct ShownFault {
     int finding = 0, entry = 0;                      ///< of the doctor's report, of Finding::place
@@ -101,6 +93,12 @@ struct JobView {
     std::shared_ptr<const Eigen::Matrix2Xd> blank; ///< while it converges; null: nothing yet
 };
 
+/// What became of the last export.
+struct ExportOutcome {
+    std::vector<std::filesystem::path> files; ///< written
+    std::string error;                        ///< why there are none; empty: all were written
+};
+
 /// The later results of a blank: its grid, the quad mesh, the surface.
 struct LaterResults {
     std::shared_ptr<const FlattenResult> blank;
@@ -108,6 +106,11 @@ struct LaterResults {
     std::shared_ptr<const LiftResult> lifted;
     std::shared_ptr<const SurfaceStage> surface;
 };
+
+struct Doubt;
+struct Grade;
+struct Reference;
+struct Differences;
 
 struct ViewerState;
 /// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
@@ -121,15 +124,21 @@ struct ViewerState {
     ViewSettings view;
     JobView job;
     std::vector<Message> messages;
+    std::shared_ptr<const std::vector<Doubt>>
+        doubts;                    ///< what the results are poorer for, see lights.h; null: nothing yet
     LaterResults before;           ///< those that a grid being made (a corner being dragged) has put out of date
     std::filesystem::path project; ///< file it was saved to or opened from; empty: none yet
     bool unsaved = false;
+    std::optional<ExportOutcome> exported;   ///< none since the last export was begun
     bool shape_dragged = false;              ///< handles of the surface follow the mouse
     std::optional<int> hovered;              ///< face under the mouse
     std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
     std::optional<ShownFault> fault;         ///< the one that is looked at
     std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
     std::optional<FileListing> listing;      ///< the file that is looked into
+    std::shared_ptr<const std::vector<Grade>> grades; ///< that can be chosen, see grades.h; never null
+    std::shared_ptr<const Reference> reference;       ///< an earlier result to be compared with; null: none
+    std::shared_ptr<const Differences> differences;   ///< from it, see comparison.h; null: none
 };
 
 /// How far the view of the part is unfolded: as chosen, as far as there are states that hold.

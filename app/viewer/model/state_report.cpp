@@ -3,7 +3,11 @@
 #include <algorithm>
 
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/comparison.h"
+#include "app/viewer/model/face_values.h"
+#include "app/viewer/model/grades.h"
 #include "app/viewer/model/handles.h"
+#include "app/viewer/model/lights.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/pipeline/report.h"
@@ -58,6 +62,8 @@ Json options_json(const Document& document)
     const SessionOptions& options = document.session.options;
     return {{"material", document.material},
             {"thickness", options.flatten.thickness},
+            {"material_from", name_in_table(document.material_from)},
+            {"thickness_from", name_in_table(document.thickness_from)},
             {"blank_from", name(options.steps)},
             {"skins", options.flatten.skins},
             {"seam", written(options.read.seam)},
@@ -106,27 +112,29 @@ bool shows_field(const Document& document)
     return document.display.field != Field::none && available(document.session, document.display.field);
 }
 
-/// The field shown, one value per face or vertex; empty if none is.
-Eigen::VectorXd shown_field(const Document& document)
+/// The field shown, one value per face; empty if none is.
+FaceValues shown_field(const ViewerState& state)
 {
-    const FieldDisplay& display = document.display;
-    return shows_field(document) ? values(document.session, display.field, display.per_face) : Eigen::VectorXd();
+    return shows_field(state.document) ? face_values(session_of_field(state), state.document.display.field)
+                                       : FaceValues();
 }
 
-/// The same, smooth in any case.
-Eigen::VectorXd shown_at_vertices(const Document& document)
+/// The same, its means at the vertices.
+Eigen::VectorXd shown_at_vertices(const ViewerState& state)
 {
-    return shows_field(document) ? values(document.session, document.display.field, false) : Eigen::VectorXd();
+    return shows_field(state.document) ? values(session_of_field(state), state.document.display.field, false)
+                                       : Eigen::VectorXd();
 }
 
-Json field_json(const Document& document, const Eigen::VectorXd& field)
+Json field_json(const Document& document, const FaceValues& field)
 {
-    if (field.size() == 0)
+    if (field.value.size() == 0)
         return nullptr;
-    return {{"unit", info(document.display.field).unit}, {"least", field.minCoeff()}, {"greatest", field.maxCoeff()}};
+    return {
+        {"unit", info(document.display.field).unit}, {"least", field.extremes()[0]}, {"greatest", field.extremes()[1]}};
 }
 
-Json probes_json(const Document& document, const Eigen::VectorXd& field)
+Json probes_json(const Document& document, const FaceValues& field)
 {
     Json list = Json::array();
     for (const Probe& probe : document.probes) {
@@ -135,23 +143,22 @@ Json probes_json(const Document& document, const Eigen::VectorXd& field)
             const TriMesh& mesh = document.session.part->mesh;
             const Eigen::Vector3i corner = mesh.triangle.col(probe.face);
             json["at"] = vector_json(mesh.position(Eigen::all, corner) * probe.barycentric);
-            json["value"] = field.size() == 0           ? Json(nullptr)
-                            : document.display.per_face ? Json(field[probe.face])
-                                                        : Json(field(corner).dot(probe.barycentric));
+            json["value"] = field.value.size() == 0 ? Json(nullptr) : Json(field.value[probe.face]);
         }
         list.push_back(std::move(json));
     }
     return list;
 }
 
-Json vertices_json(const Document& document)
+Json vertices_json(const ViewerState& state)
 {
+    const Document& document = state.document;
     Json list = Json::array();
     const Session& session = document.session;
     if (document.vertices.empty() || !session.part)
         return list;
     const std::vector<int> boundary = boundary_vertices(session.part->mesh).vertex;
-    const Eigen::VectorXd field = shown_at_vertices(document);
+    const Eigen::VectorXd field = shown_at_vertices(state);
     for (const int v : document.vertices)
         list.push_back({{"vertex", v},
                         {"in_file", session.part->source_vertex[size_t(v)]},
@@ -246,8 +253,23 @@ Json messages_json(const std::vector<Message>& messages)
 {
     Json list = Json::array();
     for (const Message& message : messages)
-        if (!message.dismissed)
+        if (message.shown()) {
             list.push_back({{"severity", name_in_table(message.severity)}, {"text", message.text}});
+            if (!message.details.empty())
+                list.back()["details"] = message.details;
+        }
+    return list;
+}
+
+/// What is poor, and what the light at the foot of the window says of it.
+Json doubts_json(const ViewerState& state)
+{
+    Json list = Json::array();
+    for (const Doubt& doubt : state.doubts ? *state.doubts : std::vector<Doubt>())
+        list.push_back({{"step", name_in_table(doubt.step)},
+                        {"text", doubt.text},
+                        {"next", doubt.next},
+                        {"button", doubt.button}});
     return list;
 }
 
@@ -265,12 +287,40 @@ Json doctor_json(const ViewerState& state)
     return json;
 }
 
+/// Grades by their labels, those at fault apart.
+Json grades_json(const ViewerState& state)
+{
+    Json built_in = Json::array(), own = Json::array(), at_fault = Json::object();
+    for (const Grade& grade : state.grades ? *state.grades : std::vector<Grade>()) {
+        (grade.own ? own : built_in).push_back(grade.label());
+        if (!grade.material)
+            at_fault[grade.label()] = grade.problem;
+    }
+    return {{"built_in", built_in}, {"own", own}, {"at_fault", at_fault}};
+}
+
+Json comparison_json(const ViewerState& state)
+{
+    if (!state.reference)
+        return nullptr;
+    Json json = {{"reference", state.reference->name}};
+    if (const auto& differences = state.differences) {
+        json["by_face"] = differences->none_because.empty();
+        json["outline_distance"] =
+            differences->none_because.empty() ? Json(differences->outline_distance) : Json(nullptr);
+        Json& figures = json["figures"] = Json::object();
+        for (const ComparedFigure& each : compared_figures(*state.reference, state.document.session))
+            figures[each.name] = {{"reference", written(each.reference)}, {"now", written(each.now)}};
+    }
+    return json;
+}
+
 } // namespace
 
 Json state_report(const ViewerState& state)
 {
     const Document& document = state.document;
-    const Eigen::VectorXd field = shown_field(document);
+    const FaceValues field = shown_field(state);
     return {{"schema", "spia-state/1"},
             {"part", part_json(document.session)},
             {"listing", listing_json(state)},
@@ -278,13 +328,15 @@ Json state_report(const ViewerState& state)
             {"stages", stages_json(document.session)},
             {"figures", figures_json(document)},
             {"selection", faces_json(document.selected)},
-            {"vertices", vertices_json(document)},
+            {"vertices", vertices_json(state)},
             {"distance", distance_json(document)},
             {"handles", handles_json(state)},
             {"regions", regions_json(document.regions)},
             {"lines", written(document.lines)},
             {"process", {{"edge_restraint", document.edge_restraint}, {"rolling", written(document.rolling)}}},
             {"limits", written(document.limits)},
+            {"grades", grades_json(state)},
+            {"comparison", comparison_json(state)},
             {"unfolding", unfolding_json(state)},
             {"probes", probes_json(document, field)},
             {"display", written(document.display)},
@@ -293,6 +345,8 @@ Json state_report(const ViewerState& state)
             {"corners", corners_json(document.session)},
             {"history", {{"undo", state.history.undo_name()}, {"redo", state.history.redo_name()}}},
             {"messages", messages_json(state.messages)},
+            {"doubts", doubts_json(state)},
+            {"ready", {{"fine", readiness(state).fine}, {"text", readiness(state).text}}},
             {"doctor", doctor_json(state)},
             {"job",
              {{"running", state.job.running},

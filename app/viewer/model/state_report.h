@@ -18,6 +18,8 @@ namespace spia::viewer {
 /// | `regions[]` | `name`, `kind`, `colour`, `faces`, `first` |
 /// | `probes[]` | `face`, `barycentric`, `at` (mm), `value` of the field shown, in its unit (null: none) |
 /// | `display` | as in the script action set_display |
+/// | `grades` | that can be chosen: `built_in[]`, `own[]`, `at_fault` (why, by the stem of the file) |
+/// | `comparison` | null, or `reference` (its name), `by_face` (whether there are differences), `outline_distance` (mm), `figures` (`reference`, `now` of each) |
 /// | `field` | null, or of the field shown: `unit`, `least`, `greatest` |
 /// | `view` | as in the script action set_view |
 /// | `corners` | of the grid: null, or four `vertex` (of the part), `at` (mm, on the part), `blank` (mm) |

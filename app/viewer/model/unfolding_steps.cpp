@@ -17,8 +17,8 @@ namespace {
 
 bool same_sheet(const FlattenOptions& a, const FlattenOptions& b)
 {
-    return a.material == b.material && a.thickness == b.thickness && a.process.tailored == b.process.tailored &&
-           a.process.rolling == b.process.rolling;
+    return formed_alike(a.material, b.material) && a.thickness == b.thickness &&
+           a.process.tailored == b.process.tailored && a.process.rolling == b.process.rolling;
 }
 
 /// Whether the last run was about this part in this sheet.

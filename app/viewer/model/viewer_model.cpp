@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <mutex>
 
+#include "app/viewer/model/grades.h"
 #include "app/viewer/model/grid_advice.h"
 #include "app/viewer/model/handles.h"
 #include "app/viewer/model/viewer_words.h"
@@ -44,19 +45,50 @@ ViewerModel::ViewerModel(std::filesystem::path assets, std::function<void()> wak
     Document& document = state_.document;
     document.session.options.flatten.material = find_material(document.material, assets_ / "materials");
     state_.view.camera[size_t(View::blank)].flat = true;
+    state_.grades = std::make_shared<const std::vector<Grade>>(read_grades(assets_ / "materials", own_materials()));
 }
 
 ViewerModel::~ViewerModel() = default;
 
-void ViewerModel::say(Severity severity, std::string text)
+void ViewerModel::say(Severity severity, std::string text, Subject subject)
 {
-    text = in_viewer_words(std::move(text));
+    Message message{severity, std::move(text)};
+    message.subject = std::move(subject);
+    say(std::move(message));
+}
+
+void ViewerModel::say(Message message)
+{
+    message.text = in_viewer_words(std::move(message.text));
+    for (std::string& detail : message.details)
+        detail = in_viewer_words(std::move(detail));
+    message.number = ++said_;
     constexpr size_t most = 50;
-    const auto same = [&](const Message& message) { return message.severity == severity && message.text == text; };
-    std::erase_if(state_.messages, same); // said again, it is the newest once more
-    state_.messages.push_back({severity, std::move(text), ++said_});
+    std::erase_if(state_.messages, [&](const Message& before) { // said again, it is the newest once more
+        return before.severity == message.severity && before.text == message.text &&
+               (before.shown() || same(before.subject, message.subject));
+    });
+    state_.messages.push_back(std::move(message));
     if (state_.messages.size() > most)
         state_.messages.erase(state_.messages.begin());
+}
+
+void ViewerModel::follow_messages()
+{
+    for (Message& message : state_.messages) {
+        message.gone = !holds(message.subject, state_);
+        message.dismissed |=
+            message.gone && message.subject.kind == Subject::Kind::refusal; // not to come back with undo
+    }
+}
+
+void ViewerModel::follow_doubts()
+{
+    DoubtsOf now = doubts_of(state_.document);
+    if (state_.doubts && now == doubts_of_)
+        return;
+    doubts_of_ = std::move(now);
+    state_.doubts = std::make_shared<const std::vector<Doubt>>(find_doubts(state_.document));
 }
 
 void ViewerModel::start(Stage from, Stage to, std::string title)
@@ -170,6 +202,11 @@ bool ViewerModel::poll()
             news = true;
         }
     }
+    if (news) {
+        follow_reference();
+        follow_doubts();
+        follow_messages();
+    }
     return news;
 }
 
@@ -206,7 +243,7 @@ void ViewerModel::take_chain_result()
     const Session before = document.session;
     const LaterResults quads = quads_shown(state_), surface = surface_shown(state_);
     for (const std::string& lost : take_over(document, result))
-        say(Severity::warning, lost);
+        say(Severity::warning, lost, about_results(state_));
     // What was picked during the run is taken back without it.
     state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
     keep_before(result, quads, surface);
@@ -224,12 +261,13 @@ void ViewerModel::take_chain_result()
     if (document.session.blank)
         keep_cameras_ = false;
     if (result.cancelled)
-        say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title));
+        say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title),
+            about_refusal(state_));
     else if (result.failed)
         say_failed(result);
     else
         for (const std::string& text : shortcomings(document.session))
-            say(Severity::warning, as_sentence(text));
+            say(Severity::warning, as_sentence(text), about_results(state_));
     const bool in_one_step = std::exchange(next_in_one_step_, false);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
         if (in_one_step)
@@ -363,14 +401,17 @@ void ViewerModel::say_failed(const ChainResult& result)
             fmt::format("{} {}", sentence(result.message),
                         reading                         ? "Choose another file."
                         : *result.failed == Stage::grid ? grid_advice(result.session)
-                                                        : advice(*result.failed, result.session.options)));
+                                                        : advice(*result.failed, result.session.options)),
+            about_change(state_));
         return;
     }
     const auto& findings = state_.refused->doctor.findings;
     const auto worst = std::find_if(findings.begin(), findings.end(),
                                     [](const Finding& f) { return f.severity == spia::Severity::fatal; });
-    say(Severity::error, fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(),
-                                     worst->text, advice(*result.failed, result.session.options)));
+    say(Severity::error,
+        fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(), worst->text,
+                    advice(*result.failed, result.session.options)),
+        about_refused_part(state_));
     fitter_.fit(state_, View::part);
 }
 
@@ -380,11 +421,13 @@ void ViewerModel::take_export_result()
     state_.job = JobView{};
     try {
         const auto files = job->take();
+        state_.exported = ExportOutcome{files, {}};
         std::string names;
         for (const auto& file : files)
             names += (names.empty() ? "" : ", ") + file.filename().string();
         say(Severity::done, fmt::format("Wrote {} to {}", names, files.empty() ? "" : files[0].parent_path().string()));
     } catch (const std::exception& error) {
+        state_.exported = ExportOutcome{{}, error.what()};
         say(Severity::error, error.what());
     }
 }
@@ -396,19 +439,27 @@ void ViewerModel::part_opened()
         return;
     state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
     fitter_.fit(state_);
+    const PartFile& part = *document.session.part;
     double& thickness = document.session.options.flatten.thickness;
-    if (const auto found = document.session.part->thickness_mm; found && !project_ && *found != thickness) {
+    std::vector<std::string> done;
+    if (const auto found = part.thickness_mm; found && !project_) {
+        if (*found != thickness)
+            done.push_back(fmt::format("The sheet is taken {:.6g} mm thick as in the file; another thickness can be "
+                                       "given in the step Sheet.",
+                                       *found));
         thickness = *found;
-        say(Severity::hint,
-            fmt::format("The sheet is taken {:.6g} mm thick as in the file; another thickness can be given in "
-                        "the step Sheet.",
-                        thickness));
+        document.thickness_from = SheetSource::file;
     }
-    for (const std::string& note : document.session.part->notes)
-        say(Severity::hint, as_sentence(note));
-    for (const Finding& finding : document.session.part->doctor.findings)
-        say(finding.severity == spia::Severity::repaired ? Severity::warning : Severity::hint,
-            as_sentence(finding.text) + (finding.advice.empty() ? "" : "; " + finding.advice));
+    for (const std::string& note : part.notes)
+        if (std::find(part.doubts.begin(), part.doubts.end(), note) == part.doubts.end()) // those are warnings
+            done.push_back(sentence(as_sentence(note)));
+    for (const Finding& finding : part.doctor.findings)
+        done.push_back(sentence(as_sentence(finding.text) + (finding.advice.empty() ? "" : "; " + finding.advice)));
+    if (done.empty())
+        return;
+    Message message = opened_message(document.session.file.filename().string(), std::move(done));
+    message.subject = about_part(state_);
+    say(std::move(message));
 }
 
 /// The picks of a project on its part, which may have changed since; then the stages it had.

@@ -6,6 +6,7 @@
 
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/lights.h"
 #include "app/viewer/model/pickers.h"
 #include "app/viewer/model/project_file.h"
 #include "app/viewer/model/view_fitter.h"
@@ -35,7 +36,8 @@ public:
     bool poll();
 
     /// Says something to the user.
-    void say(Severity severity, std::string text);
+    void say(Severity severity, std::string text, Subject subject = {});
+    void say(Message message);
 
     /// The mouse is free again and no text is being typed: the next change is one of its own for undo, whatever its name.
     void gesture_ended() { state_.history.close(); }
@@ -82,6 +84,9 @@ private:
     void run_missing_steps(); ///< there must be some
     void take_steps_result();
     void follow_list();
+    void follow_doubts();    ///< looks anew for what is poor where a result or the sheet is another
+    void follow_messages();  ///< those whose subject is no more are gone
+    void follow_reference(); ///< makes the differences anew where a result or the reference is another
     void show_step(std::optional<int> step, double position);
     void say_steps_run(const StepsOutcome& outcome);
     void part_opened();
@@ -111,6 +116,7 @@ private:
     std::optional<Stage> next_;          ///< run this far when the running job has ended
     bool next_in_one_step_ = false;      ///< and not from the blank of the steps
     int said_ = 0;                       ///< messages so far
+    DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
     int openings_ = 0;
     bool opening_ = false;           ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part

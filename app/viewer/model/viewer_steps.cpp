@@ -24,8 +24,7 @@ std::string counted(size_t count, const char* what)
 
 void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work)
 {
-    for (Message& message : state_.messages) // of the run before
-        message.dismissed |= message.severity != Severity::error;
+    dismiss_before_run(state_.messages);
     state_.job = JobView{};
     state_.job.running = true;
     state_.job.title = std::move(title);
@@ -161,53 +160,59 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
 {
     const StepsRun& last = *outcome.run;
     const UnfoldRun& run = last.run;
+    bool poor = false;
+    const auto warn = [&](std::string text) {
+        poor = true;
+        say(Severity::warning, std::move(text), about_steps(state_));
+    };
     for (const UnfoldState& state : run.states)
         if (!state.converged)
-            say(Severity::warning,
+            warn(
                 fmt::format("The step \"{}\" did not converge: {}. Its best shape is kept; a larger tolerance or other "
                             "faces may help.",
                             state.name, state.reason));
         else if (state.friction_share < 1)
-            say(Severity::warning, fmt::format("The step \"{}\" has {:.2g} % of its friction: {}.", state.name,
-                                               100 * state.friction_share, state.reason));
+            warn(fmt::format("The step \"{}\" has {:.2g} % of its friction: {}.", state.name,
+                             100 * state.friction_share, state.reason));
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
-            say(Severity::warning,
-                fmt::format(
-                    "In the step \"{}\" {} reach beyond the end of the target, up to {:.4g} mm from what carries it.",
-                    state.name, counted(size_t(state.reach.without_room), "face"), state.reach.farthest_mm));
+            warn(fmt::format(
+                "In the step \"{}\" {} reach beyond the end of the target, up to {:.4g} mm from what carries it.",
+                state.name, counted(size_t(state.reach.without_room), "face"), state.reach.farthest_mm));
     if (const size_t count = last.given_up.size(); count > 0)
         say(Severity::hint,
             fmt::format("The step {}{}. The list shows the steps that were done.", last.given_up.front(),
-                        count > 1 ? fmt::format("; so it was {} more", counted(count - 1, "time")) : ""));
+                        count > 1 ? fmt::format("; so it was {} more", counted(count - 1, "time")) : ""),
+            about_steps(state_));
     if (!run.failure.empty()) {
         const size_t failed = run.states.size();
         say(Severity::error,
             fmt::format("Step {} \"{}\" has no result: {} {}Change this step or its place in the list, then run again.",
                         failed + 1, last.steps[failed]->name, sentence(run.failure),
-                        failed > 0 ? fmt::format("The states up to step {} are kept. ", failed) : ""));
+                        failed > 0 ? fmt::format("The states up to step {} are kept. ", failed) : ""),
+            about_steps(state_));
         return;
     }
     if (!run.blank) {
-        say(Severity::warning, "After the last step the part does not lie in a plane yet; add a step.");
+        warn("After the last step the part does not lie in a plane yet; add a step.");
         return;
     }
     if (run.flipped > 0)
-        say(Severity::warning, fmt::format("{} of the blank are flipped; unfold there in smaller steps.",
-                                           counted(size_t(run.flipped), "triangle")));
+        warn(fmt::format("{} of the blank are flipped; unfold there in smaller steps.",
+                         counted(size_t(run.flipped), "triangle")));
     const UnfoldState& end = run.states.back();
     if (end.necking > 0)
-        say(Severity::warning,
-            fmt::format("{} strained beyond what the hardening curve is trusted to: the sheet would "
-                        "neck or tear there.",
-                        end.necking == 1 ? "1 triangle is"
-                                         : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
+        warn(fmt::format("{} strained beyond what the hardening curve is trusted to: the sheet would "
+                         "neck or tear there.",
+                         end.necking == 1 ? "1 triangle is"
+                                          : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
     if (end.overlap.places > 0)
-        say(Severity::warning,
-            fmt::format("The blank lies on itself at {}.", counted(size_t(end.overlap.places), "place")));
+        warn(fmt::format("The blank lies on itself at {}.", counted(size_t(end.overlap.places), "place")));
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    say(Severity::done, fmt::format("Unfolded in {}: a blank of {:.4g} x {:.4g} mm.",
-                                    counted(run.states.size(), "step"), size[0], size[1]));
+    say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
+        fmt::format("Unfolded in {}: a blank of {:.4g} x {:.4g} mm.", counted(run.states.size(), "step"), size[0],
+                    size[1]),
+        about_steps(state_));
 }
 
 } // namespace spia::viewer

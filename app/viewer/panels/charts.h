@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/viewer/model/face_values.h"
 #include "app/viewer/model/figures.h"
 #include "app/viewer/model/point_cloud.h"
 #include "app/viewer/model/section.h"
@@ -16,11 +17,10 @@ struct Frame;
 
 /// What the lists and the histogram of a field are made of; without a field all is empty.
 struct Figures {
-    Eigen::VectorXd value;       ///< per face; of a smooth field the mean of its corners
-    Eigen::VectorXd worst_value; ///< per face the worst of its corners
-    Eigen::VectorXd at_vertex;   ///< the smooth field
-    Histogram histogram;
-    std::vector<int> worst; ///< faces
+    FaceValues face;
+    Eigen::VectorXd at_vertex; ///< the smooth field
+    Histogram histogram;       ///< of the faces
+    std::vector<int> worst;    ///< faces
 };
 
 /// What the charts show, made anew only when that changes.
@@ -28,10 +28,9 @@ struct Charts {
     using Blank = std::shared_ptr<const FlattenResult>;
     using Limits = std::shared_ptr<const LimitsResult>;
     using Surface = std::shared_ptr<const SurfaceStage>;
-    Memo<Figures, Blank, Limits, Surface, Field, bool> figures;
-    Memo<Eigen::VectorXd, Blank, Limits, Surface, Field, bool> values; ///< of the field: per vertex, or per face
+    Memo<Figures, Blank, Limits, Surface, Field> figures;
     Memo<std::vector<SectionPiece>, std::shared_ptr<const PartFile>, Blank, Limits, Surface, Field,
-         std::optional<SectionLine>>
+         std::optional<SectionLine>, bool>
         section, section_elsewhere;
     Memo<PointCloud, Blank, Limits, int, int> strains;
     Memo<PartFigures, std::shared_ptr<const PartFile>> part, refused;

@@ -10,15 +10,31 @@
 
 namespace spia::viewer {
 
-bool begin_dialog(const Frame& frame, const char* title, bool appears, float width)
+bool begin_modal(const Frame& frame, const char* title, bool appears, ImGuiWindowFlags flags, bool* stays, bool urgent)
 {
+    DialogQueue& queue = frame.ui.dialogs;
+    queue.seen(title);
     if (appears)
+        queue.want(title, urgent);
+    if (!queue.shows(title))
+        return false;
+    if (!queue.opened(title)) {
         ImGui::OpenPopup(title);
+        queue.open(title);
+    }
+    if (ImGui::BeginPopupModal(title, stays, flags | ImGuiWindowFlags_NoMove))
+        return true;
+    queue.leave(title); // it has been answered
+    return false;
+}
+
+bool begin_dialog(const Frame& frame, const char* title, bool appears, float width, bool urgent)
+{
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float wide = std::min(width * frame.ui.scale, screen.x - 40);
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({wide, 0}, {wide, screen.y - 20});
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    if (!begin_modal(frame, title, appears, ImGuiWindowFlags_AlwaysAutoResize, nullptr, urgent))
         return false;
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of the window
     return true;

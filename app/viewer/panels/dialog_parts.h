@@ -7,12 +7,19 @@
 /// What the dialogs have in common.
 namespace spia::viewer {
 
-/// A modal window in the middle of the screen, as high as its content; if it is open, call end_dialog().
+/// A modal window in the middle of the screen, as high as its content; if it is open, call end_dialog(). It is to be called in every
+/// frame in which the dialog is open or waits behind another one (DialogQueue); one that is not called is closed.
+/// @param title no other dialog has it; what follows "###" is not shown
 /// @param appears opens it now
 /// @param width at content scale 1
-bool begin_dialog(const Frame& frame, const char* title, bool appears, float width);
+/// @param urgent it goes before other dialogs, which come back after it
+bool begin_dialog(const Frame& frame, const char* title, bool appears, float width, bool urgent = false);
 
 void end_dialog();
+
+/// Likewise a modal window whose size and place are set by the caller; if it is open, call ImGui::EndPopup().
+bool begin_modal(const Frame& frame, const char* title, bool appears, ImGuiWindowFlags flags, bool* stays = nullptr,
+                 bool urgent = false);
 
 /// Whether the key was pressed since the last frame.
 bool pressed(const Frame& frame, int key);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -17,23 +18,30 @@ void shortcuts_window(Frame& frame)
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
     if (ImGui::Begin("Keyboard and mouse", &frame.ui.show_shortcuts,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
-        constexpr const char* rows[][2] = {{"Left button", "what the tool does; with Look: turn"},
-                                           {"Right button", "turn, with every tool"},
-                                           {"Middle button, Shift + right", "pan"},
-                                           {"Wheel", "zoom to the place under the mouse"},
-                                           {"Shift, Ctrl", "picking adds, takes away"},
-                                           {"Double click on a title", "one view, four views"},
-                                           {"V P B L U R N", "tools: look, face, box, lasso, brush, flood, smooth"},
-                                           {"D G W O X C", "tools: vertex, outline, line, probe, section, corners"},
-                                           {"F5, F6", "run all, unfold"},
-                                           {"F", "fit all"},
-                                           {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
-                                           {"E, T", "triangle edges; dark or light"},
-                                           {"F2, F3", "show or hide the panels"},
-                                           {"Ctrl + Z, Y", "undo, redo (also Ctrl + Shift + Z)"},
-                                           {"I, +, -", "invert, grow, shrink the selection"},
-                                           {"Ctrl + O, S, E, Q", "open, save, export, quit"},
-                                           {"Esc", "close a menu or dialog; cancel the job; clear the selection"}};
+        constexpr const char* rows[][2] = {
+            {"Left button", "what the tool does; with Look: turn"},
+            {"Right button", "turn, with every tool"},
+            {"Middle button, Shift + right", "pan"},
+            {"Wheel", "zoom to the place under the mouse"},
+            {"Shift, Ctrl", "picking adds, takes away"},
+            {"Double click on a title", "one view, four views"},
+            {"F4, Shift + F4", "the next view, the one before has the keyboard; a click gives it, too"},
+            {"Arrows, Page up, down", "turn and zoom the view that has the keyboard; Shift: pan"},
+            {"Return", "in a view reached by F4: click with the tool at the cross; Corners: the next corner"},
+            {"Arrows with Corners", "in the blank: right, left by a vertex, up, down to the next sharp turn"},
+            {"Alt", "the menus: arrows go through them, Return takes"},
+            {"Arrows, Tab, Space, Return", "in panels: go, next field, press, take"},
+            {"V P B L U R N", "tools: look, face, box, lasso, brush, flood, smooth"},
+            {"D G W O X C", "tools: vertex, outline, line, probe, section, corners"},
+            {"F5, F6", "run all, unfold"},
+            {"F", "fit all"},
+            {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
+            {"E, T", "triangle edges; dark or light"},
+            {"F2, F3", "show or hide the panels"},
+            {"Ctrl + Z, Y", "undo, redo (also Ctrl + Shift + Z)"},
+            {"I, +, -", "invert, grow, shrink the selection"},
+            {"Ctrl + O, S, E, Q", "open, save, export, quit"},
+            {"Esc", "close a menu or dialog; cancel the job; clear the selection"}};
         if (ImGui::BeginTable("keys", 2)) {
             for (const auto& row : rows) {
                 ImGui::TableNextRow();
@@ -50,12 +58,7 @@ void shortcuts_window(Frame& frame)
 
 void unsaved_dialog(Frame& frame)
 {
-    if (frame.ui.held && !ImGui::IsPopupOpen("Unsaved changes"))
-        ImGui::OpenPopup("Unsaved changes");
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({420 * frame.ui.scale, 0});
-    if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+    if (!frame.ui.held || !begin_dialog(frame, "Unsaved changes", true, 420, true))
         return;
     ImGui::PushTextWrapPos(0);
     ImGui::Text("What you changed on %s is not saved in a project.",
@@ -83,17 +86,16 @@ void unsaved_dialog(Frame& frame)
         frame.ui.held.reset();
         ImGui::CloseCurrentPopup();
     }
-    ImGui::EndPopup();
+    end_dialog();
 }
 
 /// Unsaved work that is out of sight: nothing happens to it without an answer.
 void recovery_dialog(Frame& frame)
 {
-    constexpr const char* title = "Unsaved work";
     auto& left = frame.ui.left_work;
-    if (!left || left->answer != LeftWork::Answer::none || frame.ui.held)
+    if (!left || left->answer != LeftWork::Answer::none)
         return;
-    if (!begin_dialog(frame, title, !ImGui::IsPopupOpen(title), 440))
+    if (!begin_dialog(frame, "Unsaved work", true, 440))
         return;
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(left->text.c_str());
@@ -118,23 +120,19 @@ void recovery_dialog(Frame& frame)
     end_dialog();
 }
 
-} // namespace
-
-void dialogs(Frame& frame)
+/// What was chosen in the dialog of files.
+void follow_chosen_file(Frame& frame)
 {
-    unsaved_dialog(frame);
-    recovery_dialog(frame);
-    import_dialog(frame);
-    export_dialog(frame);
-    picture_dialog(frame);
-    report_dialog(frame);
-    material_dialog(frame);
-    shortcuts_window(frame);
-    messages_window(frame);
     const auto path = frame.ui.files.show(frame);
     if (!path) {
-        if (!frame.ui.files.is_open())
+        if (!frame.ui.files.is_open()) {
             frame.ui.after_save.reset();
+            MaterialEditor& editor = frame.ui.materials; // goes on where its file dialog was left without a file
+            if (std::exchange(editor.curve_for_editor, false) ||
+                (editor.test_for_editor && !frame.ui.show_material &&
+                 !frame.ui.dialogs.wants("Material from a tensile test")))
+                editor.appears = true, editor.test_for_editor = false;
+        }
         return;
     }
     switch (frame.ui.files.purpose()) {
@@ -151,6 +149,10 @@ void dialogs(Frame& frame)
             frame.actions.push(*std::exchange(frame.ui.after_save, std::nullopt));
         break;
     case FileDialog::Purpose::open_limit_curve: {
+        if (std::exchange(frame.ui.materials.curve_for_editor, false)) {
+            take_limit_curve(frame, *path);
+            break;
+        }
         LimitsChoice choice = frame.state.document.limits;
         choice.curve = LimitsOptions::Source::points;
         choice.table = *path;
@@ -182,6 +184,25 @@ void dialogs(Frame& frame)
         frame.ui.show_export = true;
         break;
     }
+}
+
+} // namespace
+
+void dialogs(Frame& frame)
+{
+    unsaved_dialog(frame);
+    recovery_dialog(frame);
+    import_dialog(frame);
+    export_dialog(frame);
+    picture_dialog(frame);
+    report_dialog(frame);
+    material_dialog(frame);
+    material_editor(frame);
+    follow_chosen_file(frame);
+    if (frame.ui.dialogs.end_frame())
+        close_dialogs();
+    shortcuts_window(frame);
+    messages_window(frame);
 }
 
 } // namespace spia::viewer

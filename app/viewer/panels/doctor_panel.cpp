@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "app/viewer/model/lights.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -94,20 +95,6 @@ void fix_button(Frame& frame, const Finding& finding)
     tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
                   "three faces. Undo brings it back."
                 : "Reads the part again and joins vertices at one place. Undo brings it back.");
-}
-
-/// The unit that would make a sheet part of it; nothing if its size is a likely one already.
-std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
-{
-    constexpr double small = 5, large = 20'000; // mm, as read_part() says
-    if (!(diagonal > 0) || (diagonal >= small && diagonal <= large) || (part.cad && part.cad->unit_stated))
-        return std::nullopt;
-    for (const LengthUnit unit : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::inch}) {
-        const double other = diagonal / millimetres(part.unit) * millimetres(unit);
-        if (other >= 4 * small && other <= large)
-            return unit;
-    }
-    return std::nullopt;
 }
 
 /// Which faces of a CAD file are read: of a solid those of one skin.
@@ -222,7 +209,7 @@ void deck_gauge(Frame& frame, const PartFile& part)
         frame.actions.push(SetThickness{*part.thickness_mm});
 }
 
-/// What reading the file left to say, and the unit if it looks wrong.
+/// What reading the file left to say; in amber where the unit looks wrong, which the light of the step says.
 void file_notes(Frame& frame, const PartFile& part)
 {
     const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
@@ -238,11 +225,6 @@ void file_notes(Frame& frame, const PartFile& part)
         if (shown != text)
             tooltip(text);
     }
-    if (!unit || frame.model.busy())
-        return;
-    if (small_button(frame, fmt::format("Read it in {}", name(*unit)).c_str()))
-        frame.actions.push(SetUnit{std::string(name(*unit))});
-    tooltip("Reads the part again in this unit. Undo brings the other one back.");
 }
 
 } // namespace

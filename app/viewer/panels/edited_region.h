@@ -14,6 +14,7 @@ struct EditedRegion {
     bool appears = true;                  ///< in this frame
     std::shared_ptr<const PartFile> part; ///< with `faces`: which region that was
     std::vector<int> faces;
+    bool asks_force = false; ///< the field of the tool's force takes the keyboard next
 };
 
 inline EditedRegion edit_of(const Document& document, int region)

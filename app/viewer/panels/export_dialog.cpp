@@ -1,5 +1,6 @@
 #include "app/viewer/panels/export_dialog.h"
 
+#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <array>
 #include <fmt/core.h>
@@ -31,17 +32,29 @@ ExportChoices::Planned planned_files(const Session& session, const ExportChoices
     return planned;
 }
 
+/// What else the surface is poorer for; empty: nothing.
+std::string surface_doubts(const Frame& frame)
+{
+    std::string text;
+    for (const Doubt& doubt : frame.state.doubts ? *frame.state.doubts : std::vector<Doubt>())
+        if (doubt.step == ChainStep::surface)
+            text += " " + doubt.text;
+    return text;
+}
+
 /// How well the surface fits, the louder the worse.
 void deviation_banner(const Frame& frame, const FitVerdict& verdict, double tolerance)
 {
     const Palette p = palette_of(frame.state.view.dark);
     const bool loud = verdict.fit == Fit::far_off;
-    const ImVec4 colour = verdict.fit == Fit::within ? p.good : loud ? p.error : p.warning;
-    const char* headline = verdict.fit == Fit::none     ? "No surface"
-                           : verdict.fit == Fit::within ? "The surface fits"
-                           : loud                       ? "The surface is far from the part"
-                                                        : "The surface leaves the tolerance";
-    const std::string words = text(verdict, tolerance);
+    const std::string besides = verdict.fit == Fit::within ? surface_doubts(frame) : "";
+    const ImVec4 colour = verdict.fit == Fit::within && besides.empty() ? p.good : loud ? p.error : p.warning;
+    const char* headline = verdict.fit == Fit::none                         ? "No surface"
+                           : verdict.fit == Fit::within && !besides.empty() ? "The surface is near, but not sound"
+                           : verdict.fit == Fit::within                     ? "The surface fits"
+                           : loud                                           ? "The surface is far from the part"
+                                                                            : "The surface leaves the tolerance";
+    const std::string words = text(verdict, tolerance) + besides;
     const float s = frame.ui.scale, pad = (loud ? 14 : verdict.fit == Fit::beyond ? 11 : 8) * s, bar = 5 * s;
     const float large = loud ? 1.35f : verdict.fit == Fit::beyond ? 1.15f : 1.f;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -216,6 +229,38 @@ void files_list(const Frame& frame, const ExportChoices::Planned& planned)
     ImGui::PopFont();
 }
 
+/// What the dialog shows from the click on: how far it is, then what was written and where. @returns whether it is to be closed
+bool outcome_of_export(Frame& frame)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    const auto& outcome = frame.state.exported;
+    if (!outcome) {
+        ImGui::TextUnformatted("Writing the files");
+        ImGui::ProgressBar(float(frame.state.job.fraction), {-1, 0},
+                           fmt::format("{:.0f} %  {}", 100 * frame.state.job.fraction, frame.state.job.step).c_str());
+        if (primary_button(frame, frame.state.job.cancelling ? "Stopping..." : "Cancel the export",
+                           !frame.state.job.cancelling) ||
+            pressed(frame, GLFW_KEY_ESCAPE))
+            frame.actions.push(CancelJob{});
+        return false;
+    }
+    ImGui::PushFont(frame.ui.fonts.bold);
+    if (!outcome->error.empty())
+        coloured(p.error, "Nothing was exported");
+    else
+        coloured(p.good,
+                 fmt::format("{} {} written", outcome->files.size(), outcome->files.size() == 1 ? "file" : "files"));
+    ImGui::PopFont();
+    if (!outcome->error.empty())
+        coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), outcome->error);
+    else if (!outcome->files.empty()) {
+        muted(frame, outcome->files[0].parent_path().string());
+        for (const fs::path& file : outcome->files)
+            ImGui::BulletText("%s", file.filename().c_str());
+    }
+    return primary_button(frame, "Close") || enter_pressed(frame) || pressed(frame, GLFW_KEY_ESCAPE);
+}
+
 } // namespace
 
 void export_dialog(Frame& frame)
@@ -226,10 +271,16 @@ void export_dialog(Frame& frame)
     if (appears) {
         follow(choices.folder, choices.suggested, suggested_file(frame, "-out").string());
         choices.planned = {}; // files may have come and gone
-        choices.asked = false;
+        choices.asked = choices.sent = false;
     }
     if (!begin_dialog(frame, "Export", appears, 720))
         return;
+    if (choices.sent) {
+        if (outcome_of_export(frame))
+            ImGui::CloseCurrentPopup();
+        end_dialog();
+        return;
+    }
     old_results_banner(frame);
     const float s = frame.ui.scale;
     const FitVerdict verdict = choices.verdict.of({session.surface, choices.tolerance},
@@ -248,6 +299,13 @@ void export_dialog(Frame& frame)
 
     const OutputOptions before = choices.options;
     const std::vector<std::string> formats_before = choices.formats;
+    // The list is long: it scrolls where the window is low, and the buttons below it stay in sight.
+    const float below = answer_buttons_height(frame) + 2 * ImGui::GetTextLineHeightWithSpacing() + 40 * s;
+    const float room = ImGui::GetIO().DisplaySize.y - (ImGui::GetCursorScreenPos().y - ImGui::GetWindowPos().y) - below;
+    float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the choices"), 400 * s);
+    ImGui::BeginChild("choices", {0, std::clamp(height, 100 * s, std::max(100 * s, room))}, false,
+                      ImGuiWindowFlags_NavFlattened);
+    const float top = ImGui::GetCursorPosY();
     if (ImGui::BeginTable("columns", 2)) {
         ImGui::TableSetupColumn("formats", ImGuiTableColumnFlags_WidthStretch, 1);
         ImGui::TableSetupColumn("where", ImGuiTableColumnFlags_WidthStretch, 1);
@@ -275,6 +333,8 @@ void export_dialog(Frame& frame)
         files_list(frame, planned);
         ImGui::EndTable();
     }
+    height = ImGui::GetCursorPosY() - top;
+    ImGui::EndChild();
     if (choices.options != before || choices.formats != formats_before)
         choices.asked = false;
 
@@ -308,7 +368,7 @@ void export_dialog(Frame& frame)
         else {
             frame.actions.push(ExportFiles{choices.folder, choices.formats, choices.options});
             choices.asked = false;
-            ImGui::CloseCurrentPopup();
+            choices.sent = true; // what became of it is told where the eye is
         }
     }
     if (answer == Answer::cancel)

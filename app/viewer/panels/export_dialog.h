@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/viewer/model/export_check.h"
+#include "app/viewer/model/lights.h"
 #include "app/viewer/views/scene_cache.h"
 #include "engine/pipeline/outputs.h"
 
@@ -17,8 +18,9 @@ struct ExportChoices {
     std::string folder, suggested; ///< see follow()
     std::vector<std::string> formats = {"iges", "step", "glb"};
     OutputOptions options;
-    double tolerance = 0.1; ///< mm, of the surface from the part
-    bool asked = false;     ///< "Export" was pressed although the surface is far off; the next click exports it
+    double tolerance = usual_tolerance; ///< mm, of the surface from the part
+    bool sent = false;                  ///< the files are being written, or what became of them is shown
+    bool asked = false; ///< "Export" was pressed although the surface is far off; the next click exports it
 
     /// The files to come, and which of them are there already.
     struct Planned {

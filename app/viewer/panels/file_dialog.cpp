@@ -275,16 +275,17 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         return std::nullopt;
     const Wording& words = wording(purpose_);
     const float scale = frame.ui.scale;
-    bool focus_name = std::exchange(appearing_, false);
-    if (focus_name)
-        ImGui::OpenPopup(words.title);
+    const bool appears = std::exchange(appearing_, false);
+    bool focus_name = appears;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowSize({std::min(640 * scale, screen.x - 40), std::min(480 * scale, screen.y - 40)},
                              ImGuiCond_Always);
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     bool stay = true;
-    if (!ImGui::BeginPopupModal(words.title, &stay, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) {
-        open_ = false;
+    const std::string title = std::string(words.title) + "###choose a file";
+    if (!begin_modal(frame, title.c_str(), appears, ImGuiWindowFlags_NoResize, &stay)) {
+        open_ = frame.ui.dialogs.wants(title); // it waits behind another one
+        appearing_ = appears && open_;         // and takes the keyboard when it comes
         return std::nullopt;
     }
     taken_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/lights.h"
 #include "app/viewer/model/viewer_words.h"
 
 namespace spia::viewer {
@@ -14,8 +15,7 @@ void fit_editor(Frame& frame, FitChoice fit)
     bool changed = false;
     bool limited = fit.tolerance.has_value();
     if (ImGui::Checkbox("Within a tolerance", &limited)) {
-        constexpr double usual = 0.1; // mm
-        fit.tolerance = limited ? std::optional(usual) : std::nullopt;
+        fit.tolerance = limited ? std::optional(usual_tolerance) : std::nullopt;
         changed = true;
     }
     tooltip(
@@ -82,8 +82,6 @@ void fit_figures(Frame& frame, const SurfaceStage& surface)
     ImGui::PopStyleColor();
     if (!surface.patches)
         figure(frame, "Knots inserted", fmt::format("{} + {}", surface.fit->knots_u, surface.fit->knots_v));
-    if (!surface.fit->reached)
-        coloured(p.warning, as_sentence(in_viewer_words(surface.fit->shortfall.text)));
 }
 
 } // namespace spia::viewer

@@ -109,7 +109,7 @@ std::string item_figures(const FileItems& items, const FileItem& item)
     std::string text = fmt::format("{}, {} {}{}", item.kind, item.faces, is_cad_file(items) ? "face" : "shell",
                                    item.faces == 1 ? "" : "s");
     if (item.thickness)
-        text += fmt::format(", {:.4g} thick", *item.thickness);
+        text += fmt::format(", thickness {:.4g}{}", *item.thickness, is_cad_file(items) ? " mm" : "");
     if (!item.material.empty())
         text += ", " + item.material;
     return text;
@@ -422,21 +422,14 @@ void progress_or_failure(Frame& frame, const FileListing& listing)
 
 void import_dialog(Frame& frame)
 {
-    constexpr const char* title = "Open a part";
     const auto& listing = frame.state.listing;
-    if (frame.ui.held)
-        return;
     ImportChoices& choices = frame.ui.importing;
     if (!listing) {
         if (choices.about) // nothing of the file stays in memory
             std::exchange(choices, {}).worker.swap(choices.worker);
-        if (ImGui::IsPopupOpen(title) && begin_dialog(frame, title, false, 860)) { // closed by an action
-            ImGui::CloseCurrentPopup();
-            end_dialog();
-        }
         return;
     }
-    if (!begin_dialog(frame, title, !ImGui::IsPopupOpen(title), 860))
+    if (!begin_dialog(frame, "Import a part", true, 860))
         return;
     ImGui::PushFont(frame.ui.fonts.bold);
     ImGui::TextUnformatted(listing->file.filename().c_str());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/viewer/model/comparison.h"
 #include "app/viewer/model/cut_order.h"
 #include "app/viewer/model/statistics.h"
 #include "app/viewer/model/vertex_picking.h"
@@ -14,30 +15,17 @@
 namespace spia::viewer {
 namespace {
 
-Figures figures_of(const Session& session, Field field, bool per_face)
+Figures figures_of(const Session& session, Field field)
 {
     Figures made;
     if (!available(session, field) || field == Field::none)
         return made;
+    constexpr int bins = 48, most_spots = 6;
     const TriMesh& part = session.part->mesh;
-    made.value = values(session, field, true);
-    made.worst_value = made.value;
+    made.face = face_values(session, field);
     made.at_vertex = values(session, field, false);
-    if (!per_face) { // the same numbers as in the views
-        const Eigen::VectorXd& smooth = made.at_vertex;
-        for (int f = 0; f < part.triangles(); ++f) {
-            const Eigen::Vector3d corner(smooth[part.triangle(0, f)], smooth[part.triangle(1, f)],
-                                         smooth[part.triangle(2, f)]);
-            made.value[f] = corner.mean();
-            made.worst_value[f] = *std::max_element(corner.begin(), corner.end(), [&](double a, double b) {
-                return badness(field, a) < badness(field, b);
-            });
-        }
-    }
-    made.histogram = histogram(part, made.value, 48);
-    const Eigen::VectorXd bad = made.worst_value.unaryExpr([&](double value) { return badness(field, value); });
-    if (field != Field::necking || bad.maxCoeff() > 0)
-        made.worst = worst_spots(part, bad, 6, false);
+    made.histogram = histogram(part, made.face.value, bins);
+    made.worst = worst_faces(part, made.face, field, most_spots);
     return made;
 }
 
@@ -75,8 +63,12 @@ void field_section(Frame& frame)
     int per_face = display.per_face;
     ImGui::BeginDisabled(display.field == Field::zone); // nothing lies between two zones
     changed |= ImGui::RadioButton("Smooth", &per_face, 0);
+    tooltip(
+        "Colours are means of the faces around each vertex. Labels, worst spots and the ends of the legend are values of "
+        "faces all the same.");
     ImGui::SameLine();
     changed |= ImGui::RadioButton("Per face", &per_face, 1);
+    tooltip("Colours are the values of the faces, which are held against limits");
     ImGui::EndDisabled();
     display.per_face = per_face == 1;
     static constexpr const char* maps[] = {"automatic colours", "viridis", "diverging", "grey"};
@@ -118,18 +110,12 @@ void field_section(Frame& frame)
         frame.actions.push(SetDisplay{display});
 }
 
-/// Says when what it lists are means of the faces around the vertices, which peaks of single faces exceed.
-std::string heading(const Frame& frame, const std::string& title)
-{
-    const FieldDisplay& display = frame.state.document.display;
-    return title + (display.per_face || display.field == Field::deviation ? "" : ", smoothed") + "###" + title;
-}
-
 void histogram_section(Frame& frame)
 {
     const Figures& now = figures(frame);
-    if (now.value.size() == 0 || frame.state.document.display.field == Field::zone || // shares are in Forming limits
-        !ImGui::CollapsingHeader(heading(frame, "Histogram").c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+    if (now.face.value.size() == 0 ||
+        frame.state.document.display.field == Field::zone || // shares are in Forming limits
+        !ImGui::CollapsingHeader("Histogram", ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const Histogram& h = now.histogram;
     const ColourScale scale =
@@ -163,8 +149,7 @@ void histogram_section(Frame& frame)
 void worst_section(Frame& frame)
 {
     const Figures& now = figures(frame);
-    if (now.worst.empty() || frame.state.document.display.field == Field::zone ||
-        !ImGui::CollapsingHeader(heading(frame, "Worst spots").c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+    if (now.worst.empty() || !ImGui::CollapsingHeader("Worst spots", ImGuiTreeNodeFlags_DefaultOpen))
         return;
     const TriMesh& part = frame.state.document.session.part->mesh;
     for (size_t k = 0; k < now.worst.size(); ++k) {
@@ -173,7 +158,7 @@ void worst_section(Frame& frame)
                                     part.position.col(part.triangle(2, f))) /
                                    3;
         const bool here = frame.state.document.selected == std::vector<int>{f};
-        if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_text(now.worst_value[f], unit(frame)), f).c_str(),
+        if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_text(now.face.value[f], unit(frame)), f).c_str(),
                               here))
             frame.actions.push(FlyTo{f});
         tooltip("Click to look at it in every view");
@@ -197,12 +182,8 @@ void probes_section(Frame& frame)
         const Probe& probe = document.probes[k];
         ImGui::PushID(int(k));
         std::string value;
-        if (now.value.size()) // as the label in the view has it
-            value = value_text(
-                document.display.per_face
-                    ? now.value[probe.face]
-                    : now.at_vertex(document.session.part->mesh.triangle.col(probe.face)).dot(probe.barycentric),
-                unit(frame));
+        if (now.face.value.size()) // as the label in the view has it
+            value = value_text(now.face.value[probe.face], unit(frame));
         if (ImGui::Selectable(fmt::format("P{}   face {}   {}", k + 1, probe.face, value).c_str(), false, 0,
                               {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
             frame.actions.push(FlyTo{probe.face});
@@ -298,7 +279,10 @@ void vertices_section(Frame& frame)
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableSetupColumn("Vertex");
         ImGui::TableSetupColumn("x, y, z, mm", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn(now.at_vertex.size() ? std::string(info(document.display.field).label).c_str() : "");
+        const bool mean = now.at_vertex.size() && is_smoothed(document.display);
+        ImGui::TableSetupColumn(now.at_vertex.size()
+                                    ? (std::string(info(document.display.field).label) + (mean ? ", mean" : "")).c_str()
+                                    : "");
         ImGui::TableSetupColumn("");
         ImGui::TableHeadersRow();
         ImGuiListClipper rows;
@@ -367,8 +351,8 @@ const Figures& figures(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     const FieldDisplay& display = frame.state.document.display;
-    return frame.ui.charts.figures.of({session.blank, session.limits, session.surface, display.field, display.per_face},
-                                      [&] { return figures_of(session, display.field, display.per_face); });
+    return frame.ui.charts.figures.of({blank_of_field(frame.state), session.limits, session.surface, display.field},
+                                      [&] { return figures_of(session_of_field(frame.state), display.field); });
 }
 
 void inspect_panel(Frame& frame)
@@ -388,6 +372,7 @@ void inspect_panel(Frame& frame)
         section_plot(frame);
         strain_diagram(frame);
         limits_section(frame);
+        comparison_section(frame);
         looks_section(frame);
     }
     ImGui::EndChild();

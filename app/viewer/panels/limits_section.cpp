@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/face_values.h"
+#include "app/viewer/model/number_text.h"
 #include "app/viewer/model/zone_look.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
@@ -66,7 +68,7 @@ void settings(Frame& frame)
     }
     double margin = choice.margin.value_or(limits ? limits->settings.margin : ZoneOptions{}.margin);
     if (percent_input(
-            frame, "Margin", margin,
+            frame, "Required margin", margin,
             "Points of engineering major strain below the curve that are marginal; the upper half of them is at risk"))
         choice.margin = margin;
     percent_input(frame, "Allowed thinning", choice.max_thinning, "Of the initial thickness");
@@ -107,23 +109,58 @@ void zone_rows(Frame& frame, const LimitsResult& limits)
     }
 }
 
+/// Against the right border of the cell.
+void right_aligned(const std::string& text, bool heading = false)
+{
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, free));
+    if (heading)
+        ImGui::TextDisabled("%s", text.c_str());
+    else
+        ImGui::TextUnformatted(text.c_str());
+}
+
+/// What is left up to the curve and what the sheet became thinner by are two things: a column each.
 void spots(Frame& frame, const LimitsResult& limits)
 {
     constexpr size_t most = 6;
+    if (limits.zones.spots.empty())
+        return;
+    const float number = ImGui::CalcTextSize("-88.8 %").x;
+    if (!ImGui::BeginTable("spots", 3, ImGuiTableFlags_SizingFixedFit))
+        return;
+    ImGui::TableSetupColumn("spot", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("margin", ImGuiTableColumnFlags_WidthFixed,
+                            std::max(number, ImGui::CalcTextSize("margin").x));
+    ImGui::TableSetupColumn("thinning", ImGuiTableColumnFlags_WidthFixed,
+                            std::max(number, ImGui::CalcTextSize("thinning").x));
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("Worst spots");
+    ImGui::TableNextColumn();
+    right_aligned("margin", true);
+    tooltip("To the forming limit curve, in percentage points of engineering major strain; below 0 the sheet cracks");
+    ImGui::TableNextColumn();
+    right_aligned("thinning", true);
+    tooltip("Below 0 the sheet became thicker");
     for (size_t k = 0; k < std::min(most, limits.zones.spots.size()); ++k) {
         const WorstSpot& spot = limits.zones.spots[k];
+        const auto margin = margin_of(limits, spot.face);
         const bool here = frame.state.document.selected == std::vector<int>{spot.face};
-        if (ImGui::Selectable(fmt::format("{}.  {}##spot{}", k + 1, zone_words(spot.zone), spot.face).c_str(), here))
+        ImGui::TableNextColumn();
+        if (ImGui::Selectable(fmt::format("{}.  {}##spot{}", k + 1, zone_words(spot.zone), spot.face).c_str(), here,
+                              ImGuiSelectableFlags_SpanAllColumns))
             frame.actions.push(FlyTo{spot.face});
         tooltip(fmt::format(
-            "Face {} at {:.4g}, {:.4g}, {:.4g} mm: major strain {:.3f}, minor {:.3f}, thinning {:.1f} %. The worst "
+            "Face {} at {:.4g}, {:.4g}, {:.4g} mm: major strain {:.3f}, minor {:.3f}, thinning {} %. The worst "
             "of a region of {} faces, {:.4g} mm2. Click to look at it.",
             spot.face, spot.position[0], spot.position[1], spot.position[2], spot.strain_major, spot.strain_minor,
-            100 * spot.thinning, spot.region_faces, spot.region_area_mm2));
-        const std::string value = fmt::format("{:+.1f} %", 100 * spot.value);
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
-        ImGui::TextDisabled("%s", value.c_str());
+            figure_text(100 * spot.thinning, 1), spot.region_faces, spot.region_area_mm2));
+        ImGui::TableNextColumn();
+        right_aligned(margin ? figure_text(100 * *margin, 1) : "-");
+        ImGui::TableNextColumn();
+        right_aligned(figure_text(100 * spot.thinning, 1) + " %");
     }
+    ImGui::EndTable();
 }
 
 } // namespace

@@ -6,9 +6,9 @@
 #include "app/viewer/model/suggested_files.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/stress_plot.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
-#include "app/viewer/views/colour_scale.h"
 
 namespace spia::viewer {
 namespace {
@@ -89,48 +89,20 @@ void law_table(const Frame& frame, const MaterialFit& fit, MaterialFitOptions& o
     ImGui::EndTable();
 }
 
-/// True stress over plastic strain: points of the test, the law that was taken as a line, as far as the sheet may be strained.
+/// Points of the test, the law that was taken as a line, as far as the sheet may be strained.
 void curve_plot(const Frame& frame, const MaterialFit& fit)
 {
     const Palette p = palette_of(frame.state.view.dark);
-    const float s = frame.ui.scale, height = 130 * s, line = ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImVec2 low{at.x + 48 * s, at.y + height - line - 4 * s},
-        high{at.x + ImGui::GetContentRegionAvail().x - 8 * s, at.y + line + 2 * s};
+    const float s = frame.ui.scale;
     const TensileTest& test = fit.test;
-    const RoundRange strains = round_range(0, 1.4 * test.plastic_strain[test.plastic_strain.size() - 1]),
-                     stresses = round_range(0, flow_stress(fit.material.hardening, strains.greatest).stress);
-    const double last = strains.greatest, most = stresses.greatest;
-    const auto place = [&](double strain, double stress) {
-        return ImVec2(low.x + float(strain / last) * (high.x - low.x),
-                      low.y - float(std::clamp(stress / most, 0., 1.)) * (low.y - high.y));
-    };
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    const int rows = (stresses.intervals + 3) / 4, columns = (strains.intervals + 7) / 8; // so many to a number
-    for (int k = 0; k <= stresses.intervals; k += rows) {
-        const double stress = most * k / stresses.intervals;
-        const std::string text = fmt::format("{:.4g}", stress);
-        const ImVec2 left = place(0, stress);
-        draw->AddLine(left, {high.x, left.y}, ink(p.line));
-        draw->AddText({left.x - ImGui::CalcTextSize(text.c_str()).x - 5 * s, left.y - line / 2}, ink(p.muted),
-                      text.c_str());
-    }
-    for (int k = 0; k <= strains.intervals; k += columns) {
-        const double strain = last * k / strains.intervals;
-        const std::string text = fmt::format("{:.3g}", strain);
-        const float wide = ImGui::CalcTextSize(text.c_str()).x, at_x = place(strain, 0).x;
-        draw->AddText({std::min(at_x - wide / 2, high.x - wide), low.y + 3 * s}, ink(p.muted), text.c_str());
-    }
-    draw->AddText({low.x, at.y - 2 * s}, ink(p.muted), "true stress, MPa, over plastic strain; points: the test");
+    const double last = 1.4 * test.plastic_strain[test.plastic_strain.size() - 1];
+    const StressPlot plot = stress_plot(frame, 130 * s, last, flow_stress(fit.material.hardening, last).stress,
+                                        "true stress, MPa, over plastic strain; points: the test");
     const Eigen::Index each = std::max<Eigen::Index>(1, test.plastic_strain.size() / 60);
     for (Eigen::Index k = 0; k < test.plastic_strain.size(); k += each)
-        draw->AddCircleFilled(place(test.plastic_strain[k], test.stress_MPa[k]), 2.2f * s, ink(p.warning));
-    constexpr int pieces = 100;
-    std::vector<ImVec2> curve;
-    for (int k = 1; k <= pieces; ++k)
-        curve.push_back(place(last * k / pieces, flow_stress(fit.material.hardening, last * k / pieces).stress));
-    draw->AddPolyline(curve.data(), int(curve.size()), ink(p.accent), ImDrawFlags_None, 1.8f * s);
-    ImGui::Dummy({0, height});
+        ImGui::GetWindowDrawList()->AddCircleFilled(plot.place(test.plastic_strain[k], test.stress_MPa[k]), 2.2f * s,
+                                                    ink(p.warning));
+    draw_curve(plot, flow_curve(fit.material.hardening, plot.strain, 100), ink(p.accent), 1.8f * s);
 }
 
 const MaterialChoices::Outcome& outcome_of(MaterialChoices& choices)
@@ -193,22 +165,33 @@ void material_dialog(Frame& frame)
         curve_plot(frame, *outcome.fit);
     } else
         coloured(palette_of(frame.state.view.dark).error, as_sentence(outcome.problem));
+    const bool for_editor = frame.ui.materials.test_for_editor;
     if (columns("material")) {
         labelled("Name");
         text_input("##name", choices.options.name, false, "that of the file");
-        labelled("Material file");
-        choose_file = path_input(frame, "file", choices.file, "a file for the material");
-        if (!choices.file.empty())
-            replaced_note(frame, choices.file);
+        if (!for_editor) {
+            labelled("Material file");
+            choose_file = path_input(frame, "file", choices.file, "a file for the material");
+            if (!choices.file.empty())
+                replaced_note(frame, choices.file);
+        }
         ImGui::EndTable();
     }
-    const bool ready = outcome.fit && !choices.file.empty();
-    const Answer answer = answer_buttons(frame, "Save and use it", ready, palette_of(frame.state.view.dark).accent);
+    const bool ready = outcome.fit && (for_editor || !choices.file.empty());
+    const Answer answer = answer_buttons(frame, for_editor ? "Take it into the editor" : "Save and use it", ready,
+                                         palette_of(frame.state.view.dark).accent);
     if (ready && (answer == Answer::yes || (enter_pressed(frame) && !choose_table && !choose_file))) {
-        std::filesystem::path file = choices.file;
-        if (file.extension() != ".json")
-            file += ".json";
-        frame.actions.push(FitMaterial{choices.table, file, choices.options});
+        if (for_editor) {
+            Material material = outcome.fit->material;
+            if (material.name.empty())
+                material.name = std::filesystem::path(choices.table).stem().string();
+            edit_new_material(frame, std::move(material));
+        } else {
+            std::filesystem::path file = choices.file;
+            if (file.extension() != ".json")
+                file += ".json";
+            frame.actions.push(FitMaterial{choices.table, file, choices.options});
+        }
         ImGui::CloseCurrentPopup();
     } else if (choose_table || choose_file) {
         ImGui::CloseCurrentPopup();
@@ -216,6 +199,10 @@ void material_dialog(Frame& frame)
             choose_tensile_test(frame);
         else
             frame.ui.files.open(FileDialog::Purpose::save_material, choices.file);
+    }
+    if (for_editor && (answer != Answer::none || (ready && enter_pressed(frame))) && !choose_table) {
+        frame.ui.materials.test_for_editor = false;
+        frame.ui.materials.appears = true;
     }
     if (answer == Answer::cancel)
         ImGui::CloseCurrentPopup();

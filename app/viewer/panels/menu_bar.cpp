@@ -2,9 +2,53 @@
 #include <tuple>
 
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
+
+namespace {
+
+/// The chain and the steps; what the panel of the steps has as buttons.
+void run_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("Run"))
+        return;
+    const Document& document = frame.state.document;
+    const bool part = document.session.part && !frame.state.job.running;
+    if (ImGui::MenuItem("Unfold and fit a surface", "F5", false, part))
+        frame.actions.push(RunTo{Stage::fit});
+    if (ImGui::MenuItem("Unfold", "F6", false, part))
+        frame.actions.push(RunTo{Stage::solve});
+    if (ImGui::MenuItem("Propose corners", nullptr, false, part && document.session.options.corners))
+        frame.actions.push(ProposeCorners{});
+    ImGui::Separator();
+    if (ImGui::MenuItem("Propose steps", nullptr, false, part))
+        frame.actions.push(ProposeSteps{});
+    if (ImGui::MenuItem("Unfold step by step", nullptr, false,
+                        part && !document.steps.empty() && !all_steps_done(document)))
+        frame.actions.push(RunSteps{});
+    if (ImGui::MenuItem("Use the blank of the steps", nullptr, false, part && blank_of_steps_waits(document)))
+        frame.actions.push(UseBlankOfSteps{frame.ui.polish_steps});
+    ImGui::Separator();
+    if (ImGui::MenuItem("Cancel", "Esc", false, frame.state.job.running && !frame.state.job.cancelling))
+        frame.actions.push(CancelJob{});
+    ImGui::EndMenu();
+}
+
+/// What the picked faces are.
+void region_menu(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (!ImGui::BeginMenu("Make a region of the selection", !document.selected.empty()))
+        return;
+    for (const RegionKind kind : {RegionKind::fixed, RegionKind::binder, RegionKind::pad, RegionKind::punch})
+        if (ImGui::MenuItem(std::string(name(kind)).c_str()))
+            make_region(frame, "", kind);
+    ImGui::EndMenu();
+}
+
+} // namespace
 
 void menu_bar(Frame& frame)
 {
@@ -68,8 +112,17 @@ void menu_bar(Frame& frame)
             frame.actions.push(InvertSelection{});
         if (ImGui::MenuItem("Clear selection", "Esc", false, some || !state.document.vertices.empty()))
             frame.actions.push(ClearSelection{});
+        region_menu(frame);
+        ImGui::Separator();
+        if (ImGui::MenuItem("Materials..."))
+            open_material_editor(frame);
+        if (ImGui::MenuItem("Keep result as reference", nullptr, false, state.document.session.blank != nullptr))
+            frame.actions.push(KeepReference{});
+        if (ImGui::MenuItem("Forget the reference", nullptr, false, state.reference != nullptr))
+            frame.actions.push(DropReference{});
         ImGui::EndMenu();
     }
+    run_menu(frame);
     if (ImGui::BeginMenu("View")) {
         ViewSettings view = state.view;
         bool changed = false;

@@ -43,8 +43,8 @@ void rolling_input(Frame& frame)
                                                 : wanted == 4 ? std::optional(document.rolling.value_or(axes.col(0)))
                                                               : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
     tooltip(
-        "Rolling direction of the sheet, seen along the stamping direction: the r-values along, across and between then count "
-        "each for itself. Isotropic: their mean in all directions.");
+        "Rolling direction of the sheet, seen along the stamping direction: each r-value (along, across, at 45\u00b0) then counts "
+        "in its own direction. Isotropic: their mean in all directions.");
     if (now != 4)
         return;
     Eigen::Vector3d edited = *document.rolling;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/grades.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
@@ -12,19 +13,32 @@ namespace {
 
 constexpr const char* kinds[] = {"fixed", "binder", "pad", "punch", "material", "other"};
 
+/// What a binder or a pad presses with until it is told: the blank holder's usual pressure on steel. [Schuler, Metal Forming Handbook,
+/// Springer 1998, 4.2.1: 2.5 N/mm2]
+constexpr double usual_pressure_MPa = 2.5;
+
+/// A tool that presses does so at once: a region that is called a binder and does nothing would be believed to hold the sheet.
+void press_as_usual(Frame& frame, int number, RegionKind kind)
+{
+    if (kind == RegionKind::binder || kind == RegionKind::pad)
+        frame.actions.push(SetContact{number, ToolContact{.pressure_MPa = usual_pressure_MPa}});
+}
+
 /// What the tool presses with.
 void contact_inputs(Frame& frame, int number, const FaceRegion& region)
 {
     std::optional<ToolContact> contact = region.contact;
     bool presses = contact.has_value(), changed = false;
     if (ImGui::Checkbox("Presses on the sheet", &presses)) {
-        contact = presses ? std::optional(ToolContact{.force_N = 100'000}) : std::nullopt;
+        contact = presses ? std::optional(ToolContact{.pressure_MPa = usual_pressure_MPa}) : std::nullopt;
         changed = true;
     }
     tooltip(region.kind == RegionKind::binder ? "Friction on both sides of the sheet"
                                               : "Friction on one side of the sheet");
     if (contact) {
         const float width = 86 * frame.ui.scale;
+        if (frame.ui.edited_region && std::exchange(frame.ui.edited_region->asks_force, false))
+            ImGui::SetKeyboardFocusHere();
         int by_pressure = contact->pressure_MPa.has_value();
         double amount = by_pressure ? *contact->pressure_MPa : *contact->force_N / 1000;
         ImGui::SetNextItemWidth(width);
@@ -60,9 +74,10 @@ void sheet_inputs(Frame& frame, int number, const FaceRegion& region)
     if (sheet) {
         ImGui::SetNextItemWidth(-1);
         if (ImGui::BeginCombo("##grade", std::filesystem::path(sheet->material).filename().c_str())) {
-            for (const std::string& grade : frame.ui.grades)
-                if (ImGui::Selectable(grade.c_str(), grade == sheet->material)) {
-                    sheet->material = grade;
+            for (const Grade& grade : *frame.state.grades)
+                if (grade.material && ImGui::Selectable(fmt::format("{}##{}", grade.label(), grade.reference).c_str(),
+                                                        grade.reference == sheet->material)) {
+                    sheet->material = grade.reference;
                     changed = true;
                 }
             ImGui::EndCombo();
@@ -94,9 +109,13 @@ void edit_region(Frame& frame, int number, const FaceRegion& region)
     ImGui::SameLine(0, gap);
     int kind = int(region.kind);
     ImGui::SetNextItemWidth(kind_width);
-    if (ImGui::Combo("##kind", &kind, kinds, int(std::size(kinds))))
+    if (ImGui::Combo("##kind", &kind, kinds, int(std::size(kinds)))) {
         frame.actions.push(
             ChangeRegion{number, edited.name.empty() ? region.name : edited.name, RegionKind(kind), region.colour});
+        if (!region.contact)
+            press_as_usual(frame, number, RegionKind(kind));
+        edited.asks_force = is_tool(RegionKind(kind));
+    }
     ImGui::SameLine(0, gap);
     const bool ends = ImGui::Button("ok") || leaves || takes;
     if (is_tool(region.kind))
@@ -150,6 +169,17 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
 
 } // namespace
 
+void make_region(Frame& frame, const std::string& called, RegionKind kind)
+{
+    const Document& document = frame.state.document;
+    const int number = int(document.regions.size());
+    frame.actions.push(MakeRegion{called, kind});
+    press_as_usual(frame, number, kind);
+    if (is_tool(kind) || kind == RegionKind::material) // what it does comes next
+        frame.ui.edited_region =
+            EditedRegion{number, called, false, document.session.part, document.selected, is_tool(kind)};
+}
+
 void regions_section(Frame& frame)
 {
     const Document& document = frame.state.document;
@@ -180,13 +210,8 @@ void regions_section(Frame& frame)
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     text_input("##regionname", frame.ui.region_name, false, "name (optional)");
-    if (ImGui::Button(fmt::format("Make region of {} faces", document.selected.size()).c_str(), {-1, 0})) {
-        frame.actions.push(MakeRegion{frame.ui.region_name, frame.ui.region_kind});
-        if (is_tool(frame.ui.region_kind) || frame.ui.region_kind == RegionKind::material) // what it does comes next
-            frame.ui.edited_region = EditedRegion{int(document.regions.size()), frame.ui.region_name, false,
-                                                  document.session.part, document.selected};
-        frame.ui.region_name.clear();
-    }
+    if (ImGui::Button(fmt::format("Make region of {} faces", document.selected.size()).c_str(), {-1, 0}))
+        make_region(frame, std::exchange(frame.ui.region_name, ""), frame.ui.region_kind);
 }
 
 } // namespace spia::viewer

@@ -48,7 +48,7 @@ void tables_column(const Frame& frame, ReportTables& tables)
     ImGui::Checkbox("Assumptions", &tables.assumptions);
     ImGui::Checkbox("How the solver got there", &tables.solver);
     ImGui::Checkbox("The part as it was read", &tables.repairs);
-    muted(frame, "What makes the result poorer is always said.");
+    muted(frame, "Warnings about the result are always in the report.");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/comparison.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 
@@ -18,15 +19,23 @@ const std::vector<SectionPiece>& section_of(Frame& frame)
     const Document& document = frame.state.document;
     const Session& session = document.session;
     const Field field = document.display.field;
-    return frame.ui.charts.section.of(
-        {session.part, session.blank, session.limits, session.surface, field, document.section},
-        [&]() -> std::vector<SectionPiece> {
-            const auto& line = document.section;
-            const TriMesh* mesh = line ? section_mesh(frame, line->on_blank) : nullptr;
-            if (!mesh || field == Field::none || !available(session, field))
-                return {};
-            return section(*mesh, values(session, field, false), *line);
-        });
+    return frame.ui.charts.section.of({session.part, blank_of_field(frame.state), session.limits, session.surface,
+                                       field, document.section, document.display.per_face},
+                                      [&]() -> std::vector<SectionPiece> {
+                                          const auto& line = document.section;
+                                          const TriMesh* mesh = line ? section_mesh(frame, line->on_blank) : nullptr;
+                                          if (!mesh || field == Field::none || !available(session, field))
+                                              return {};
+                                          const Session shown = session_of_field(frame.state);
+                                          std::vector<SectionPiece> pieces =
+                                              section(*mesh, values(shown, field, false), *line);
+                                          if (document.display.per_face) { // a step in each face
+                                              const FaceValues said = face_values(shown, field);
+                                              for (SectionPiece& piece : pieces)
+                                                  piece.from_value = piece.to_value = said.value[piece.face];
+                                          }
+                                          return pieces;
+                                      });
 }
 
 const std::vector<SectionPiece>& section_in(Frame& frame, View view)
@@ -37,7 +46,8 @@ const std::vector<SectionPiece>& section_in(Frame& frame, View view)
     if (drawn.empty() || document.section->on_blank == (view == View::blank))
         return drawn;
     return frame.ui.charts.section_elsewhere.of(
-        {session.part, session.blank, session.limits, session.surface, document.display.field, document.section},
+        {session.part, blank_of_field(frame.state), session.limits, session.surface, document.display.field,
+         document.section, document.display.per_face},
         [&]() -> std::vector<SectionPiece> {
             const TriMesh* from = section_mesh(frame, document.section->on_blank);
             const TriMesh* to = section_mesh(frame, !document.section->on_blank);
@@ -48,7 +58,10 @@ const std::vector<SectionPiece>& section_in(Frame& frame, View view)
 void section_plot(Frame& frame)
 {
     const auto& pieces = section_of(frame);
-    if (!frame.state.document.section || !ImGui::CollapsingHeader("Section", ImGuiTreeNodeFlags_DefaultOpen))
+    const bool smoothed = is_smoothed(frame.state.document.display);
+    if (!frame.state.document.section ||
+        !ImGui::CollapsingHeader(smoothed ? "Section, smoothed###Section" : "Section###Section",
+                                 ImGuiTreeNodeFlags_DefaultOpen))
         return;
     if (pieces.empty()) {
         muted(frame, "The line does not cut the sheet, or no field is shown.");
@@ -91,7 +104,9 @@ void section_plot(Frame& frame)
         const std::string far = fmt::format("{:.4g} mm", length);
         const char* words = frame.state.document.section->on_blank ? "along the cut of the blank" : "along the cut";
         draw->AddText({from.x, to.y + 3 * s}, ink(p.muted), "0");
-        draw->AddText({(from.x + to.x - ImGui::CalcTextSize(words).x) / 2, to.y + 3 * s}, ink(p.muted), words);
+        const float taken = 2 * (ImGui::CalcTextSize(far.c_str()).x + 8 * s); // of a line with the words in its middle
+        if (ImGui::CalcTextSize(words).x + taken < to.x - from.x)
+            draw->AddText({(from.x + to.x - ImGui::CalcTextSize(words).x) / 2, to.y + 3 * s}, ink(p.muted), words);
         draw->AddText({to.x - ImGui::CalcTextSize(far.c_str()).x, to.y + 3 * s}, ink(p.muted), far.c_str());
         ImGui::PopFont();
         for (const SectionPiece& piece : pieces)

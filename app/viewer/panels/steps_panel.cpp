@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/grades.h"
+#include "app/viewer/model/number_text.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/fit_editor.h"
+#include "app/viewer/panels/lights.h"
 #include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
@@ -36,7 +39,9 @@ void part_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     step_heading(frame, 1, "Part",
-                 frame.state.refused ? Status::failed : status(frame, Stage::read, session.part != nullptr));
+                 frame.state.refused
+                     ? Status::failed
+                     : light(frame, ChainStep::part, status(frame, Stage::read, session.part != nullptr)));
     if (ImGui::Button("Open..."))
         choose_part(frame);
     tooltip("CAD (STEP, IGES, BREP), solver decks (LS-DYNA, Nastran, Abaqus, Gmsh, Radioss), STL, OBJ, PLY, OFF, glTF. "
@@ -66,20 +71,33 @@ void part_step(Frame& frame)
     figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
     if (!part.seam.empty())
         seam_rows(frame, part);
+    doubt_rows(frame, ChainStep::part);
     doctor_panel(frame);
 }
 
 void sheet_step(Frame& frame)
 {
     const Document& document = frame.state.document;
-    step_heading(frame, 2, "Sheet", document.session.part ? Status::done : Status::nothing);
+    step_heading(frame, 2, "Sheet",
+                 light(frame, ChainStep::sheet, document.session.part ? Status::done : Status::nothing));
     ImGui::SetNextItemWidth(-1);
-    const auto shown = std::filesystem::path(document.material).filename().string();
+    const std::filesystem::path named(document.material);
+    const auto shown = (named.extension() == ".json" ? named.stem() : named.filename()).string();
     if (ImGui::BeginCombo("##material", shown.c_str(), ImGuiComboFlags_HeightLargest)) {
-        for (const std::string& grade : frame.ui.grades)
-            if (ImGui::Selectable(grade.c_str(), grade == document.material))
-                frame.actions.push(SetMaterial{grade});
+        bool own = false;
+        for (const Grade& grade : *frame.state.grades) {
+            if (grade.own && !std::exchange(own, true))
+                ImGui::Separator();
+            ImGui::BeginDisabled(!grade.material);
+            if (ImGui::Selectable(fmt::format("{}##{}", grade.label(), grade.reference).c_str(),
+                                  grade.reference == document.material))
+                frame.actions.push(SetMaterial{grade.reference});
+            ImGui::EndDisabled();
+            tooltip(grade.material ? grade.material->name : grade.problem);
+        }
         ImGui::Separator();
+        if (ImGui::Selectable("Edit materials..."))
+            open_material_editor(frame);
         if (ImGui::Selectable("Own material file..."))
             frame.ui.files.open(FileDialog::Purpose::open_material, frame.model.assets() / "materials");
         if (ImGui::Selectable("From a tensile test..."))
@@ -93,6 +111,7 @@ void sheet_step(Frame& frame)
     if (typed_number(frame, "Thickness, mm", thickness, "%.3g", 0.05))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
+    doubt_rows(frame, ChainStep::sheet);
 }
 
 /// Automatic, an axis, or any direction.
@@ -144,10 +163,8 @@ void skins_control(Frame& frame)
 void unfold_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    Status solved = status(frame, Stage::solve, session.blank != nullptr);
-    if (solved == Status::done && !session.blank->report.whole())
-        solved = Status::poor;
-    step_heading(frame, 3, "Unfold", solved);
+    step_heading(frame, 3, "Unfold",
+                 light(frame, ChainStep::unfold, status(frame, Stage::solve, session.blank != nullptr)));
     const auto stale = first_stale(frame.state.document);
     const auto& steps = frame.state.document.made_with.steps;
     const bool of_steps = session.blank && steps;
@@ -168,48 +185,40 @@ void unfold_step(Frame& frame)
     const bool fine = flat.report.whole();
     ImGui::SameLine();
     const bool old = stale && *stale <= Stage::solve;
-    ImGui::TextColored(old    ? p.muted
-                       : fine ? p.good
-                              : p.warning,
+    const bool good = light(frame, ChainStep::unfold, Status::done) == Status::done;
+    ImGui::TextColored(old     ? p.muted
+                       : !fine ? p.warning
+                       : good  ? p.good
+                               : ImGui::GetStyleColorVec4(ImGuiCol_Text),
                        of_steps && !steps->polish ? fmt::format("from {} steps", steps->run->states.size()).c_str()
                        : of_steps && fine         ? "from steps, polished"
                        : fine                     ? "converged"
                        : flat.report.converged
                            ? flat.report.relaxed_vertices > 0 ? "converged, relaxed" : "converged, with a note"
                            : "not converged");
-    if (!fine)
-        coloured(p.warning,
-                 as_sentence(flat.report.reason) + "." + (of_steps && !steps->polish ? "" : " " + advice(flat.report)));
+    doubt_rows(frame, ChainStep::unfold);
     direction_control(frame);
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
     figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", sheet.size[0], sheet.size[1]));
-    figure(frame, "Thinning per face",
-           fmt::format("{:+.1f} to {:+.1f} %", 100 * sheet.thinning[0], 100 * sheet.thinning[1]));
-    figure(frame, "Equivalent strain", fmt::format("up to {:.3f}", sheet.strain_equivalent));
-    if (flat.necking_triangles > 0) {
-        ImGui::PushStyleColor(ImGuiCol_Text, p.warning);
-        figure(frame, "Beyond trusted strain", fmt::format("{} triangles", flat.necking_triangles));
-        ImGui::PopStyleColor();
-    }
+    figure(frame, "Thinning", percent_range(sheet.thinning));
+    tooltip("Least and greatest of all faces; below 0 the sheet became thicker");
+    figure(frame, "Equivalent strain",
+           sheet.strain_equivalent > 0 ? "up to " + figure_text(sheet.strain_equivalent, 3) : "0");
     if (!of_steps || steps->polish)
         figure(frame, "Steps",
                fmt::format("{} + {} in {:.2g} s", flat.report.energy.size(), flat.report.newton.size(),
                            flat.report.seconds));
 }
 
-/// Of a cell that isogeometric analysis can still live with; below it the map is nearly singular.
-constexpr double least_jacobian = 0.1;
-
 void grid_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    Status made = status(frame, Stage::grid, session.grid != nullptr);
     const GridFigures* quality = session.grid ? &grid_figures(frame) : nullptr;
-    const bool sliver = quality && quality->scaled_jacobian < least_jacobian && quality->scaled_jacobian > 0;
-    if (made == Status::done && (sliver || session.grid->result.quality.folded_cells > 0))
-        made = Status::poor;
-    step_heading(frame, 4, "Corners and grid", made);
+    const bool sliver = quality && quality->scaled_jacobian < least_scaled_jacobian;
+    step_heading(frame, 4, "Corners and grid",
+                 light(frame, ChainStep::grid, status(frame, Stage::grid, session.grid != nullptr)));
+    doubt_rows(frame, ChainStep::grid);
     if (!session.blank) {
         muted(frame, "Comes after the blank.");
         return;
@@ -293,19 +302,15 @@ void grid_step(Frame& frame)
         for (const double length : figures.side)
             lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", length);
         figure(frame, "Sides", lengths + " mm");
-        if (sliver)
-            coloured(
-                p.warning,
-                fmt::format("A cell is nearly folded: analysis will suffer there. Drag the corners to sharp turns of "
-                            "the blank, or choose {}.",
-                            result.route >= GridRoute::harmonic ? "more cells" : "the harmonic method"));
     }
 }
 
 void surface_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
-    step_heading(frame, 5, "NURBS surface", status(frame, Stage::fit, session.surface != nullptr));
+    step_heading(frame, 5, "NURBS surface",
+                 light(frame, ChainStep::surface, status(frame, Stage::fit, session.surface != nullptr)));
+    doubt_rows(frame, ChainStep::surface);
     if (!session.blank) {
         muted(frame, "Comes after the grid.");
         return;
@@ -323,13 +328,24 @@ void surface_step(Frame& frame)
     shape_editor(frame);
 }
 
+/// In sight as soon as there is something to export, whatever else is to be done.
+void export_button(Frame& frame, bool primary)
+{
+    const bool pressed = primary ? primary_button(frame, "Export...")
+                                 : ImGui::Button("Export...", {-1, ImGui::GetFrameHeight() * 1.15f});
+    tooltip("Files for CAD, analysis and the solver  (Ctrl+E)");
+    if (pressed)
+        frame.ui.show_export = true;
+}
+
 } // namespace
 
 void steps_panel(Frame& frame)
 {
     const bool running = frame.state.job.running;
-    const float footer = ImGui::GetFrameHeight() * 1.15f + 2 * ImGui::GetStyle().ItemSpacing.y +
-                         (running ? residual_plot_height(frame) : 0);
+    const bool both = !running && frame.state.document.session.blank && first_stale(frame.state.document);
+    const float footer = (both ? 2 : 1) * (ImGui::GetFrameHeight() * 1.15f + ImGui::GetStyle().ItemSpacing.y) +
+                         ImGui::GetStyle().ItemSpacing.y + (running ? residual_plot_height(frame) : 0);
     begin_scrolled(frame, "steps", -footer);
     part_step(frame);
     sheet_step(frame);
@@ -360,8 +376,10 @@ void steps_panel(Frame& frame)
         if (steps_wait ? ImGui::Button(label, {-1, ImGui::GetFrameHeight() * 1.15f}) : primary_button(frame, label))
             frame.actions.push(RunTo{Stage::fit});
         tooltip("Runs every step that is missing or out of date  (F5)");
-    } else if (primary_button(frame, "Export..."))
-        frame.ui.show_export = true;
+        if (document.session.blank)
+            export_button(frame, false);
+    } else
+        export_button(frame, true);
 }
 
 } // namespace spia::viewer

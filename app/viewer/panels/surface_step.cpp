@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/viewer/panels/fit_editor.h"
+#include "app/viewer/views/colour_scale.h"
 #include "engine/pipeline/certificate_report.h"
 
 namespace spia::viewer {
@@ -49,12 +50,10 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
            fmt::format("{:.3f}", certificate.patch[sharp].least_scaled) + of_patch(certificate, sharp));
     tooltip("The sine of the angle between the parameter lines: 1 is best, 0 where they become one");
     const size_t flat = worst(certificate, [](const PatchCertificate& c) { return c.condition; });
-    figure(frame, "Condition, worst",
-           fmt::format("{:.3g}", certificate.patch[flat].condition) + of_patch(certificate, flat));
+    figure(frame, "Condition, worst", value_text(certificate.patch[flat].condition, "") + of_patch(certificate, flat));
     tooltip("1 where the surface is a square grid, large where its spans are long or slanted");
     const size_t slim = worst(certificate, [](const PatchCertificate& c) { return c.aspect; });
-    figure(frame, "Span aspect, worst",
-           fmt::format("{:.3g}", certificate.patch[slim].aspect) + of_patch(certificate, slim));
+    figure(frame, "Span aspect, worst", value_text(certificate.patch[slim].aspect, "") + of_patch(certificate, slim));
     if (certificate.interfaces.empty())
         return;
     figure(frame, "Joints of patches", fmt::format("{}", certificate.interfaces.size()));

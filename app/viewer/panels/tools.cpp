@@ -1,10 +1,12 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <imgui.h>
 #include <imgui_internal.h> // ClearActiveID
 
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/view_tools.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -190,25 +192,142 @@ float tool_bar_height(const Frame& frame, float width)
     return (style.two_rows ? 2 : 1) * (ImGui::GetFrameHeight() + 6 * frame.ui.scale);
 }
 
+/// The keys that turn and zoom a view, held down or not; a step of the mouse in pixels. @returns whether there was any
+static bool camera_keys(Frame& frame, View view)
+{
+    const auto held = [&](int key) {
+        return pressed(frame, key) || (ImGui::GetIO().KeysDownDuration[key] > 0 && ImGui::IsKeyPressed(key, true));
+    };
+    constexpr double step = 24; // pixels at content scale 1: some 5 degrees in a view of usual size
+    glm::dvec2 drag(0);
+    drag.x = (held(GLFW_KEY_RIGHT) ? step : 0) - (held(GLFW_KEY_LEFT) ? step : 0);
+    drag.y = (held(GLFW_KEY_DOWN) ? step : 0) - (held(GLFW_KEY_UP) ? step : 0);
+    const int zooms = (held(GLFW_KEY_PAGE_UP) ? 1 : 0) - (held(GLFW_KEY_PAGE_DOWN) ? 1 : 0);
+    if (drag == glm::dvec2(0) && zooms == 0)
+        return false;
+    const glm::dvec2 size = glm::max(glm::dvec2(1), dvec(frame.ui.view_size[size_t(view)]));
+    const Camera& now = frame.state.view.camera[size_t(view)];
+    const glm::dvec2 by = drag * double(frame.ui.scale);
+    const bool pans = view == View::blank || ImGui::GetIO().KeyShift;
+    Camera camera = pans ? pan(now, by, size) : orbit(now, by, size);
+    if (zooms != 0)
+        camera = zoom(camera, std::pow(1.15, zooms), size / 2., size);
+    ViewSettings settings = frame.state.view;
+    take_camera(settings, view, camera);
+    frame.actions.push(SetViewSettings{settings});
+    return true;
+}
+
+/// The chosen corner goes along the outline of the blank; Return chooses the next one. @returns whether a key did it
+static bool corner_keys(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    if (frame.state.view.tool != Tool::corners || *frame.ui.focus != View::blank || !session.grid || !session.blank)
+        return false;
+    int& chosen = frame.ui.keyed_corner;
+    if (enter_pressed(frame)) {
+        chosen = (chosen + 1) % 4;
+        return true;
+    }
+    const int way = (pressed(frame, GLFW_KEY_RIGHT) || pressed(frame, GLFW_KEY_UP) ? 1 : 0) -
+                    (pressed(frame, GLFW_KEY_LEFT) || pressed(frame, GLFW_KEY_DOWN) ? 1 : 0); // counter-clockwise
+    if (way == 0)
+        return false;
+    const CornerTrack& track = frame.model.pickers().track(session);
+    const bool to_turn = pressed(frame, GLFW_KEY_UP) || pressed(frame, GLFW_KEY_DOWN);
+    const std::vector<int>& outline = to_turn && !track.sharp.empty() ? track.sharp : track.vertex;
+    const std::array<int, 4>& corner = session.grid->boundary.corner;
+    const int count = int(track.vertex.size());
+    const auto at = std::find(track.vertex.begin(), track.vertex.end(), corner[size_t(chosen)]);
+    if (at == track.vertex.end())
+        return false;
+    int to = int(at - track.vertex.begin());
+    do
+        to = (to + way + count) % count;
+    while (std::find(outline.begin(), outline.end(), track.vertex[size_t(to)]) == outline.end());
+    if (std::find(corner.begin(), corner.end(), track.vertex[size_t(to)]) == corner.end())
+        frame.actions.push(SetCorner{chosen, track.vertex[size_t(to)], false});
+    return true;
+}
+
+/// The view after the one that has the keyboard; after the last one it is the panels' again.
+static std::optional<View> next_view(const Frame& frame, bool back)
+{
+    if (const auto only = frame.state.view.maximised)
+        return frame.ui.focus ? std::nullopt : only;
+    constexpr int count = int(std::size(all_views)), none = count;
+    const int now = frame.ui.focus ? int(*frame.ui.focus) : none;
+    const int next = (now + (back ? count : 1)) % (count + 1);
+    return next == none ? std::nullopt : std::optional(View(next));
+}
+
+/// What single keys do in the view that has the keyboard.
+static void view_keys(Frame& frame)
+{
+    const View focus = *frame.ui.focus;
+    if (corner_keys(frame) || camera_keys(frame, focus))
+        return;
+    if (enter_pressed(frame) && tool_clicks(frame.state.view.tool)) { // at the cross in the middle
+        const glm::dvec2 size = dvec(frame.ui.view_size[size_t(focus)]);
+        click_with_tool(frame, focus, size / 2., size);
+    }
+    const bool dragging = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+    for (const ToolButton& tool : tools)
+        if (pressed(frame, tool.key) && !dragging)
+            set_tool(frame, tool.tool);
+    ViewSettings view = frame.state.view;
+    if (pressed(frame, GLFW_KEY_T)) {
+        view.dark = !view.dark;
+        frame.actions.push(SetViewSettings{view});
+    }
+    if (pressed(frame, GLFW_KEY_E)) {
+        view.edges = !view.edges;
+        frame.actions.push(SetViewSettings{view});
+    }
+    if (pressed(frame, GLFW_KEY_5)) {
+        for (const View v : all_views)
+            if (v != View::blank)
+                view.camera[size_t(v)].perspective = !frame.state.view.camera[0].perspective;
+        frame.actions.push(SetViewSettings{view});
+    }
+    constexpr std::pair<int, StandardView> looks[] = {{GLFW_KEY_1, StandardView::top},
+                                                      {GLFW_KEY_2, StandardView::front},
+                                                      {GLFW_KEY_3, StandardView::right},
+                                                      {GLFW_KEY_4, StandardView::isometric}};
+    for (const auto& [key, from] : looks)
+        if (pressed(frame, key))
+            frame.actions.push(LookFrom{focus == View::blank ? View::part : focus, from});
+    if (pressed(frame, GLFW_KEY_F))
+        frame.actions.push(FitView{});
+    if (pressed(frame, GLFW_KEY_I) && frame.state.document.session.part)
+        frame.actions.push(InvertSelection{});
+    if (pressed(frame, GLFW_KEY_EQUAL) || pressed(frame, GLFW_KEY_KP_ADD))
+        frame.actions.push(GrowSelection{});
+    if (pressed(frame, GLFW_KEY_MINUS) || pressed(frame, GLFW_KEY_KP_SUBTRACT))
+        frame.actions.push(ShrinkSelection{});
+}
+
 void shortcuts(Frame& frame)
 {
     const ImGuiIO& io = ImGui::GetIO();
-    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
+    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId) || !frame.ui.dialogs.empty())
         return;
     if (io.WantTextInput) { // what is typed is taken first, then the key counts; undo is that of the text
+        bool any = false;
         for (const KeyPress& press : frame.ui.keys)
             if ((press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F12) ||
                 (press.modifiers == GLFW_MOD_CONTROL && (press.key == GLFW_KEY_S || press.key == GLFW_KEY_E ||
-                                                         press.key == GLFW_KEY_O || press.key == GLFW_KEY_Q)))
-                frame.ui.keys_later.push_back(press);
-        if (!frame.ui.keys_later.empty())
+                                                         press.key == GLFW_KEY_O || press.key == GLFW_KEY_Q))) {
+                frame.ui.keys_later.insert(frame.ui.keys_later.begin(), press);
+                any = true;
+            }
+        if (any)
             ImGui::ClearActiveID();
         return;
     }
-    const auto pressed = [&](int key) {
-        return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
-                           [&](const KeyPress& press) { return press.key == key; });
-    };
+    if (!ImGui::GetCurrentContext()->NavWindow) // a click into nothing took it: arrows and Alt would do nothing
+        ImGui::SetWindowFocus("workbench");
+    const auto pressed = [&](int key) { return viewer::pressed(frame, key); };
     const auto with = [&](int modifier) { // as it was when the key went down, which may be up again
         return std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(),
                            [&](const KeyPress& press) { return (press.modifiers & modifier) != 0; });
@@ -241,40 +360,19 @@ void shortcuts(Frame& frame)
             frame.actions.push(Quit{});
         return;
     }
-    const bool dragging = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
-    for (const ToolButton& tool : tools)
-        if (pressed(tool.key) && !dragging)
-            set_tool(frame, tool.tool);
-    ViewSettings view = frame.state.view;
-    if (pressed(GLFW_KEY_T)) {
-        view.dark = !view.dark;
-        frame.actions.push(SetViewSettings{view});
+    if (frame.ui.focus)
+        view_keys(frame);
+    else if (std::any_of(frame.ui.keys.begin(), frame.ui.keys.end(), [](const KeyPress& press) {
+                 return press.modifiers == 0 && press.key >= GLFW_KEY_A && press.key <= GLFW_KEY_Z;
+             }))
+        frame.model.say(Severity::hint,
+                        "Letters choose tools when a view has the keyboard: click into one, or press F4.");
+    if (pressed(GLFW_KEY_LEFT_ALT) || pressed(GLFW_KEY_RIGHT_ALT))
+        frame.ui.focus.reset(); // the menus have it
+    if (pressed(GLFW_KEY_F4)) {
+        frame.ui.focus = next_view(frame, with(GLFW_MOD_SHIFT));
+        frame.ui.by_keys = true;
     }
-    if (pressed(GLFW_KEY_E)) {
-        view.edges = !view.edges;
-        frame.actions.push(SetViewSettings{view});
-    }
-    if (pressed(GLFW_KEY_5)) {
-        for (const View v : all_views)
-            if (v != View::blank)
-                view.camera[size_t(v)].perspective = !frame.state.view.camera[0].perspective;
-        frame.actions.push(SetViewSettings{view});
-    }
-    constexpr std::pair<int, StandardView> looks[] = {{GLFW_KEY_1, StandardView::top},
-                                                      {GLFW_KEY_2, StandardView::front},
-                                                      {GLFW_KEY_3, StandardView::right},
-                                                      {GLFW_KEY_4, StandardView::isometric}};
-    for (const auto& [key, from] : looks)
-        if (pressed(key))
-            frame.actions.push(LookFrom{View::part, from});
-    if (pressed(GLFW_KEY_F))
-        frame.actions.push(FitView{});
-    if (pressed(GLFW_KEY_I) && session.part)
-        frame.actions.push(InvertSelection{});
-    if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))
-        frame.actions.push(GrowSelection{});
-    if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))
-        frame.actions.push(ShrinkSelection{});
     if (pressed(GLFW_KEY_ESCAPE)) {
         if (frame.ui.show_shortcuts || frame.ui.show_messages)
             frame.ui.show_shortcuts = frame.ui.show_messages = false;

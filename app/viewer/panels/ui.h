@@ -11,12 +11,15 @@
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/charts.h"
+#include "app/viewer/panels/comparison_section.h"
+#include "app/viewer/panels/dialog_queue.h"
 #include "app/viewer/panels/edited_region.h"
 #include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/import_dialog.h"
 #include "app/viewer/panels/labels.h"
 #include "app/viewer/panels/material_dialog.h"
+#include "app/viewer/panels/material_editor.h"
 #include "app/viewer/panels/picture_dialog.h"
 #include "app/viewer/panels/report_dialog.h"
 #include "app/viewer/panels/side_panels.h"
@@ -68,15 +71,20 @@ struct Ui {
     bool show_export = false, show_picture = false, show_report = false,
          show_material = false;          ///< dialogs that open in the next frame
     std::map<int, double> message_since; ///< seconds; by number
+    int unfolded_message = 0;            ///< the one whose details are shown; 0: none
     double wake_at = 0;                  ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
+    DialogQueue dialogs;
+    std::optional<View>
+        focus; ///< the view that single letters act in: the one that was clicked last; none: a panel has them
+    bool by_keys = false;             ///< it was reached by a key, not by a click
+    int keyed_corner = 0;             ///< of the grid, which the arrows move with the tool for corners
     std::vector<KeyPress> keys;       ///< pressed since the last frame
     std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
     std::optional<Typed> typed;
     Memo<std::string, std::shared_ptr<const PartFile>, std::shared_ptr<const FlattenResult>, std::vector<int>>
-        no_cut;                      ///< why the picked vertices make no cut; empty: they do
-    int listed_place = -1;           ///< of the fault that is shown: the list of its places was scrolled to it
-    std::vector<std::string> grades; ///< of assets/materials, by the stem of the file
+        no_cut;            ///< why the picked vertices make no cut; empty: they do
+    int listed_place = -1; ///< of the fault that is shown: the list of its places was scrolled to it
 
     // the view the mouse is busy in
     std::optional<View> busy;
@@ -97,6 +105,8 @@ struct Ui {
     PictureChoices picturing;
     ReportChoices reporting;
     MaterialChoices fitting;
+    MaterialEditor materials;
+    ComparisonTable compared;
     ImportChoices importing;
 
     Charts charts;
@@ -150,6 +160,8 @@ void process_section(Frame& frame);
 /// Makes a drawbead, a pilot or a seam of the line that was drawn.
 void end_line(Frame& frame);
 void regions_section(Frame& frame);
+/// Makes a region of the picked faces; a tool presses at once, and is asked what with. The name may be empty.
+void make_region(Frame& frame, const std::string& called, RegionKind kind);
 /// Unfolding step by step.
 void unfolding_section(Frame& frame);
 /// Notes where the last item is, so that a test finds it with the mouse.
@@ -164,6 +176,8 @@ void view_area(Frame& frame);
 void tool_bar(Frame& frame);
 float tool_bar_height(const Frame& frame, float width); ///< pixels; narrow windows need two rows
 void dialogs(Frame& frame);
+/// The result beside the reference that was kept.
+void comparison_section(Frame& frame);
 /// The newest messages below the views, which end where they begin; what only confirms goes by itself.
 struct MessageStrip {
     std::vector<Message> shown; ///< the gravest first

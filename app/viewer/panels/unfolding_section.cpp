@@ -160,7 +160,11 @@ void blank_of_steps(Frame& frame)
     const bool waits = blank_of_steps_waits(document);
     if (!waits) {
         const bool polished = document.made_with.steps->polish;
-        coloured(p.good, polished ? "Polished, in use for grid and surface" : "In use for grid and surface");
+        bool fine = document.session.blank->report.whole();
+        for (size_t k = 0; k < document.steps.size(); ++k)
+            fine &= step_status(document, k) == StepStatus::done;
+        coloured(fine ? p.good : ImGui::GetStyleColorVec4(ImGuiCol_Text),
+                 polished ? "Polished, in use for grid and surface" : "In use for grid and surface");
         if (small_button(frame, polished ? "Use it unpolished" : "Polish it"))
             frame.actions.push(UseBlankOfSteps{!polished});
         note_place(frame, "polish");

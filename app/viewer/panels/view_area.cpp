@@ -9,16 +9,6 @@
 namespace spia::viewer {
 namespace {
 
-/// All cameras that turn together with this one.
-void take_camera(ViewSettings& settings, View view, const Camera& camera)
-{
-    settings.camera[size_t(view)] = camera;
-    if (settings.linked && view != View::blank)
-        for (const View other : all_views)
-            if (other != View::blank)
-                settings.camera[size_t(other)] = camera;
-}
-
 /// Turning, panning and zooming.
 void navigate(Frame& frame, View view, const Mouse& mouse)
 {
@@ -78,6 +68,30 @@ void draw_section(Frame& frame, View view, glm::dvec2 size, ImVec2 from, ImDrawL
     const ImVec2 middle = dot(piece.from + mark->place.share * (piece.to - piece.from));
     draw->AddCircleFilled(middle, 7 * s, casing);
     draw->AddCircleFilled(middle, 5 * s, ink(p.warning));
+}
+
+/// Where Return clicks with the tool.
+void draw_cross(const Frame& frame, ImVec2 middle, ImDrawList* draw)
+{
+    const float s = frame.ui.scale, gap = 3 * s, arm = 12 * s;
+    const Palette p = palette_of(frame.state.view.dark);
+    for (const auto& [colour, width] : {std::pair(ink(p.panel), 4 * s), std::pair(ink(p.accent), 2 * s)})
+        for (const ImVec2 way : {ImVec2(1, 0), ImVec2(-1, 0), ImVec2(0, 1), ImVec2(0, -1)})
+            draw->AddLine({middle.x + gap * way.x, middle.y + gap * way.y},
+                          {middle.x + arm * way.x, middle.y + arm * way.y}, colour, width);
+}
+
+/// The corner that the arrows move.
+void mark_keyed_corner(const Frame& frame, glm::dvec2 size, ImVec2 from, ImDrawList* draw)
+{
+    const Session& session = frame.state.document.session;
+    if (frame.state.view.tool != Tool::corners || !session.grid || !session.blank)
+        return;
+    const int vertex = session.grid->boundary.corner[size_t(frame.ui.keyed_corner)];
+    const Eigen::Vector2d at = session.blank->blank.position.col(vertex);
+    const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(View::blank)], {at[0], at[1], 0}, size);
+    draw->AddCircle({from.x + float(pixel.x), from.y + float(pixel.y)}, 12 * frame.ui.scale,
+                    ink(palette_of(frame.state.view.dark).accent), 32, 3 * frame.ui.scale);
 }
 
 /// @returns whether the mouse points into it and drags nothing
@@ -153,13 +167,22 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const auto legend = draw_legend(frame, shown, from, size, draw);
     draw_labels(frame, view, shown, from, size, legend, draw);
     use_tool(frame, view, mouse, from, draw);
+    if (frame.ui.focus == view && frame.ui.by_keys && tool_clicks(frame.state.view.tool))
+        draw_cross(frame, {from.x + size.x / 2, from.y + size.y / 2}, draw);
+    if (frame.ui.focus == view && frame.ui.by_keys && view == View::blank)
+        mark_keyed_corner(frame, mouse.size, from, draw);
     draw->PopClipRect();
     navigate(frame, view, mouse);
     const bool points = mouse.inside && !ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2);
     if (points)
         frame.model.hover(view, mouse.pixel, mouse.size, PickVertex{}.reach * frame.ui.scale);
+    const bool clicked = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
+    if (clicked && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+        frame.ui.focus = view, frame.ui.by_keys = false;
     ImGui::EndChild();
-    draw->AddRect(at, {at.x + whole.x, at.y + whole.y}, ink(p.line));
+    const bool focus = frame.ui.focus == view;
+    draw->AddRect(at, {at.x + whole.x, at.y + whole.y}, ink(focus ? p.accent : p.line), 0, 0,
+                  (focus ? 2 : 1) * frame.ui.scale);
     return points;
 }
 
@@ -203,10 +226,21 @@ void end_drags(Frame& frame)
 
 } // namespace
 
+void take_camera(ViewSettings& settings, View view, const Camera& camera)
+{
+    settings.camera[size_t(view)] = camera;
+    if (settings.linked && view != View::blank)
+        for (const View other : all_views)
+            if (other != View::blank)
+                settings.camera[size_t(other)] = camera;
+}
+
 void view_area(Frame& frame)
 {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
-    bool points = false; // what is under the mouse shows in all views, also those before the mouse's
+    if (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))
+        frame.ui.focus.reset(); // unless a view is clicked
+    bool points = false;        // what is under the mouse shows in all views, also those before the mouse's
     if (const auto only = frame.state.view.maximised) {
         if (!one_view(frame, *only, at, size))
             frame.model.hover_nothing();

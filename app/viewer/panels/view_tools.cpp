@@ -140,6 +140,45 @@ void draw_line(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawL
 
 } // namespace
 
+bool tool_clicks(Tool tool)
+{
+    return tool == Tool::pick || tool == Tool::flood || tool == Tool::smooth_region || tool == Tool::probe ||
+           tool == Tool::vertex || tool == Tool::outline;
+}
+
+void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
+{
+    const ViewSettings& settings = frame.state.view;
+    const Session& session = frame.state.document.session;
+    if (!session.part)
+        return;
+    switch (settings.tool) {
+    case Tool::pick:
+    case Tool::flood:
+    case Tool::smooth_region:
+        frame.actions.push(PickAt{view, pixel, size, pick_mode(),
+                                  settings.tool == Tool::flood ? std::optional(settings.flood_angle) : std::nullopt,
+                                  settings.tool == Tool::smooth_region});
+        return;
+    case Tool::probe: {
+        Pickers& pickers = frame.model.pickers();
+        const RayPicker* picker = pickers.picker(session, view);
+        if (!picker)
+            return;
+        if (const auto probe =
+                probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker, pixel, size, 0))
+            frame.actions.push(AddProbe{*probe});
+        return;
+    }
+    case Tool::vertex:
+    case Tool::outline:
+        frame.actions.push(PickVertex{view, pixel, size, pick_mode(), settings.tool == Tool::outline,
+                                      PickVertex{}.reach * frame.ui.scale});
+        return;
+    default: return;
+    }
+}
+
 void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
 {
     Ui& ui = frame.ui;
@@ -154,31 +193,14 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
     case Tool::pick:
     case Tool::flood:
     case Tool::smooth_region:
-        if (clicked)
-            frame.actions.push(PickAt{view, mouse.pixel, mouse.size, pick_mode(),
-                                      settings.tool == Tool::flood ? std::optional(settings.flood_angle) : std::nullopt,
-                                      settings.tool == Tool::smooth_region});
-        return;
     case Tool::probe:
-        if (clicked) {
-            const Session& session = frame.state.document.session;
-            Pickers& pickers = frame.model.pickers();
-            const RayPicker* picker = pickers.picker(session, view);
-            if (!picker)
-                return;
-            if (const auto probe = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker,
-                                            mouse.pixel, mouse.size, 0))
-                frame.actions.push(AddProbe{*probe});
-        }
-        return;
-    case Tool::shape: drag_handles(frame, view, mouse); return;
-    case Tool::line: draw_line(frame, view, mouse, from, draw); return;
     case Tool::vertex:
     case Tool::outline:
         if (clicked)
-            frame.actions.push(PickVertex{view, mouse.pixel, mouse.size, pick_mode(), settings.tool == Tool::outline,
-                                          PickVertex{}.reach * ui.scale});
+            click_with_tool(frame, view, mouse.pixel, mouse.size);
         return;
+    case Tool::shape: drag_handles(frame, view, mouse); return;
+    case Tool::line: draw_line(frame, view, mouse, from, draw); return;
     case Tool::brush: {
         const double radius = settings.brush_radius * ui.scale; // pixels of the screen
         if (clicked) {

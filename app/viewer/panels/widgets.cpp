@@ -178,7 +178,8 @@ void begin_scrolled(const Frame& frame, const char* name, float height)
     const float gap = 4 * frame.ui.scale;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() - gap);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, 0});
-    ImGui::BeginChild(name, {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::BeginChild(name, {0, height}, false,
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NavFlattened);
     ImGui::PopStyleVar();
 }
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/comparison.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/gui_frame.h"
+#include "app/viewer/panels/lights.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 
@@ -57,7 +59,7 @@ void status_bar(Frame& frame)
     const auto& probe = frame.model.under_mouse();
     const auto& vertex = state.hovered_vertex;
     if (!session.part || (!probe && !vertex)) {
-        ImGui::TextColored(p.muted, "%s", session.part ? "Ready" : "Open a part, or drop one on the window");
+        ready_light(frame);
         return;
     }
     const TriMesh& part = session.part->mesh;
@@ -73,19 +75,10 @@ void status_bar(Frame& frame)
                                    at[0], at[1], at[2]);
     const Field field = state.document.display.field;
     if (field != Field::none && available(session, field)) {
-        const bool per_face = state.document.display.per_face && !vertex;
-        const Eigen::VectorXd& value =
-            frame.ui.charts.values.of({session.blank, session.limits, session.surface, field, per_face},
-                                      [&] { return values(session, field, per_face); });
-        double here = 0;
-        if (vertex)
-            here = value[*vertex];
-        else if (per_face)
-            here = value[probe->face];
-        else
-            for (int a = 0; a < 3; ++a)
-                here += probe->barycentric[a] * value[part.triangle(a, probe->face)];
-        text += fmt::format("    {} {}", info(field).label, value_text(here, info(field).unit));
+        const Figures& now = figures(frame);
+        text += fmt::format("    {} {}{}", label_of_field(state),
+                            value_text(vertex ? now.at_vertex[*vertex] : now.face.value[probe->face], info(field).unit),
+                            vertex && is_smoothed(state.document.display) ? ", mean of its faces" : "");
     }
     ImGui::TextUnformatted(text.c_str());
 }
@@ -143,7 +136,7 @@ void workbench(Frame& frame)
         ImGui::SetCursorScreenPos(at);
         ImGui::BeginChild("left", {left, height}, false,
                           ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar |
-                              ImGuiWindowFlags_NoScrollWithMouse);
+                              ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NavFlattened);
         if (narrow)
             choice_of_panel(frame);
         if (steps)
@@ -155,7 +148,8 @@ void workbench(Frame& frame)
     const float middle = io.DisplaySize.x - left - right, bar = tool_bar_height(frame, middle - 12 * s) + 4 * s;
     ImGui::SetCursorScreenPos({at.x + left + 6 * s, at.y + 4 * s});
     ImGui::BeginChild("tools", {middle - 12 * s, bar - 4 * s}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                          ImGuiWindowFlags_NavFlattened);
     tool_bar(frame);
     ImGui::EndChild();
     const MessageStrip messages = message_strip(frame, middle);
@@ -174,7 +168,7 @@ void workbench(Frame& frame)
         ImGui::SetCursorScreenPos({at.x + left + middle, at.y});
         ImGui::BeginChild("right", {right, height}, false,
                           ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar |
-                              ImGuiWindowFlags_NoScrollWithMouse);
+                              ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NavFlattened);
         inspect_panel(frame);
         ImGui::EndChild();
     }
@@ -185,7 +179,7 @@ void workbench(Frame& frame)
     selection_actions(frame);
     ImGui::End();
     // The key that answers a dialog means nothing else.
-    const bool answers = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+    const bool answers = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId) || !frame.ui.dialogs.empty();
     dialogs(frame);
     if (!answers)
         shortcuts(frame);

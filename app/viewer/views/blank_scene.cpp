@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "app/viewer/model/comparison.h"
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/patch_shapes.h"
@@ -147,6 +148,16 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
     };
     add(cache.outline.of({flat.mesh, state.view.dark},
                          [&] { return outline_lines(flat.position, part.boundary, state.view.dark); }));
+    if (const auto& differences = state.differences;
+        !live && differences && differences->outline.size() > 0 && differences->blank != differences->reference->blank)
+        add(cache.reference_outline.of({differences}, [&] {
+            Eigen::Matrix3Xd place = Eigen::Matrix3Xd::Zero(3, differences->outline.cols());
+            place.topRows<2>() = differences->outline;
+            const auto lines = scene_lines(place, part.boundary);
+            lines->colour = palette::reference;
+            lines->width = 2.4f;
+            return LineList{lines};
+        }));
     const bool patches = session.surface && session.surface->patches;
     if (!live && patches)
         add(cache.patch_lines.of({session.surface, state.view.dark},

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/viewer/model/face_values.h"
+#include "app/viewer/model/number_text.h"
 #include "app/viewer/model/zone_look.h"
 
 namespace spia::viewer {
@@ -61,36 +63,7 @@ RoundRange round_range(double least, double greatest, int intervals, bool about_
     }
 }
 
-double least_range(Field field, double size)
-{
-    constexpr double strain = 1e-4; // far below what forming does to a sheet, above what the solver leaves
-    switch (field) {
-    case Field::strain_major:
-    case Field::strain_minor:
-    case Field::strain_equivalent:
-    case Field::outer_strain_major:
-    case Field::outer_strain_minor:
-    case Field::outer_strain_equivalent:
-    case Field::inner_strain_major:
-    case Field::inner_strain_minor:
-    case Field::inner_strain_equivalent: return strain;
-    case Field::curvature: return size > 0 ? 1e-3 / size : 0; // 1/mm: flatter than the part is long by far
-    case Field::thinning:
-    case Field::thickening:
-    case Field::area_change: return 100 * strain; // %
-    case Field::thickness: return strain;         // mm
-    case Field::angle_distortion: return 0.01;
-    case Field::stress_major:
-    case Field::stress_minor:
-    case Field::stress_equivalent: return 0.1; // MPa
-    case Field::deviation: return 1e-6 * size;
-    case Field::limit_distance: return 100 * strain; // %
-    case Field::necking:
-    case Field::zone:
-    case Field::none: return 0;
-    }
-    return 0;
-}
+double least_range(Field field, double size) { return noise(field, size); }
 
 /// The values, or a range around them that is long enough to be coloured.
 static std::array<double, 2> lengthened(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
@@ -98,7 +71,8 @@ static std::array<double, 2> lengthened(const FieldDisplay& display, const std::
     const double shortest = least_range(display.field, size), missing = shortest - (extremes[1] - extremes[0]);
     if (!(missing > 0))
         return extremes;
-    if (info(display.field).diverging && std::max(std::abs(extremes[0]), std::abs(extremes[1])) < shortest)
+    if ((info(display.field).diverging || display.difference) &&
+        std::max(std::abs(extremes[0]), std::abs(extremes[1])) < shortest)
         return {-shortest, shortest};
     if (extremes[0] >= 0 && extremes[1] < shortest)
         return {0, shortest};
@@ -114,7 +88,7 @@ std::string noise_note(const FieldDisplay& display, const std::array<double, 2>&
 
 ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
 {
-    const bool diverging = info(display.field).diverging;
+    const bool diverging = info(display.field).diverging || display.difference;
     ColourScale scale;
     if (display.field == Field::zone) { // a colour for each
         scale.map = ColourMap::zones;
@@ -203,18 +177,11 @@ std::vector<LegendTick> legend_ticks(const SceneLegend& legend, int most)
 
 std::string value_text(double value, std::string_view unit)
 {
-    std::string number;
-    const double size = std::abs(value);
     if (!std::isfinite(value))
         return "no value";
     if (unit == info(Field::zone).unit)
         return zone_words(Zone(std::clamp(int(std::lround(value)), 0, zone_count - 1)));
-    if (value == 0)
-        number.assign(1, '0');
-    else if (size < 1e-4 || size >= 1e6)
-        number = fmt::format("{:.2e}", value);
-    else
-        number = fmt::format("{:.{}f}", value, std::clamp(2 - int(std::floor(std::log10(size))), 0, 6));
+    const std::string number = plain_number(value);
     if (unit.empty())
         return number;
     return fmt::format("{}{}{}", number, unit == "\u00b0" ? "" : " ", unit);

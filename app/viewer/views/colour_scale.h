@@ -20,8 +20,8 @@ struct RoundRange {
 /// @param about_zero  as far below 0 as above
 RoundRange round_range(double least, double greatest, int intervals = 0, bool about_zero = false);
 
-/// The shortest range that a field is coloured over, in its unit: values that differ by less are noise of the solver, and
-/// colours would make a landscape of it.
+/// The shortest range that a field is coloured over, in its unit: values that differ by less are noise(), and colours would make a
+/// landscape of it.
 /// @param size of the part, mm
 double least_range(Field field, double size);
 

@@ -150,13 +150,13 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
         scene.points.push_back(points);
     };
 
-    if (values && display.extremes && display.field != Field::zone && values->least >= 0 &&
-        values->least != values->greatest) {
+    const auto here = [&](int face) { return values->said.value[face]; };
+    if (values && display.extremes && display.field != Field::zone && values->said.least >= 0 &&
+        here(values->said.least) != here(values->said.greatest)) {
         std::vector<Eigen::Vector3d> places;
-        for (const auto& [word, at] : {std::pair("min", values->least), std::pair("max", values->greatest)}) {
-            places.push_back(display.per_face ? centre(at) : Eigen::Vector3d(position.col(at)));
-            scene.labels.push_back(
-                {places.back(), fmt::format("{} {}", word, value_text(values->value[at], unit)), text});
+        for (const auto& [word, at] : {std::pair("min", values->said.least), std::pair("max", values->said.greatest)}) {
+            places.push_back(centre(at));
+            scene.labels.push_back({places.back(), fmt::format("{} {}", word, value_text(here(at), unit)), text});
         }
         dots(places, palette::extreme);
     }
@@ -166,15 +166,11 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
         if (probe.face < 0 || probe.face >= triangle.cols())
             continue; // of another part; the user sees it in the list of probes
         places.push_back(place_on(position, triangle, probe.face, probe.barycentric));
-        double value = 0;
-        if (values && display.per_face)
-            value = values->value[probe.face];
-        else if (values)
-            value = values->value(triangle.col(probe.face)).dot(probe.barycentric);
-        scene.labels.push_back({places.back(),
-                                fmt::format("P{}  {}", &probe - state.document.probes.data() + 1,
-                                            values ? value_text(value, unit) : fmt::format("face {}", probe.face)),
-                                text});
+        scene.labels.push_back(
+            {places.back(),
+             fmt::format("P{}  {}", &probe - state.document.probes.data() + 1,
+                         values ? value_text(here(probe.face), unit) : fmt::format("face {}", probe.face)),
+             text});
     }
     dots(places, palette::probe);
 }

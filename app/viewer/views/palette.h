@@ -21,6 +21,8 @@ inline constexpr Colour fixed{0.97f, 0.78f, 0.10f, 1};      ///< faces that carr
 inline constexpr Colour freed{0.20f, 0.72f, 0.32f, 1};      ///< faces that a step moves
 inline constexpr Colour chosen{0.26f, 0.55f, 0.96f, 1};     ///< what is read of a file
 inline constexpr Colour target{0.30f, 0.58f, 0.95f, 0.28f}; ///< the face in space onto which it moves them
+inline constexpr Colour reference{0.90f, 0.62f, 0.00f,
+                                  1}; ///< the outline of an earlier blank: orange, away from the fields' blue
 inline constexpr Colour quads{0.80f, 0.83f, 0.86f, 1};
 inline constexpr Colour surface{0.60f, 0.72f, 0.84f, 1};
 /// Of patches: neighbours have different ones.

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "app/viewer/model/face_values.h"
 #include "app/viewer/model/figures.h"
 #include "app/viewer/model/scene.h"
 #include "app/viewer/model/state.h"
@@ -48,12 +49,8 @@ struct FlatShape {
 
 /// A field of the sheet.
 struct FieldValues {
-    Eigen::VectorXd value;         ///< per vertex or face of the part
-    int least = -1, greatest = -1; ///< where; -1: there is no value that is a number
-    std::array<double, 2> extremes() const
-    {
-        return least < 0 ? std::array{0., 1.} : std::array{value[least], value[greatest]};
-    }
+    Eigen::VectorXd drawn; ///< per vertex or face of the part: what is coloured
+    FaceValues said;       ///< what the labels and the ends of the legend say
 };
 
 /// Picked vertices.
@@ -157,6 +154,7 @@ struct SceneCache {
     Memo<std::optional<std::array<int, 4>>, Part, std::array<int, 4>> chosen_corners;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;
+    Memo<LineList, std::shared_ptr<const Differences>> reference_outline;
     Memo<LineList, std::shared_ptr<const SceneMesh>, Grid> sides;
     Memo<OverlapShape, Blank> overlap;
     Memo<StageShape, Grid, bool> planar_grid;

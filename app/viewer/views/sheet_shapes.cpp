@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/viewer/model/comparison.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/isolines.h"
 #include "app/viewer/views/marking.h"
@@ -12,23 +13,6 @@
 #include "app/viewer/views/strain_glyphs.h"
 
 namespace spia::viewer {
-namespace {
-
-FieldValues with_extremes(Eigen::VectorXd value)
-{
-    FieldValues result{std::move(value)};
-    const auto number = [&](int i) { return std::isfinite(result.value[i]); };
-    for (int i = 0; i < result.value.size(); ++i) {
-        if (number(i) && (result.least < 0 || result.value[i] < result.value[result.least]))
-            result.least = i;
-        if (number(i) && (result.greatest < 0 || result.value[i] > result.value[result.greatest]))
-            result.greatest = i;
-    }
-    return result;
-}
-
-} // namespace
-
 const PartShape& part_shape(const ViewerState& state, SceneCache& cache)
 {
     const auto& part = state.document.session.part;
@@ -46,19 +30,23 @@ const FieldValues* field_values(const ViewerState& state, SceneCache& cache)
     if (display.field == Field::none || !session.part || !available(session, display.field))
         return nullptr;
     return &cache.values.of(
-        {session.part, session.blank, session.limits, session.surface, display.field, display.per_face},
-        [&] { return with_extremes(values(session, display.field, display.per_face)); });
+        {session.part, blank_of_field(state), session.limits, session.surface, display.field, display.per_face}, [&] {
+            const Session shown = session_of_field(state);
+            return FieldValues{values(shown, display.field, display.per_face), face_values(shown, display.field)};
+        });
 }
 
 SceneLegend legend_of(const ViewerState& state, const FieldValues& values, double size)
 {
     const FieldInfo& field = info(state.document.display.field);
-    const std::array<double, 2> extremes = values.extremes();
-    SceneLegend legend{std::string(field.label), field.field == Field::zone ? std::string() : std::string(field.unit),
+    const std::array<double, 2> extremes = values.said.extremes();
+    SceneLegend legend{label_of_field(state), field.field == Field::zone ? std::string() : std::string(field.unit),
                        field_scale(state.document.display, extremes, size)};
     legend.below = below(legend.scale, extremes[0]);
     legend.above = above(legend.scale, extremes[1]);
     legend.note = noise_note(state.document.display, extremes, size);
+    if (is_smoothed(state.document.display))
+        legend.note += legend.note.empty() ? "contour smoothed" : ", smoothed";
     return legend;
 }
 
@@ -89,14 +77,14 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
     if (values) {
         scene.legend = legend_of(state, *values, part_shape(state, shared).box.diagonal().norm());
         sheet.scale = scene.legend->scale;
-        sheet.field = cache.field.of(
-            {mesh, session.part, session.blank, session.limits, session.surface, display.field, display.per_face},
-            [&] { return scene_field(*mesh, values->value, display.per_face); });
+        sheet.field = cache.field.of({mesh, session.part, blank_of_field(state), session.limits, session.surface,
+                                      display.field, display.per_face},
+                                     [&] { return scene_field(*mesh, values->drawn, display.per_face); });
         if (display.isolines && !display.per_face)
             scene.isolines =
                 cache.isolines.of({sheet.field, sheet.scale.least, sheet.scale.greatest, sheet.scale.ticks}, [&] {
                     return std::make_shared<const std::vector<Isoline>>(
-                        isolines(place.position, part.triangle, values->value, tick_values(sheet.scale)));
+                        isolines(place.position, part.triangle, values->drawn, tick_values(sheet.scale)));
                 });
     }
     scene.layers.insert(scene.layers.begin(), std::move(sheet));

@@ -164,13 +164,9 @@ const FieldValues* values_of(const ViewerState& state, SceneCache& cache)
     const auto number = size_t(std::ceil(position)) - 1;
     const auto& run = state.document.unfolding;
     return &cache.steps.values.of({run, number, display.field, display.per_face}, [&] {
-        FieldValues result{values(run->part->mesh, run->run.states[number].face, display.field, display.per_face)};
-        Eigen::Index least, greatest;
-        result.value.minCoeff(&least);
-        result.value.maxCoeff(&greatest);
-        result.least = int(least);
-        result.greatest = int(greatest);
-        return result;
+        const TriMesh& part = run->part->mesh;
+        const SheetFields& face = run->run.states[number].face;
+        return FieldValues{values(part, face, display.field, display.per_face), face_values(part, face, display.field)};
     });
 }
 
@@ -182,7 +178,7 @@ void colour_by_field(Scene& scene, SceneLayer& sheet, const ViewerState& state, 
     scene.legend = legend_of(state, values, part_shape(state, cache).box.diagonal().norm());
     sheet.scale = scene.legend->scale;
     sheet.field = cache.steps.field.of({sheet.mesh, state.document.unfolding, number, display.field, display.per_face},
-                                       [&] { return scene_field(*sheet.mesh, values.value, display.per_face); });
+                                       [&] { return scene_field(*sheet.mesh, values.drawn, display.per_face); });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "app/viewer/model/handles.h"
+#include "app/viewer/model/lights.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
@@ -13,11 +14,7 @@ namespace spia::viewer {
 namespace {
 
 /// That of the fit; a surface without one is held against what is usual.
-double shown_tolerance(const SurfaceStage& surface)
-{
-    constexpr double usual = 0.1; // mm
-    return surface.fit ? surface.fit->tolerance : usual;
-}
+double shown_tolerance(const SurfaceStage& surface) { return surface.fit ? surface.fit->tolerance : usual_tolerance; }
 
 SceneLegend legend_of(SurfaceLook look, const SurfaceStage& surface, const SceneLayer& layer, double size)
 {

@@ -127,10 +127,8 @@ TEST(Field, OfASolvedPartAgreesWithVolumeConstancyAndKnownUnits)
     for (const bool per_face : {true, false}) {
         const Eigen::ArrayXd thickness = values(session, Field::thickness, per_face);
         const Eigen::ArrayXd thinning = values(session, Field::thinning, per_face);
-        const Eigen::ArrayXd thickening = values(session, Field::thickening, per_face);
         EXPECT_GT(thinning.abs().maxCoeff(), 1); // a dome is stretched by some percent
         EXPECT_LT((thinning - 100 * (1 - thickness / sheet)).abs().maxCoeff(), 1e-9);
-        EXPECT_LT((thinning + thickening).abs().maxCoeff(), 1e-12);
         for (const FieldInfo& field : all_fields())
             if (field.field != Field::none && !of_skins(field.field)) {
                 const Eigen::VectorXd all = values(session, field.field, per_face);
@@ -148,7 +146,7 @@ TEST(Field, OfASolvedPartAgreesWithVolumeConstancyAndKnownUnits)
     EXPECT_GE((values(session, Field::strain_major, true) - values(session, Field::strain_minor, true)).minCoeff(), 0);
 }
 
-TEST(Field, DeviationOfAFaceIsTheMeanOfItsCorners)
+TEST(Field, DeviationOfAFaceIsThatOfItsFarthestCorner)
 {
     const Session& session = solved_dome();
     const TriMesh& part = session.part->mesh;
@@ -157,7 +155,8 @@ TEST(Field, DeviationOfAFaceIsTheMeanOfItsCorners)
     EXPECT_LE(at_vertex.cwiseAbs().maxCoeff(), session.surface->deviation.mesh_to_surface.max + 1e-15);
     for (int f = 0; f < part.triangles(); ++f) {
         const auto t = part.triangle.col(f);
-        EXPECT_NEAR(of_face[f], (at_vertex[t[0]] + at_vertex[t[1]] + at_vertex[t[2]]) / 3, 1e-15);
+        EXPECT_EQ(std::abs(of_face[f]), at_vertex(t).cwiseAbs().maxCoeff());
+        EXPECT_TRUE((at_vertex(t).array() == of_face[f]).any()) << "with its sign";
     }
 }
 

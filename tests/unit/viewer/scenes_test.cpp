@@ -155,15 +155,21 @@ TEST_F(Scenes, TheLeastAndTheGreatestValueAreMarkedWhereTheyAre)
 {
     state.document.display.field = Field::strain_major;
     Eigen::Index least, greatest;
-    session->blank->node.strain_major.minCoeff(&least);
-    session->blank->node.strain_major.maxCoeff(&greatest);
+    session->blank->face.strain_major.minCoeff(&least);
+    session->blank->face.strain_major.maxCoeff(&greatest);
+    const auto middle = [](const auto& position, const auto& corner) {
+        return Eigen::VectorXd(position(Eigen::all, corner).rowwise().mean());
+    };
+    const auto on_face = [&](const auto& position, Eigen::Index face) {
+        return middle(position, part().triangle.col(face));
+    };
     const Scene on_part = part_scene(state, cache), on_blank = blank_scene(state, cache);
     ASSERT_GE(on_part.labels.size(), 2u);
     EXPECT_EQ(on_part.labels[0].text.substr(0, 4), "min ");
-    EXPECT_LT((on_part.labels[0].place - part().position.col(least)).norm(), 1e-9);
+    EXPECT_LT((on_part.labels[0].place - on_face(part().position, least)).norm(), 1e-9);
     EXPECT_EQ(on_part.labels[1].text.substr(0, 4), "max ");
-    EXPECT_LT((on_part.labels[1].place - part().position.col(greatest)).norm(), 1e-9);
-    EXPECT_LT((on_blank.labels[1].place.head<2>() - session->blank->blank.position.col(greatest)).norm(), 1e-9);
+    EXPECT_LT((on_part.labels[1].place - on_face(part().position, greatest)).norm(), 1e-9);
+    EXPECT_LT((on_blank.labels[1].place.head<2>() - on_face(session->blank->blank.position, greatest)).norm(), 1e-9);
     state.document.display.extremes = false;
     EXPECT_TRUE(part_scene(state, cache).labels.empty());
 }

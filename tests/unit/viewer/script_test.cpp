@@ -52,6 +52,8 @@ std::vector<Action> every_action()
         set(FitMaterial{"bar.csv",
                         "mine.json",
                         {{TensileOptions::Kind::truly, true, 2e5}, "voce", "mine", 0.29, 7900, 1.1, 1.2, 1.3}});
+        set(SaveMaterial{read_material(SPIA_SOURCE_DIR "/assets/materials/dp600.json"), "mine"});
+        set(RemoveMaterial{"mine"});
         set(SetSkins{false});
         set(UseBlankOfSteps{true});
         set(OpenSteps{"steps.json"});

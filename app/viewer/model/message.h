@@ -1,0 +1,59 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spia::viewer {
+
+struct ViewerState;
+
+enum class Severity { hint, done, warning, error };
+
+/// What a message speaks of. The message is shown as long as that is so, and comes back where redo brings it back.
+struct Subject {
+    enum class Kind {
+        none,    ///< nothing that could change: it stays until it is dismissed
+        results, ///< objects that the document has, see results_of(); gone once one of them is another
+        steps,   ///< likewise, the last run of the steps
+        refused, ///< likewise, the part that was refused
+        change,  ///< a change of the document: gone once that is undone
+        refusal  ///< an action that was refused, or had nothing to do: gone with the next change, whichever
+    };
+    Kind kind = Kind::none;
+    std::vector<std::weak_ptr<const void>> object = {};
+    int change = 0; ///< History::now()
+};
+
+/// The part alone, or with all that was made of it.
+Subject about_part(const ViewerState& state);
+Subject about_results(const ViewerState& state);
+Subject about_steps(const ViewerState& state);
+Subject about_refused_part(const ViewerState& state);
+/// The change that made the document what it is now.
+Subject about_change(const ViewerState& state);
+Subject about_refusal(const ViewerState& state);
+bool holds(const Subject& subject, const ViewerState& state);
+bool same(const Subject& a, const Subject& b);
+
+/// What the program says to the user, the newest last.
+struct Message {
+    Severity severity;
+    std::string text;
+    int number = 0;                        ///< counts all that was ever said
+    bool dismissed = false;                ///< read; kept for the list of messages
+    std::vector<std::string> details = {}; ///< sentences that the text is the heading of; the user unfolds them
+    Subject subject = {};
+    bool gone = false; ///< what it speaks of is so no longer
+
+    bool shown() const { return !dismissed && !gone; }
+};
+
+/// Before a run those go that are neither wrong nor about results, which go with what they are about; so do errors of the run before.
+void dismiss_before_run(std::vector<Message>& messages);
+
+/// What was done for the user when a part was opened, in one line: of several things the number, and each of them as a detail.
+/// @param name of the file; @param done sentences
+Message opened_message(const std::string& name, std::vector<std::string> done);
+
+} // namespace spia::viewer

@@ -1,0 +1,120 @@
+#include "app/viewer/panels/lights.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/remedies.h"
+
+namespace spia::viewer {
+namespace {
+
+void doubt_row(Frame& frame, const Doubt& doubt)
+{
+    coloured(palette_of(frame.state.view.dark).warning, doubt.text);
+    if (!doubt.next.empty())
+        muted(frame, doubt.next);
+    const Document& document = frame.state.document;
+    const bool shown = shown_by(doubt.remedy) == document.display.field;
+    if (doubt.button.empty() || shown)
+        return;
+    ImGui::BeginDisabled(frame.model.busy());
+    if (small_button(frame, doubt.button.c_str())) {
+        for (Action& action : actions_of(doubt, document))
+            frame.actions.push(std::move(action));
+    }
+    note_place(frame, doubt.button);
+    ImGui::EndDisabled();
+}
+
+const char* name_of(ChainStep step)
+{
+    switch (step) {
+    case ChainStep::part: return "Part";
+    case ChainStep::sheet: return "Sheet";
+    case ChainStep::unfold: return "Unfold";
+    case ChainStep::grid: return "Corners and grid";
+    case ChainStep::surface: return "NURBS surface";
+    }
+    return "";
+}
+
+const std::vector<Doubt>& doubts(const Frame& frame)
+{
+    static const std::vector<Doubt> none;
+    return frame.state.doubts ? *frame.state.doubts : none;
+}
+
+constexpr const char* list = "things to look at";
+
+void list_of_doubts(Frame& frame)
+{
+    const float s = frame.ui.scale;
+    ImGui::SetNextWindowSize({std::min(420 * s, ImGui::GetIO().DisplaySize.x - 40 * s), 0});
+    if (!ImGui::BeginPopup(list))
+        return;
+    if (doubts(frame).empty())
+        ImGui::CloseCurrentPopup();
+    std::optional<ChainStep> last;
+    for (size_t k = 0; k < doubts(frame).size(); ++k) {
+        const Doubt& doubt = doubts(frame)[k];
+        if (last != doubt.step) {
+            if (last)
+                ImGui::Separator();
+            ImGui::PushFont(frame.ui.fonts.bold);
+            ImGui::TextUnformatted(name_of(doubt.step));
+            ImGui::PopFont();
+        }
+        last = doubt.step;
+        ImGui::PushID(int(k));
+        doubt_row(frame, doubt);
+        ImGui::PopID();
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace
+
+Status light(const Frame& frame, ChainStep step, Status made)
+{
+    const bool doubted =
+        std::any_of(doubts(frame).begin(), doubts(frame).end(), [&](const Doubt& doubt) { return doubt.step == step; });
+    return made == Status::done && doubted ? Status::poor : made;
+}
+
+void doubt_rows(Frame& frame, ChainStep step)
+{
+    for (size_t k = 0; k < doubts(frame).size(); ++k)
+        if (doubts(frame)[k].step == step) {
+            ImGui::PushID(int(k));
+            doubt_row(frame, doubts(frame)[k]);
+            ImGui::PopID();
+        }
+}
+
+void ready_light(Frame& frame)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    const Readiness ready = readiness(frame.state);
+    if (ready.fine) {
+        ImGui::TextColored(p.muted, "%s", ready.text.c_str());
+        return;
+    }
+    const float r = 4 * frame.ui.scale;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + r, at.y + ImGui::GetFrameHeight() / 2}, r, ink(p.warning));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 4 * r);
+    const bool listed = !doubts(frame).empty() && ready.lists_doubts;
+    if (!listed) {
+        ImGui::TextColored(p.warning, "%s", ready.text.c_str());
+        return;
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, p.warning);
+    if (small_button(frame, ready.text.c_str()))
+        ImGui::OpenPopup(list);
+    ImGui::PopStyleColor();
+    note_place(frame, list);
+    tooltip("Why not every light is green, and what can be done");
+    list_of_doubts(frame);
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,233 @@
+#include "app/viewer/model/lights.h"
+
+#include <fstream>
+#include <gmock/gmock.h>
+
+#include "app/viewer/model/remedies.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/exchange/sample_decks.h"
+#include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/viewer/model_fixture.h"
+
+using testing::HasSubstr;
+
+namespace spia::viewer {
+namespace {
+
+struct Lights : ModelFixture {
+    ScratchFolder folder;
+
+    std::vector<Doubt> of(ChainStep step) const
+    {
+        std::vector<Doubt> found;
+        for (const Doubt& doubt : *state.doubts)
+            if (doubt.step == step)
+                found.push_back(doubt);
+        return found;
+    }
+    std::string all() const
+    {
+        std::string text;
+        for (const Doubt& doubt : *state.doubts)
+            text += doubt.text + "\n";
+        return text;
+    }
+    void press(const Doubt& doubt)
+    {
+        EXPECT_FALSE(doubt.button.empty()) << doubt.text;
+        for (const Action& action : actions_of(doubt, document))
+            model.apply(action);
+        wait();
+    }
+    void confirm_sheet()
+    {
+        const auto assumed = of(ChainStep::sheet);
+        ASSERT_EQ(assumed.size(), 1u) << all();
+        press(assumed[0]);
+    }
+    void run(Stage stage = Stage::fit)
+    {
+        model.apply(RunTo{stage});
+        wait();
+    }
+};
+
+TEST_F(Lights, ASheetThatNobodyGaveIsAssumedUntilItIsConfirmed)
+{
+    open();
+    ASSERT_EQ(of(ChainStep::sheet).size(), 1u);
+    const Doubt assumed = of(ChainStep::sheet)[0];
+    EXPECT_THAT(assumed.text, HasSubstr("1 mm thickness is assumed"));
+    EXPECT_THAT(assumed.text, HasSubstr("mild_steel is assumed"));
+    EXPECT_FALSE(readiness(state).fine);
+    model.apply(SetMaterial{"dp600"}); // the thickness is still nobody's
+    ASSERT_EQ(of(ChainStep::sheet).size(), 1u);
+    EXPECT_THAT(of(ChainStep::sheet)[0].text, testing::Not(HasSubstr("grade")));
+    press(of(ChainStep::sheet)[0]);
+    EXPECT_TRUE(of(ChainStep::sheet).empty()) << all();
+    EXPECT_EQ(document.session.options.flatten.thickness, 1);
+    EXPECT_TRUE(readiness(state).fine);
+    EXPECT_EQ(readiness(state).text, "Ready");
+    model.apply(Undo{});
+    EXPECT_EQ(of(ChainStep::sheet).size(), 1u) << "undo takes the word back";
+}
+
+TEST_F(Lights, ThicknessOfTheFileIsGivenAndThatOfAnotherPartIsNot)
+{
+    std::ofstream(folder / "strip.k") << sample::dyna();
+    model.apply(OpenPart{folder / "strip.k", "", {.parts = {"7"}}});
+    wait();
+    ASSERT_TRUE(document.session.part);
+    EXPECT_EQ(document.session.options.flatten.thickness, 1.25);
+    ASSERT_EQ(of(ChainStep::sheet).size(), 1u);
+    EXPECT_THAT(of(ChainStep::sheet)[0].text, testing::Not(HasSubstr("thick")));
+    EXPECT_THAT(of(ChainStep::sheet)[0].text, HasSubstr("The file calls the material \"DC04\""));
+    confirm_sheet();
+    EXPECT_TRUE(of(ChainStep::sheet).empty());
+    open();
+    ASSERT_EQ(of(ChainStep::sheet).size(), 1u);
+    EXPECT_THAT(of(ChainStep::sheet)[0].text, HasSubstr("1.25 mm is the thickness of the part before"));
+    EXPECT_THAT(of(ChainStep::sheet)[0].text, testing::Not(HasSubstr("grade"))) << "the grade was chosen by the user";
+}
+
+TEST_F(Lights, AProjectKeepsWhoGaveTheSheet)
+{
+    open();
+    model.apply(SetThickness{0.8});
+    model.apply(SaveProject{folder / "dome.spia"});
+    model.apply(OpenProject{folder / "dome.spia"});
+    wait();
+    EXPECT_EQ(document.thickness_from, SheetSource::chosen);
+    EXPECT_EQ(document.material_from, SheetSource::assumed);
+    EXPECT_EQ(of(ChainStep::sheet).size(), 1u);
+}
+
+TEST_F(Lights, ASurfaceOutOfToleranceOffersAFitWithinIt)
+{
+    open();
+    confirm_sheet();
+    GridOptions coarse = document.session.options.grid;
+    coarse.cells = 3;
+    model.apply(SetGrid{coarse});
+    run();
+    ASSERT_TRUE(document.session.surface);
+    ASSERT_GT(document.session.surface->deviation.max(), usual_tolerance) << "or this test says nothing";
+    const auto far = of(ChainStep::surface);
+    ASSERT_FALSE(far.empty());
+    EXPECT_THAT(far[0].text, HasSubstr("leaves the part by up to"));
+    EXPECT_FALSE(readiness(state).fine);
+    press(far[0]);
+    ASSERT_TRUE(document.session.surface->fit);
+    EXPECT_EQ(document.session.surface->fit->tolerance, usual_tolerance);
+    EXPECT_THAT(all(), testing::Not(HasSubstr("mm is usual")));
+}
+
+TEST_F(Lights, CracksAndForbiddenThinningAreAmberAndShowTheirZones)
+{
+    open();
+    confirm_sheet();
+    run(Stage::solve);
+    EXPECT_TRUE(of(ChainStep::unfold).empty()) << all();
+    double greatest = 0;
+    int thinner = 0;
+    for (const double each : document.session.blank->face.thinning)
+        greatest = std::max(greatest, each);
+    LimitsChoice strict = document.limits;
+    strict.curve = LimitsOptions::Source::none;
+    strict.max_thinning = 0.9 * greatest;
+    for (const double each : document.session.blank->face.thinning)
+        thinner += each > strict.max_thinning;
+    model.apply(SetLimits{strict});
+    ASSERT_EQ(of(ChainStep::unfold).size(), 1u) << all();
+    const Doubt doubt = of(ChainStep::unfold)[0];
+    EXPECT_THAT(doubt.text,
+                HasSubstr(thinner == 1 ? "1 face is thinner" : fmt::format("{} faces are thinner", thinner)));
+    EXPECT_EQ(shown_by(doubt.remedy), Field::zone);
+    press(doubt);
+    EXPECT_EQ(document.display.field, Field::zone);
+    model.apply(Undo{}); // of the display
+    model.apply(Undo{});
+    EXPECT_TRUE(of(ChainStep::unfold).empty()) << all();
+}
+
+TEST_F(Lights, WhatIsOutOfDateIsNotReady)
+{
+    open();
+    confirm_sheet();
+    run(Stage::solve);
+    EXPECT_EQ(readiness(state).text, "Ready");
+    model.apply(SetThickness{0.7});
+    EXPECT_FALSE(readiness(state).fine);
+    EXPECT_THAT(readiness(state).text, HasSubstr("Out of date from the step Unfold on"));
+    EXPECT_THAT(readiness(state).text, HasSubstr("F5"));
+    EXPECT_TRUE(of(ChainStep::unfold).empty());
+}
+
+TEST_F(Lights, AllShortcomingsOfTheEngineAreAmongThem)
+{
+    open();
+    model.apply(SetThickness{30}); // plate
+    run();
+    EXPECT_THAT(all(), HasSubstr("is 30 mm thick: is that in mm?"));
+    ASSERT_FALSE(of(ChainStep::sheet).empty());
+}
+
+TEST_F(Lights, APartOfUnlikelySizeIsReadInAnotherUnitByAClick)
+{
+    TriMesh metres = shapes::rectangle(0.3, 0.2, 6, 4);
+    shapes::write_mesh(folder / "metres.obj", metres);
+    model.apply(OpenPart{folder / "metres.obj", ""});
+    wait();
+    ASSERT_EQ(of(ChainStep::part).size(), 1u) << all();
+    press(of(ChainStep::part)[0]);
+    EXPECT_EQ(document.session.part->unit, LengthUnit::m);
+    EXPECT_TRUE(of(ChainStep::part).empty()) << all();
+}
+
+TEST_F(Lights, AFoldedSurfaceIsAmberHoweverNearItIs)
+{
+    open();
+    confirm_sheet();
+    model.apply(SetFit{{.tolerance = usual_tolerance}});
+    run();
+    ASSERT_TRUE(document.session.surface);
+    EXPECT_TRUE(of(ChainStep::surface).empty()) << all();
+    Document folded = document;
+    auto surface = std::make_shared<SurfaceStage>(*document.session.surface);
+    surface->certificate.patch.at(0).refusal = Refusal{Refusal::Why::folded, {0.3, 0.5, {1, 2, 3}}};
+    folded.session.surface = surface;
+    folded.session.deformed = nullptr;
+    const auto says = [](const std::vector<Doubt>& doubts, const char* words) {
+        return std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) {
+            return doubt.step == ChainStep::surface && doubt.text.find(words) != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(says(find_doubts(folded), "it folds at u = 0.3"));
+    surface->certificate.patch.at(0).refusal = Refusal{Refusal::Why::vanishes, {0, 1, {1, 2, 3}}};
+    EXPECT_FALSE(says(find_doubts(folded), "fold")) << "at a corner on a smooth outline it has no angle";
+    surface->deviation.normal.turned = 0.02;
+    EXPECT_TRUE(says(find_doubts(folded), "on 2.0 % of it its normal looks the other way"));
+}
+
+TEST_F(Lights, ABlankThatHasNotConvergedSaysWhyAndWhatNext)
+{
+    open();
+    confirm_sheet();
+    run(Stage::solve);
+    Document poor = document;
+    auto flat = std::make_shared<FlattenResult>(*document.session.blank);
+    flat->report.converged = false;
+    flat->report.system = SolvedSystem::energy;
+    flat->report.reason = "the residual does not go down";
+    poor.session.blank = flat;
+    const auto doubts = find_doubts(poor);
+    const auto found =
+        std::find_if(doubts.begin(), doubts.end(), [](const Doubt& doubt) { return doubt.step == ChainStep::unfold; });
+    ASSERT_NE(found, doubts.end());
+    EXPECT_EQ(found->text, "The residual does not go down.");
+    EXPECT_THAT(found->next, HasSubstr("another stamping direction"));
+}
+
+} // namespace
+} // namespace spia::viewer

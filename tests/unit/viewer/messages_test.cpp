@@ -1,0 +1,133 @@
+#include "app/viewer/model/message.h"
+
+#include <fstream>
+#include <gmock/gmock.h>
+
+#include "tests/unit/exchange/sample_decks.h"
+#include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/viewer/model_fixture.h"
+
+using testing::HasSubstr;
+
+namespace spia::viewer {
+namespace {
+
+struct Messages : ModelFixture {
+    ScratchFolder folder;
+
+    bool shows(const std::string& text) const
+    {
+        return std::any_of(state.messages.begin(), state.messages.end(),
+                           [&](const Message& m) { return m.shown() && m.text.find(text) != std::string::npos; });
+    }
+    int shown() const
+    {
+        return int(
+            std::count_if(state.messages.begin(), state.messages.end(), [](const Message& m) { return m.shown(); }));
+    }
+    void run(Stage stage)
+    {
+        model.apply(RunTo{stage});
+        wait();
+    }
+};
+
+TEST_F(Messages, ARefusalGoesWithTheNextChangeAndDoesNotComeBack)
+{
+    open();
+    model.apply(RemoveRegion{7});
+    EXPECT_TRUE(shows("There is no region 8"));
+    model.apply(FitView{View::part}); // no change of the document
+    EXPECT_TRUE(shows("There is no region 8"));
+    model.apply(SelectFaces{{1, 2}, PickMode::replace});
+    EXPECT_FALSE(shows("There is no region 8"));
+    model.apply(Undo{});
+    EXPECT_FALSE(shows("There is no region 8"));
+}
+
+TEST_F(Messages, UpToDateIsNotSaidOfWhatWasChangedSince)
+{
+    open();
+    run(Stage::solve);
+    model.apply(RunTo{Stage::solve});
+    EXPECT_TRUE(shows("Everything is up to date"));
+    model.apply(SetThickness{0.8});
+    EXPECT_FALSE(shows("Everything is up to date"));
+}
+
+TEST_F(Messages, WarningsOfARunGoWithItsResultsAndComeBackWithThem)
+{
+    open();
+    model.apply(SetThickness{30});
+    run(Stage::solve);
+    const char* plate = "30 mm thick: is that in mm?";
+    EXPECT_TRUE(shows(plate));
+    model.apply(SelectFaces{{1, 2}, PickMode::replace}); // another matter
+    EXPECT_TRUE(shows(plate));
+    model.apply(Undo{});
+    model.apply(Undo{}); // the run
+    EXPECT_FALSE(document.session.blank);
+    EXPECT_FALSE(shows(plate));
+    model.apply(Redo{});
+    EXPECT_TRUE(document.session.blank);
+    EXPECT_TRUE(shows(plate));
+    model.apply(SetThickness{1});
+    run(Stage::solve);
+    EXPECT_FALSE(shows(plate));
+}
+
+TEST_F(Messages, OfAnotherPartAreGone)
+{
+    open();
+    model.apply(SetThickness{30});
+    run(Stage::solve);
+    open("fender.obj");
+    EXPECT_FALSE(shows("30 mm thick"));
+}
+
+TEST_F(Messages, WhatWasDoneOnOpeningIsOneLineThatUnfolds)
+{
+    std::ofstream(folder / "strip.k") << sample::dyna();
+    model.apply(OpenPart{folder / "strip.k", "", {.parts = {"7"}}});
+    wait();
+    ASSERT_TRUE(document.session.part);
+    const Message* opened = nullptr;
+    for (const Message& message : state.messages)
+        if (message.text.find("Opened strip.k") == 0)
+            opened = &message;
+    ASSERT_TRUE(opened);
+    EXPECT_EQ(shown(), 1);
+    EXPECT_EQ(opened->severity, Severity::hint);
+    ASSERT_GT(opened->details.size(), 1u);
+    EXPECT_THAT(opened->text, HasSubstr(fmt::format("{} things were done", opened->details.size())));
+    EXPECT_THAT(opened->details[0], HasSubstr("1.25 mm thick as in the file"));
+    EXPECT_EQ(opened_message("a.obj", {"One thing."}).text, "Opened a.obj. One thing.");
+    EXPECT_TRUE(opened_message("a.obj", {"One thing."}).details.empty());
+}
+
+TEST_F(Messages, OfAChangeGoWhenItIsUndone)
+{
+    History history;
+    Document now;
+    const int before = history.now();
+    history.remember("a", now);
+    const int after_a = history.now();
+    history.remember("b", now, true);
+    const int begun = history.now();
+    history.remember("b", now, true); // the same drag
+    EXPECT_TRUE(history.has(before) && history.has(after_a) && history.has(history.now()));
+    EXPECT_FALSE(history.has(begun)) << "on the way of a drag";
+    history.undo(now);
+    EXPECT_EQ(history.now(), after_a);
+    history.undo(now);
+    EXPECT_EQ(history.now(), before);
+    EXPECT_FALSE(history.has(after_a));
+    history.redo(now);
+    EXPECT_EQ(history.now(), after_a);
+    EXPECT_TRUE(history.has(before));
+    history.forget_last();
+    EXPECT_EQ(history.now(), before);
+}
+
+} // namespace
+} // namespace spia::viewer
