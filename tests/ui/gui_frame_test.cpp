@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 #include <stdexcept>
 
+#include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -101,6 +102,35 @@ TEST_F(TypedNumber, IsTakenBackByEscape)
     EXPECT_FALSE(draw({GLFW_KEY_ESCAPE}));
     EXPECT_FALSE(draw());
     EXPECT_EQ(value, 1);
+}
+
+TEST_F(GuiFrame, ItsTextsAreReadOffWhatIsDrawn)
+{
+    ImVec2 at, button;
+    for (int k = 0; k < 3; ++k)
+        frame([&] {
+            at = ImGui::GetCursorScreenPos();
+            ImGui::TextUnformatted("two words, 12.5 %");
+            ImGui::SameLine(300);
+            ImGui::TextUnformatted("next column");
+            ImGui::Button("Press me");
+            button = ImGui::GetItemRectMin();
+            ImGui::ProgressBar(0.4f); // shapes are no letters
+            ImGui::PushClipRect({0, 0}, {1, 1}, false);
+            ImGui::GetWindowDrawList()->AddText({20, 200}, IM_COL32_WHITE, "out of sight");
+            ImGui::PopClipRect();
+        });
+    const auto texts = texts_on_screen(*ImGui::GetDrawData());
+    std::vector<std::string> lines;
+    for (const ScreenText& text : texts)
+        lines.push_back(text.text);
+    EXPECT_EQ(lines, (std::vector<std::string>{"window", "two words, 12.5 %", "next column", "Press me", "40%"}));
+    ASSERT_EQ(texts.size(), 5);
+    EXPECT_NEAR(texts[1].at.x, at.x, 1);
+    EXPECT_NEAR(texts[1].at.y, at.y, 1);
+    EXPECT_NEAR(texts[1].size.x, ImGui::CalcTextSize("two words, 12.5 %").x, 1);
+    EXPECT_NEAR(texts[1].size.y, ImGui::GetFontSize(), 1);
+    EXPECT_GT(texts[3].at.x, button.x);
 }
 
 TEST_F(GuiFrame, AfterABrokenOneTheNextIsAsIfItHadNeverBeen)

@@ -1,11 +1,13 @@
 #include "tests/ui/viewer_process.h"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <sstream>
 #include <sys/wait.h>
 #include <thread>
@@ -110,12 +112,36 @@ OpenViewer::OpenViewer(fs::path folder, const std::vector<std::string>& argument
     xdotool(fmt::format("windowfocus --sync {}", window_)); // nobody else does without a window manager
 }
 
-OpenViewer::~OpenViewer()
+OpenViewer::~OpenViewer() { crash(); }
+
+std::string OpenViewer::title() const { return answer_of("xdotool getwindowname " + window_); }
+
+/// Which actions this test has pushed through the window: tests/structure/pushed_by_hand.sh looks whether any is missing.
+void OpenViewer::note_pushed() const
 {
+    const Json now = report();
+    if (now.is_null() || !now["window"].contains("pushed"))
+        return;
+    const fs::path folder = fs::current_path() / "ui" / "pushed";
+    fs::create_directories(folder);
+    std::string name = "test";
+    if (const auto* test = testing::UnitTest::GetInstance()->current_test_info())
+        name = std::string(test->test_suite_name()) + "." + test->name();
+    std::replace(name.begin(), name.end(), '/', '-');
+    std::ofstream file(folder / (name + ".txt"), std::ios::app);
+    for (const Json& action : now["window"]["pushed"])
+        file << action.get<std::string>() << '\n';
+}
+
+void OpenViewer::crash()
+{
+    if (process_ > 0)
+        note_pushed();
     if (process_ > 0) {
         kill(process_, SIGKILL);
         waitpid(process_, nullptr, 0);
     }
+    process_ = -1;
 }
 
 Json OpenViewer::report() const { return report_in(folder_); }
@@ -148,6 +174,16 @@ void OpenViewer::xdotool(const std::string& arguments) const
 }
 
 void OpenViewer::keys(const std::string& combination) { xdotool("key " + combination); }
+
+void OpenViewer::type(const std::string& text)
+{
+    std::string quoted; // for the shell
+    for (const char c : text)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    xdotool("type --delay 5 -- '" + quoted + "'");
+}
+
+void OpenViewer::rest() const { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
 
 void OpenViewer::hold(const std::string& key) { xdotool("keydown " + key); }
 void OpenViewer::let_go(const std::string& key) { xdotool("keyup " + key); }
@@ -213,6 +249,7 @@ int OpenViewer::wait_for_end()
         breathe();
     }
     process_ = -1;
+    note_pushed();
     return exit_code(status);
 }
 

@@ -37,6 +37,8 @@ public:
     Json report() const; ///< the newest; null if there is none yet
 
     void keys(const std::string& combination); ///< as xdotool names them, e.g. "ctrl+z"
+    void type(const std::string& text);        ///< letter by letter
+    void rest() const;                         ///< a moment, in which the window draws what a key did
     void hold(const std::string& key);         ///< until let_go()
     void let_go(const std::string& key);
     Json move(double x, double y); ///< of the window; waits until the program has seen it there
@@ -49,10 +51,14 @@ public:
     Json drag(double from_x, double from_y, double to_x, double to_y, int button = 1);
     void wheel(int notches); ///< above 0 towards the part
     void resize(int width, int height);
-    int wait_for_end(); ///< @returns exit code
+    int wait_for_end();                                          ///< @returns exit code
+    void crash();                                                ///< it is ended without a chance to do anything
+    std::string title() const;                                   ///< of the window
+    unsigned long window() const { return std::stoul(window_); } ///< of X
 
 private:
     void xdotool(const std::string& arguments) const;
+    void note_pushed() const;
     Json button_is(int button, bool down);
     int process_ = -1;
     std::filesystem::path folder_;
