@@ -5,6 +5,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <thread>
 
 #include "app/viewer/model/script.h"
 #include "engine/exchange/write_step.h"
@@ -283,8 +284,10 @@ TEST_P(KeyboardByHandOnScreens, TheSameWithoutTheMouse)
     start();
     hands->keys("ctrl+o");
     hands->see("Open a part");
-    while (!hands->sees_chosen("channel.step")) // beside folders
+    for (int rows = 0; rows < 5 && !hands->sees_chosen("channel.step"); ++rows) { // beside folders
         hands->keys("Down");
+        std::this_thread::sleep_for(std::chrono::seconds(1)); // nobody presses keys faster than the list follows
+    }
     hands->keys("Return");
     hands->see("Import a part");
     hands->keys("Return");
