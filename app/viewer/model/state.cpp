@@ -85,11 +85,11 @@ const PlannedStep* step_shown(const ViewerState& state)
 
 std::string window_title(const ViewerState& state)
 {
-    const std::filesystem::path& about = state.project.empty() ? state.document.session.file : state.project;
-    if (about.empty())
+    const Session& session = state.document.session;
+    if (state.project.empty() && !session.part) // a file that is being read may be refused
         return "SPIA";
-    const bool refused = !state.document.session.part && !state.job.running;
-    return about.stem().string() + (state.unsaved ? "*" : "") + (refused ? " (refused) - SPIA" : " - SPIA");
+    const std::filesystem::path& about = state.project.empty() ? session.file : state.project;
+    return about.stem().string() + (state.unsaved ? "*" : "") + " - SPIA";
 }
 
 } // namespace spia::viewer

@@ -156,7 +156,8 @@ bool is_old(const ViewerState& state, View view);
 /// Of a view, for people.
 const char* title(View view);
 
-/// Of the project, else of the part; with a star where something is not saved, and a word where the part was refused.
+/// Of the project, else of the part that is there, never of a file that is being read or was refused; with a star where something
+/// is not saved.
 std::string window_title(const ViewerState& state);
 
 } // namespace spia::viewer

@@ -49,7 +49,7 @@ TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
     ASSERT_NE(state.refused, nullptr);
     EXPECT_EQ(errors(), 1);
     EXPECT_EQ(state_report(state)["doctor"]["refused"], true);
-    EXPECT_EQ(window_title(state), "two (refused) - SPIA");
+    EXPECT_EQ(window_title(state), "SPIA");
 
     SceneCache cache;
     const Scene shown = scene(View::part, state, cache);
