@@ -102,6 +102,7 @@ FormingLimitCurve curve_through(const std::vector<double>& minor, const std::vec
                         minor.size(), major.size()));
     FormingLimitCurve curve;
     curve.formula = fmt::format("{} points of {}", minor.size(), name);
+    curve.measured = true;
     for (size_t i = 0; i < minor.size(); ++i) {
         const auto fail = [&](const std::string& what) {
             throw InputError(fmt::format("{}, point {} of the forming limit curve ({:.4g}, {:.4g}): {}", name, i + 1,

@@ -14,6 +14,7 @@ struct FormingLimitCurve {
     std::vector<double> minor, major; ///< logarithmic; minor rising; straight between the points
     std::string formula;              ///< how it came about, in words
     std::vector<std::string> notes;   ///< where it is not to be trusted, in words
+    bool measured = false;            ///< through points, not by a formula
 
     /// Limit of the logarithmic major strain. Outside the points the first and last line are prolonged, within 0 to 5.
     double operator()(double minor_strain) const;

@@ -250,22 +250,31 @@ PieceLimits limits_of(const TailoredPiece& piece, int faces, const Material& bas
     return limits;
 }
 
-/// Counts the faces beyond the ends of their curves, and says so where they are many: prolonged lines are not measured.
+/// Counts the faces beyond the ends of their curves; says so of measured ones where they are many: prolonged lines are not measured.
 void count_beyond(const SheetFields& face, const std::vector<Judge>& judges, const std::vector<int>& judge_of,
-                  bool by_points, LimitsResult& out)
+                  LimitsResult& out)
 {
     constexpr double many = 0.05;
+    int measured = 0, beyond = 0;   // faces that points judge, and those of them beyond the ends
+    double least = 0, greatest = 0; // minor strains of all these
     for (size_t f = 0; f < judge_of.size(); ++f)
         if (const FormingLimitCurve* curve = judges[size_t(judge_of[f])].curve) {
             const double minor = face.strain_minor[Eigen::Index(f)];
-            out.beyond_curve += minor < curve->minor.front() || minor > curve->minor.back();
+            const bool outside = minor < curve->minor.front() || minor > curve->minor.back();
+            out.beyond_curve += outside;
+            if (!curve->measured)
+                continue;
+            least = measured == 0 ? minor : std::min(least, minor);
+            greatest = measured == 0 ? minor : std::max(greatest, minor);
+            beyond += outside;
+            ++measured;
         }
-    const double share = double(out.beyond_curve) / double(std::max<size_t>(judge_of.size(), 1));
-    if (by_points && share > many)
+    const double share = double(beyond) / std::max(measured, 1);
+    if (share > many)
         out.notes.push_back(fmt::format(
             "{} faces ({:.0f} %) have minor strains beyond the ends of the forming limit curve, which is prolonged "
             "straight to there: give points from {:.2f} to {:.2f}",
-            out.beyond_curve, 100 * share, face.strain_minor.minCoeff(), face.strain_minor.maxCoeff()));
+            beyond, 100 * share, least, greatest));
 }
 
 } // namespace
@@ -346,10 +355,7 @@ LimitsResult forming_limits(const TriMesh& part, const SheetFields& face, const 
     for (const PieceLimits& piece : out.pieces)
         judges.push_back({curve_of(piece), piece.margin});
     out.zones = judged(part, face, judges, sheet, out.settings);
-    using Source = LimitsOptions::Source;
-    const bool by_points =
-        options.source == Source::points || (options.source == Source::automatic && !material.limit.minor.empty());
-    count_beyond(face, judges, sheet, by_points, out);
+    count_beyond(face, judges, sheet, out);
     return out;
 }
 

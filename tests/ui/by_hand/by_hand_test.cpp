@@ -157,6 +157,12 @@ protected:
         hands = std::make_unique<Hands>(folder, arguments);
         hands->size(screen.width, screen.height);
     }
+    /// @returns the report when the part is there
+    Json start_with(const std::string& part)
+    {
+        start({part});
+        return hands->see_that("the part", [](const Json& now) { return now["stages"]["read"] == true; });
+    }
     void choose_theme()
     {
         if (hands->viewer().report()["view"]["dark"] != screen.dark)
@@ -379,8 +385,7 @@ TEST_F(ByHand, AFileThatIsDroppedOpens)
 
 TEST_F(ByHand, WhatIsTypedIntoNoFieldChangesNothing)
 {
-    start({"assets/parts/dome.obj"});
-    const Json before = hands->see_that("the part", [](const Json& r) { return r["stages"]["read"] == true; });
+    const Json before = start_with("assets/parts/dome.obj");
     hands->type("bracket-v2.step");
     hands->keys("F1"); // whatever was typed has been taken when its window comes
     const Json now = hands->see("Keyboard and mouse");
@@ -398,8 +403,7 @@ TEST_F(ByHand, WhatIsTypedIntoNoFieldChangesNothing)
 TEST_F(ByHand, AnotherFileWhileThereIsUnsavedWork)
 {
     Channel::write(folder / "channel.step");
-    start({"assets/parts/dome.obj"});
-    hands->see_that("the part", [](const Json& r) { return r["stages"]["read"] == true; });
+    start_with("assets/parts/dome.obj");
     hands->keys("F6");
     hands->see_that("the blank",
                     [](const Json& r) { return r["stages"]["solve"] == true && r["project"]["unsaved"] == true; });
@@ -419,8 +423,7 @@ TEST_F(ByHand, AnotherFileWhileThereIsUnsavedWork)
 TEST_F(ByHand, ARefusedFileSaysWhyAndGivesTheWindowNoName)
 {
     std::ofstream(folder / "torn.stl") << "solid torn\n facet normal 0 0 1\n  outer loop\n   vertex 0 0";
-    start({"assets/parts/dome.obj"});
-    hands->see_that("the part", [](const Json& r) { return r["stages"]["read"] == true; });
+    start_with("assets/parts/dome.obj");
     hands->keys("ctrl+o");
     hands->see("Open a part");
     hands->type((folder / "torn.stl").string());
@@ -439,8 +442,7 @@ TEST_F(ByHand, ARefusedFileSaysWhyAndGivesTheWindowNoName)
 
 TEST_F(ByHand, EscapeCancels)
 {
-    start({"assets/parts/inner-panel.obj"});
-    hands->see_that("the part", [](const Json& r) { return r["stages"]["read"] == true; });
+    start_with("assets/parts/inner-panel.obj");
     hands->keys("F5");
     hands->keys("Escape");
     hands->see_part_of_line("ancelled");
@@ -452,8 +454,7 @@ TEST_F(ByHand, EscapeCancels)
 TEST_F(ByHand, AfterACrashBothDialogsCome)
 {
     Channel::write(folder / "channel.step");
-    start({"assets/parts/dome.obj"});
-    hands->see_that("the part", [](const Json& r) { return r["stages"]["read"] == true; });
+    start_with("assets/parts/dome.obj");
     hands->keys("F6");
     hands->see_that("the blank", [](const Json& r) { return r["stages"]["solve"] == true; });
     hands->viewer().wait("work that is kept, which is done every 30 s",

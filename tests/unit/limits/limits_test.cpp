@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "engine/core/error.h"
+#include "engine/forming/material_check.h"
 
 namespace spia {
 namespace {
@@ -334,6 +335,77 @@ TEST(FormingLimits, OfTwoPiecesTheLaterCountsAndEachHasItsOwnNote)
     EXPECT_EQ(told.zones.distance[2], found.zones.distance[2]);
     EXPECT_THROW(forming_limits(part, face, steel(), 1, {}, std::array{TailoredPiece{"x", {6}, steel(), 1}}),
                  InputError);
+}
+
+TEST(FormingLimits, WhatAGradeBringsCountsUnlessItIsChosenOtherwise)
+{
+    const TriMesh part = row_of(1);
+    const SheetFields face = fields_of({{0.1, 0}});
+    Material grade = aluminium_of(2700);
+    grade.limit.minor = {-0.2, 0, 0.2};
+    grade.limit.major = {0.4, 0.25, 0.35};
+    const LimitsResult by_points = forming_limits(part, face, grade, 1);
+    ASSERT_TRUE(by_points.curve) << "also for a metal that no formula is made for";
+    EXPECT_NEAR(engineering_strain(by_points.curve->at_plane_strain()), 0.25, 1e-12);
+    EXPECT_NEAR(engineering_strain((*by_points.curve)(logarithmic_strain(-0.2))), 0.4, 1e-12);
+    LimitsOptions options;
+    options.source = LimitsOptions::Source::keeler_brazier;
+    EXPECT_FALSE(forming_limits(part, face, grade, 1, options).curve->measured) << "asked for the formula";
+    options.source = LimitsOptions::Source::none;
+    EXPECT_FALSE(forming_limits(part, face, grade, 1, options).curve);
+
+    Material with_n = steel();
+    with_n.limit.n = 0.1;
+    EXPECT_NEAR(engineering_strain(forming_limits(part, face, with_n, 1).curve->at_plane_strain()), 0.3743 * 0.1 / 0.21,
+                1e-9);
+    options = {};
+    options.n = 0.15;
+    EXPECT_NEAR(engineering_strain(forming_limits(part, face, with_n, 1, options).curve->at_plane_strain()),
+                0.3743 * 0.15 / 0.21, 1e-9)
+        << "what is given for this part goes before the grade";
+}
+
+TEST(FormingLimits, FacesBeyondMeasuredPointsAreToldOfEachSheetByItsOwnCurve)
+{
+    const TriMesh part = row_of(6);
+    const SheetFields far = fields_of(std::vector<std::pair<double, double>>(6, {0.5, -0.4}));
+    Material measured = soft_steel();
+    measured.limit.minor = {-0.1, 0.1};
+    measured.limit.major = {0.4, 0.4};
+    const auto told = [&](const Material& base, const Material& piece) {
+        const std::array pieces{TailoredPiece{"piece", {0, 1}, piece, 1}};
+        const LimitsResult found = forming_limits(part, far, base, 1, {}, pieces);
+        std::string note;
+        for (const std::string& each : found.notes)
+            if (each.find("beyond the ends") != std::string::npos)
+                note = each;
+        return note;
+    };
+    EXPECT_EQ(told(steel(), steel()), "") << "a formula is no measurement";
+    EXPECT_THAT(told(steel(), measured), HasSubstr("2 faces (100 %)"));
+    EXPECT_THAT(told(measured, steel()), HasSubstr("4 faces (100 %)"));
+    EXPECT_THAT(told(measured, measured), HasSubstr("6 faces (100 %)"));
+}
+
+TEST(FormingLimits, EveryGradeWithoutFaultsHasACurveThatCanBeDrawn)
+{
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> strain(-1.2, 3.5), rising(-1.2, 2.5);
+    int sound = 0;
+    for (int k = 0; k < 20000; ++k) {
+        Material grade = steel();
+        for (int i = 0; i < 2 + k % 3; ++i) {
+            grade.limit.minor.push_back(rising(random));
+            grade.limit.major.push_back(strain(random));
+        }
+        if (k % 2)
+            std::sort(grade.limit.minor.begin(), grade.limit.minor.end());
+        if (!faults_of(grade).empty())
+            continue;
+        ++sound;
+        EXPECT_NO_THROW(curve_through(grade.limit.minor, grade.limit.major, true, "lot"));
+    }
+    EXPECT_GT(sound, 100) << "or this shows little";
 }
 
 TEST(FormingLimits, MetalsAreToldApartByDensityAndModulus)
