@@ -168,7 +168,9 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.left_work.reset();
     aside.sample = false;
     aside.show_export = aside.show_picture = aside.show_report = aside.show_material = aside.materials.appears =
-        aside.show_shortcuts = false;
+        aside.show_shortcuts = aside.show_preferences =
+            false;
+    aside.dialogs = {};
     std::array<Renderer::Image, 4> images;
     std::vector<Renderer::Image> steps;
     Renderer::Image beside;
@@ -217,6 +219,7 @@ std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& mode
                                                "Quad mesh on the part: scaled Jacobian of the cells in the plane",
                                                "NURBS surface with its control net: distance from the part"};
     ViewerState shown = options.standard_look ? standard_look(model.state()) : model.state();
+    shown.preferences.lengths = options.lengths;
     const Session& session = shown.document.session;
     std::vector<TitledPicture> pictures;
     for (const View view : all_views) {

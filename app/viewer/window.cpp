@@ -15,6 +15,7 @@
 #include "app/viewer/gl_window.h"
 #include "app/viewer/model/file_writer.h"
 #include "app/viewer/model/frame_times.h"
+#include "app/viewer/model/grades.h"
 #include "app/viewer/model/html_report.h"
 #include "app/viewer/model/kept_work.h"
 #include "app/viewer/model/members.h"
@@ -44,7 +45,8 @@ public:
         : options_(options), window_(options.width, options.height, true), gui_(window_.get()),
           model_(options.assets, [] { glfwPostEmptyEvent(); })
     {
-        ui_.scale = window_.content_scale();
+        take_preferences();
+        ui_.scale = wanted_scale();
         ui_.fonts = load_fonts(ui_.scale);
         if (!ui_.fonts.missing.empty())
             model_.say(Severity::warning,
@@ -55,9 +57,6 @@ public:
             for (int k = 0; k < count; ++k)
                 static_cast<Program*>(glfwGetWindowUserPointer(window))->open(paths[k], "");
         });
-        ViewSettings settings = model_.state().view;
-        settings.dark = !options.light;
-        model_.apply(SetViewSettings{settings});
         if (!options.script.empty())
             script_ = ScriptPlayer(parse_script(options.script));
         begin();
@@ -67,7 +66,8 @@ public:
     {
         int settle = 3;
         while (!quit_) {
-            const bool moves = !script_.ended() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
+            const bool moves =
+                !script_.ended() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
             if (options_.follow && !moves)
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
@@ -117,6 +117,54 @@ public:
     }
 
 private:
+    /// Those of the user; a script begins with the standard ones, so that it does the same everywhere.
+    void take_preferences()
+    {
+        if (options_.script.empty()) {
+            KeptPreferences kept = read_preferences();
+            if (!kept.preferences.material.empty() &&
+                !grade_called(*model_.state().grades, kept.preferences.material)) {
+                kept.left_out.push_back(fmt::format("A preference was left out: there is no grade \"{}\" any more.",
+                                                    kept.preferences.material));
+                kept.preferences.material.clear();
+            }
+            left_out_ = std::move(kept.left_out);
+            model_.apply(SetPreferences{kept.preferences});
+        }
+        kept_preferences_ = model_.state().preferences;
+        if (options_.light) { // this time
+            ViewSettings settings = model_.state().view;
+            settings.dark = false;
+            model_.apply(SetViewSettings{settings});
+            forced_light_ = true;
+        }
+    }
+
+    /// What was changed of them, in their dialog or by a key, is kept at once.
+    void follow_preferences()
+    {
+        if (!model_.busy()) // else the part that is being opened would take the messages away
+            for (std::string& text : std::exchange(left_out_, {}))
+                model_.say(Severity::warning, std::move(text));
+        Preferences now = model_.state().preferences;
+        forced_light_ &= !now.dark;
+        if (forced_light_)
+            now.dark = kept_preferences_.dark;
+        if (now == kept_preferences_ || !options_.script.empty())
+            return;
+        kept_preferences_ = now;
+        try {
+            keep_preferences(now);
+        } catch (const std::exception& error) {
+            model_.say(Severity::warning, fmt::format("The preferences are not kept: {}.", error.what()));
+        }
+    }
+
+    float wanted_scale() const
+    {
+        return window_.content_scale() * float(model_.state().preferences.interface_percent) / 100;
+    }
+
     /// Something that no action has caught, say a picture that cannot be drawn: the work is kept for the next start, and
     /// the program goes on unless it happens again and again.
     void frame_failed(std::string text)
@@ -189,7 +237,7 @@ private:
         follow_files();
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
-        if (const float scale = window_.content_scale(); scale != ui_.scale) { // on another screen
+        if (const float scale = wanted_scale(); scale != ui_.scale) { // on another screen, or preferred
             ui_.scale = scale;
             ImGui::GetIO().Fonts->Clear();
             ui_.fonts = load_fonts(scale);
@@ -282,6 +330,7 @@ private:
         if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown())
             model_.gesture_ended();
         follow_part();
+        follow_preferences();
         follow_answer();
     }
 
@@ -514,6 +563,9 @@ private:
     std::vector<ScreenText> texts_;               ///< of the last frame, with --follow
     std::optional<std::array<ImVec2, 2>> marked_; ///< likewise
     std::set<std::string, std::less<>> pushed_;   ///< names of the actions so far, with --follow
+    Preferences kept_preferences_;                ///< in their file
+    std::vector<std::string> left_out_;           ///< of the preferences, still to be said
+    bool forced_light_ = false;                   ///< by the command line, not by the user's choice
     size_t actions_done_ = 0;
     int idle_frames_ = 0, failed_frames_ = 0, exit_code_ = 0;
     bool quit_ = false, opening_sample_ = false;

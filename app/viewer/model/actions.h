@@ -358,6 +358,11 @@ struct SetDisplay {
 struct SetViewSettings {
     ViewSettings view;
 }; ///< "set_view": no matter of undo
+/// "set_preferences": dark, interface_percent (75 to 200), lengths ("mm", "inch"), material (empty: none is chosen), thickness_mm, map
+/// and tolerance_mm (null: none is chosen); parts that are opened from then on begin with them. No matter of undo.
+struct SetPreferences {
+    Preferences preferences;
+};
 struct FitView {
     std::optional<View> view;
 }; ///< "fit_view"; not given: all
@@ -413,17 +418,19 @@ struct Screenshot {
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
-using Action = std::variant<
-    ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob, SetMaterial,
-    FitMaterial, SaveMaterial, RemoveMaterial, SetThickness, SetSkins, SetDirection, SetCorner, ProposeCorners, SetGrid,
-    SetFit, SetPatches, AddCut, RemoveCut, SetLattice, PickHandle, SelectHandles, MoveHandles, ResetHandles,
-    OpenDeformation, SaveDeformation, SetLimits, ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep,
-    ChangeStep, SetTargetPlane, SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush,
-    SelectVertices, PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
-    MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
-    SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
-    SetViewSettings, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault, KeepReference, DropReference, Undo,
-    Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot, DismissMessages, Quit>;
+using Action =
+    std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
+                 SetMaterial, FitMaterial, SaveMaterial, RemoveMaterial, SetThickness, SetSkins, SetDirection,
+                 SetCorner, ProposeCorners, SetGrid, SetFit, SetPatches, AddCut, RemoveCut, SetLattice, PickHandle,
+                 SelectHandles, MoveHandles, ResetHandles, OpenDeformation, SaveDeformation, SetLimits, ProposeSteps,
+                 RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying,
+                 RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
+                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
+                 ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
+                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
+                 SetViewSettings, SetPreferences, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
+                 KeepReference, DropReference, Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport,
+                 Screenshot, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

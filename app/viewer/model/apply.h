@@ -149,7 +149,10 @@ struct ViewerModel::Apply {
 
     // --- looking
     void operator()(const SetDisplay& action);
-    void operator()(const SetViewSettings& action) { state.view = action.view; }
+    void operator()(const SetViewSettings& action);
+    void operator()(const SetPreferences& action);
+    /// What the preferences have chosen, where no file of a part says otherwise.
+    void begin_as_preferred(Document& fresh) const;
     void operator()(const FitView& action) { model.fitter_.fit(state, action.view); }
     void operator()(const LookFrom& action);
     void operator()(const FlyTo& action);

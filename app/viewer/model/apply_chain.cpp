@@ -80,6 +80,7 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     fresh.session.options.flatten.thickness = session.options.flatten.thickness;
     fresh.session.options.interpolate = session.options.interpolate;
     set_fit(fresh.session.options, fit_choice(session.options));
+    begin_as_preferred(fresh);
     if (!action.unit.empty())
         fresh.session.options.read.unit = length_unit(action.unit);
     set_reading(fresh.session.options.read, action.reading);

@@ -16,9 +16,16 @@ void ViewerModel::Apply::operator()(const SetDisplay& action)
     document.display.per_face |= action.display.field == Field::zone; // nothing lies between two zones
 }
 
+void ViewerModel::Apply::operator()(const SetViewSettings& action)
+{
+    if (action.view.dark != state.view.dark) // a theme that is chosen stays chosen
+        state.preferences.dark = action.view.dark;
+    state.view = action.view;
+}
+
 void ViewerModel::Apply::operator()(const KeepReference& action)
 {
-    state.reference = std::make_shared<const Reference>(reference_of(document, action.name));
+    state.reference = std::make_shared<const Reference>(reference_of(document, action.name, state.preferences.lengths));
     model.say(Severity::done, fmt::format("Kept as reference: {}.", state.reference->name));
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/viewer/model/apply.h"
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/lengths.h"
 #include "engine/mesh/region.h"
 
 namespace spia::viewer {
@@ -237,8 +238,8 @@ TargetPlane ViewerModel::Apply::plane_before(size_t step, const std::vector<int>
     const TriMesh now{unfolded_places(document, double(known)), part().mesh.triangle};
     const PlaneThrough through = plane_through(now, faces);
     model.say(Severity::hint,
-              fmt::format("The target is the plane through {} faces, which are up to {:.3g} mm from it.", faces.size(),
-                          through.distance_mm));
+              fmt::format("The target is the plane through {} faces, which are up to {} from it.", faces.size(),
+                          length_text(through.distance_mm, state.preferences.lengths, 3)));
     return through.plane;
 }
 

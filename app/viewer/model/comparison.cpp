@@ -10,6 +10,7 @@
 #include "app/viewer/model/chain.h"
 #include "app/viewer/model/figures.h"
 #include "app/viewer/model/flat_mesh.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/viewer_model.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
@@ -78,14 +79,14 @@ std::optional<double> at_risk(const std::shared_ptr<const LimitsResult>& limits)
 
 } // namespace
 
-Reference reference_of(const Document& document, std::string name)
+Reference reference_of(const Document& document, std::string name, LengthUnit lengths)
 {
     const Session& session = document.session;
     if (!session.part || !session.blank)
         throw InputError("There is no result to be kept as reference: unfold the part first.");
     const FlattenOptions& made = document.made_with.flatten;
     if (name.empty())
-        name = fmt::format("{}, {:.4g} mm, {}", made.material.name, made.thickness, time_of_day());
+        name = fmt::format("{}, {}, {}", made.material.name, thickness_text(made.thickness, lengths), time_of_day());
     return {std::move(name), session.part, session.blank, session.limits};
 }
 
@@ -156,6 +157,19 @@ std::vector<ComparedFigure> compared_figures(const Reference& reference, const S
             {"Greatest equivalent strain", "", a.strain_equivalent, b.strain_equivalent, 4},
             {"Faces cracked or at risk", "", at_risk(reference.limits), at_risk(now.limits), 0},
             {"Time to solve", "s", reference.blank->report.seconds, now.blank->report.seconds, 2}};
+}
+
+ComparedFigure in_unit(ComparedFigure figure, LengthUnit lengths)
+{
+    const ShownUnit as = as_shown(figure.unit, lengths);
+    if (as.unit == figure.unit)
+        return figure;
+    for (auto* value : {&figure.reference, &figure.now})
+        if (*value)
+            **value *= as.factor;
+    figure.decimals += figure.unit == "mm" ? more_decimals(lengths) : more_decimals(lengths) + 1; // of areas
+    figure.unit = as.unit;
+    return figure;
 }
 
 void ViewerModel::follow_reference()

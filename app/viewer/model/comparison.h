@@ -19,7 +19,7 @@ struct Reference {
 
 /// @param name  empty: material, thickness and the time of day
 /// @throws InputError if there is no blank
-Reference reference_of(const Document& document, std::string name);
+Reference reference_of(const Document& document, std::string name, LengthUnit lengths = LengthUnit::mm);
 
 /// What the present blank differs by from a reference.
 struct Differences {
@@ -52,6 +52,8 @@ struct ComparedFigure {
     std::optional<double> reference, now;
     int decimals = 1;
 };
+/// The same where lengths are shown otherwise, with decimals that are as fine.
+ComparedFigure in_unit(ComparedFigure figure, LengthUnit lengths);
 std::vector<ComparedFigure> compared_figures(const Reference& reference, const Session& now);
 
 /// The least turn and shift that lays points onto others of the same number, by least squares. 2 by n, mm

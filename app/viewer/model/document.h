@@ -61,11 +61,14 @@ struct FieldDisplay {
 
 /// Who says what the sheet is.
 enum class SheetSource {
-    assumed, ///< nobody: the program took something
-    before,  ///< it was that of another part
-    file,    ///< the file of the part
-    chosen   ///< the user
+    assumed,   ///< nobody: the program took something
+    before,    ///< it was that of another part
+    file,      ///< the file of the part
+    chosen,    ///< the user
+    preference ///< the user, for all parts whose file does not say it
 };
+/// Whether somebody says it.
+inline bool is_given(SheetSource from) { return from != SheetSource::assumed && from != SheetSource::before; }
 
 /// What the user made: everything that undo brings back and a project file keeps. A copy is cheap, results are shared.
 struct Document {

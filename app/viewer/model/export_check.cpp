@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/viewer/model/lengths.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -31,23 +32,22 @@ FitVerdict fit_verdict(const Session& session, double tolerance)
     return verdict;
 }
 
-std::string text(const FitVerdict& verdict, double tolerance)
+std::string text(const FitVerdict& verdict, double tolerance, LengthUnit lengths)
 {
     if (verdict.fit == Fit::none)
         return "There is no surface yet: IGES, STEP and isogeometric files are left out.";
+    const auto length = [&](double mm) { return length_text(mm, lengths, 3); };
     if (verdict.fit == Fit::within)
-        return fmt::format("The surface is within {:.3g} mm of the part (95 % of it within {:.3g} mm).",
-                           verdict.greatest, verdict.p95);
+        return fmt::format("The surface is within {} of the part (95 % of it within {}).", length(verdict.greatest),
+                           length(verdict.p95));
     const std::string share = verdict.share < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100 * verdict.share);
     if (verdict.fit == Fit::beyond)
-        return fmt::format(
-            "The surface leaves the part by up to {:.3g} mm: {} of the part is farther away than {:.3g} mm. "
-            "A finer grid brings it closer.",
-            verdict.greatest, share, tolerance);
-    return fmt::format(
-        "The surface leaves the part by up to {:.3g} mm, {:.0f} times the tolerance: {} of the part is "
-        "farther away than {:.3g} mm. Look at the corners, the grid and the deviation before you export it.",
-        verdict.greatest, verdict.greatest / tolerance, share, tolerance);
+        return fmt::format("The surface leaves the part by up to {}: {} of the part is farther away than {}. "
+                           "A finer grid brings it closer.",
+                           length(verdict.greatest), share, length(tolerance));
+    return fmt::format("The surface leaves the part by up to {}, {:.0f} times the tolerance: {} of the part is "
+                       "farther away than {}. Look at the corners, the grid and the deviation before you export it.",
+                       length(verdict.greatest), verdict.greatest / tolerance, share, length(tolerance));
 }
 
 } // namespace spia::viewer

@@ -23,6 +23,7 @@ struct FitVerdict {
 FitVerdict fit_verdict(const Session& session, double tolerance);
 
 /// In words, for the user.
-std::string text(const FitVerdict& verdict, double tolerance);
+/// @param tolerance  mm; @param lengths  in which distances are told
+std::string text(const FitVerdict& verdict, double tolerance, LengthUnit lengths = LengthUnit::mm);
 
 } // namespace spia::viewer

@@ -67,21 +67,22 @@ void write_html_report(const std::filesystem::path& file, const Session& session
     const Json figures = parse_json(report_json(session, {}, 0), "figures");
     const std::string name = session.file.filename().string();
     const ReportTables& wanted = options.tables;
-    std::string html = header(session, options.title) + remarks_html(options.remarks) + tiles(session, figures) +
-                       all_notes(session, notes);
+    std::string html = header(session, options.title) + remarks_html(options.remarks) +
+                       tiles(session, figures, options.lengths) + all_notes(session, notes);
     if (wanted.key_figures)
-        html += key_figures(session, figures);
+        html += key_figures(session, figures, options.lengths);
     if (wanted.worst_spots)
-        html += thinnest_places(session) + limits_section(session);
+        html += thinnest_places(session, options.lengths) + limits_section(session, options.lengths);
     if (wanted.assumptions)
-        html += assumptions(session);
+        html += assumptions(session, options.lengths);
     if (wanted.solver)
         html += solving(session);
     if (wanted.repairs)
         html += repairs(*session.part);
     html += pictures_html(pictures);
-    html += fmt::format("<footer>Made by {} from {}. Lengths in mm, stresses in MPa, strains logarithmic.</footer>\n",
-                        escaped(program_name()), escaped(session.file.string()));
+    html += fmt::format("<footer>Made by {} from {}. Lengths in {}, stresses in MPa, strains logarithmic.</footer>\n",
+                        escaped(program_name()), escaped(session.file.string()),
+                        options.lengths == LengthUnit::inch ? "inch" : "mm");
     write_atomically(file, html_page("Unfolding report: " + (options.title.empty() ? name : options.title), html));
 }
 

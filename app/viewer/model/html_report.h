@@ -14,7 +14,7 @@ struct ReportPicture {
 };
 
 /// Writes one HTML file that needs no other, for the screen and for A4 paper: what makes the result poorer, key figures,
-/// places of the greatest thinning, assumptions, how the solver got there, pictures. All lengths in mm.
+/// places of the greatest thinning, assumptions, how the solver got there, pictures. Lengths in mm or inch.
 /// @param pictures  those of options.pictures, drawn by the caller
 /// @param notes  what else the reader should know, in words
 /// @throws InputError  if the part is not solved, or a picture is no PNG

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/number_text.h"
 #include "app/viewer/model/state.h"
 #include "app/viewer/model/viewer_words.h"
@@ -30,30 +31,29 @@ std::string grade(const Document& document)
     return (named.extension() == ".json" ? named.stem() : named.filename()).string();
 }
 
-void judge_sheet(const Document& document, std::vector<Doubt>& doubts)
+void judge_sheet(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
 {
-    const auto given = [](SheetSource from) { return from == SheetSource::file || from == SheetSource::chosen; };
-    if (!document.session.part || (given(document.thickness_from) && given(document.material_from)))
+    if (!document.session.part || (is_given(document.thickness_from) && is_given(document.material_from)))
         return;
     const double thickness = document.session.options.flatten.thickness;
     const std::string& called = document.session.part->material;
     const std::string file_says = called.empty() ? "" : fmt::format(" The file calls the material \"{}\".", called);
-    const std::string mm = fmt::format("{:.6g} mm", thickness);
+    const std::string thick = thickness_text(thickness, lengths);
     Doubt doubt{ChainStep::sheet, {}};
-    if (!given(document.thickness_from)) {
+    if (!is_given(document.thickness_from)) {
         doubt.text = document.thickness_from == SheetSource::before
-                         ? fmt::format("{} is the thickness of the part before; this file gives none.", mm)
-                         : fmt::format("{} thickness is assumed: the file gives none.", mm);
+                         ? fmt::format("{} is the thickness of the part before; this file gives none.", thick)
+                         : fmt::format("{} thickness is assumed: the file gives none.", thick);
     }
-    if (!given(document.material_from)) {
+    if (!is_given(document.material_from)) {
         doubt.text +=
             fmt::format("{}{} is assumed as the grade.{}", doubt.text.empty() ? "" : " ", grade(document), file_says);
     }
     doubt.next = "Choose them here, or confirm.";
-    const bool neither = !given(document.thickness_from) && !given(document.material_from);
-    doubt.button = neither                         ? fmt::format("{} of {} is right", mm, grade(document))
-                   : given(document.material_from) ? mm + " is right"
-                                                   : grade(document) + " is right";
+    const bool neither = !is_given(document.thickness_from) && !is_given(document.material_from);
+    doubt.button = neither                            ? fmt::format("{} of {} is right", thick, grade(document))
+                   : is_given(document.material_from) ? thick + " is right"
+                                                      : grade(document) + " is right";
     doubt.remedy = Remedy::confirm_sheet;
     doubts.push_back(std::move(doubt));
 }
@@ -94,7 +94,7 @@ void add_shortcomings(ChainStep step, const Session& upto, const Document& docum
         }
 }
 
-void judge_size(const Document& document, std::vector<Doubt>& doubts)
+void judge_size(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
 {
     const PartFile& part = *document.session.part;
     const double diagonal = bounding_diagonal(part.mesh);
@@ -103,7 +103,7 @@ void judge_size(const Document& document, std::vector<Doubt>& doubts)
     if (const auto unit = likelier_unit(part, diagonal))
         doubts.push_back(
             {ChainStep::part,
-             fmt::format("The part is {} mm across, which is unlikely for a sheet part.", plain_number(diagonal)),
+             fmt::format("The part is {} across, which is unlikely for a sheet part.", plain_length(diagonal, lengths)),
              "Is the unit of the file another one?", fmt::format("Read it in {}", name(*unit)),
              Remedy::read_in_other_unit});
 }
@@ -146,7 +146,7 @@ void judge_cells(const Document& document, std::vector<Doubt>& doubts)
     doubts.push_back(std::move(doubt));
 }
 
-void judge_distance(const Document& document, std::vector<Doubt>& doubts)
+void judge_distance(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
 {
     const SurfaceStage& surface = *document.session.surface;
     if (surface.fit) // the engine says whether that is reached
@@ -155,9 +155,10 @@ void judge_distance(const Document& document, std::vector<Doubt>& doubts)
     if (off <= usual_tolerance)
         return;
     doubts.push_back({ChainStep::surface,
-                      fmt::format("The surface leaves the part by up to {} mm; {:.3g} mm is usual.", plain_number(off),
-                                  usual_tolerance),
-                      "", fmt::format("Fit it within {:.3g} mm", usual_tolerance), Remedy::fit_within_tolerance});
+                      fmt::format("The surface leaves the part by up to {}; {} is usual.", plain_length(off, lengths),
+                                  length_text(usual_tolerance, lengths, 3)),
+                      "", fmt::format("Fit it within {}", length_text(usual_tolerance, lengths, 3)),
+                      Remedy::fit_within_tolerance});
 }
 
 /// Whether the normal only vanishes at a corner: on a smooth outline the grid has no angle there, which CAD does not mind.
@@ -219,13 +220,22 @@ std::string poor_step(const Document& document)
 
 } // namespace
 
-DoubtsOf doubts_of(const Document& document)
+DoubtsOf doubts_of(const Document& document, LengthUnit lengths)
 {
     const Session& session = document.session;
-    return {session.part,           session.blank,           session.limits,
-            session.grid,           session.surface,         session.deformed,
-            document.unfolding,     document.material,       session.options.flatten.thickness,
-            document.material_from, document.thickness_from, first_stale(document)};
+    return {session.part,
+            session.blank,
+            session.limits,
+            session.grid,
+            session.surface,
+            session.deformed,
+            document.unfolding,
+            document.material,
+            session.options.flatten.thickness,
+            document.material_from,
+            document.thickness_from,
+            first_stale(document),
+            lengths};
 }
 
 int finer_cells(const GridOptions& grid)
@@ -249,7 +259,7 @@ std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
     return std::nullopt;
 }
 
-std::vector<Doubt> find_doubts(const Document& document)
+std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
 {
     std::vector<Doubt> doubts;
     const Session made = as_made(document);
@@ -262,8 +272,8 @@ std::vector<Doubt> find_doubts(const Document& document)
     upto.options = made.options;
     upto.part = made.part;
     add_shortcomings(ChainStep::part, upto, document, known, doubts);
-    judge_size(document, doubts);
-    judge_sheet(document, doubts);
+    judge_size(document, lengths, doubts);
+    judge_sheet(document, lengths, doubts);
     if (made.blank && holds(Stage::solve)) {
         upto.blank = made.blank;
         add_shortcomings(ChainStep::unfold, upto, document, known, doubts);
@@ -278,7 +288,7 @@ std::vector<Doubt> find_doubts(const Document& document)
         upto.surface = made.surface;
         upto.deformed = made.deformed;
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);
-        judge_distance(document, doubts);
+        judge_distance(document, lengths, doubts);
         judge_folds(document, doubts);
     }
     std::stable_sort(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) { return a.step < b.step; });

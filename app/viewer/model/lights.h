@@ -43,15 +43,17 @@ struct DoubtsOf {
     double thickness = 0;
     SheetSource material_from = SheetSource::assumed, thickness_from = SheetSource::assumed;
     std::optional<Stage> stale;
+    LengthUnit lengths = LengthUnit::mm; ///< in which they are told
 
     friend bool operator==(const DoubtsOf&, const DoubtsOf&) = default;
 };
-DoubtsOf doubts_of(const Document& document);
+DoubtsOf doubts_of(const Document& document, LengthUnit lengths);
 
 /// Of the results that there are, in the order of the steps. Those of a stage that is out of date are left out: its light says so.
 /// The engine's shortcomings() are all among them; besides, what only judges: an assumed sheet, a surface out of tolerance or with a fold,
 /// a sheet that cracks.
-std::vector<Doubt> find_doubts(const Document& document);
+/// @param lengths  in which they are told; the engine tells its own in mm
+std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths = LengthUnit::mm);
 
 /// How far a surface may be from the part where no tolerance was asked for, mm: what CAD of sheet parts is usually held to.
 inline constexpr double usual_tolerance = 0.1;

@@ -54,11 +54,15 @@ inline constexpr auto members_of<ReportTables> =
                member("assumptions", &ReportTables::assumptions), member("solver", &ReportTables::solver),
                member("repairs", &ReportTables::repairs)};
 
+inline constexpr auto mm_or_inch = [](LengthUnit unit, const Place& place) {
+    if (unit != LengthUnit::mm && unit != LengthUnit::inch)
+        place.fail("must be \"mm\" or \"inch\"");
+};
 template <>
 inline constexpr auto members_of<ReportOptions> =
-    std::tuple{member("title", &ReportOptions::title), member("remarks", &ReportOptions::remarks),
+    std::tuple{member("title", &ReportOptions::title),       member("remarks", &ReportOptions::remarks),
                member("pictures", &ReportOptions::pictures), member("standard_look", &ReportOptions::standard_look),
-               member("tables", &ReportOptions::tables)};
+               member("tables", &ReportOptions::tables),     member("lengths", &ReportOptions::lengths, mm_or_inch)};
 
 inline constexpr auto is_path = [](const std::vector<std::vector<int>>& path, const Place& place) {
     for (size_t i = 0; i < path.size(); ++i)
@@ -266,6 +270,17 @@ inline constexpr auto members_of<ViewSettings> =
                member("unfolded", &ViewSettings::unfolded, Between{0, 1e6}),
                member("step", &ViewSettings::step, any_index),
                member("field_on_steps", &ViewSettings::field_on_steps)};
+
+template <>
+inline constexpr auto members_of<Preferences> =
+    std::tuple{member("dark", &Preferences::dark),
+               member("interface_percent", &Preferences::interface_percent,
+                      Between{least_interface_percent, most_interface_percent}),
+               member("lengths", &Preferences::lengths, mm_or_inch),
+               member("material", &Preferences::material),
+               member("thickness_mm", &Preferences::thickness_mm, Between{1e-6, 1e3}),
+               member("map", &Preferences::map),
+               member("tolerance_mm", &Preferences::tolerance_mm, Between{1e-9, most_mm})};
 
 /// Takes over what `wanted` has otherwise than `seen`: two changes of different members made at the same time, each from
 /// what was seen then, both count.

@@ -124,7 +124,8 @@ inline constexpr std::array names_of<ChainStep>{
 template <>
 inline constexpr std::array names_of<SheetSource>{
     Names<SheetSource>{SheetSource::assumed, "assumed"}, Names<SheetSource>{SheetSource::before, "before"},
-    Names<SheetSource>{SheetSource::file, "file"}, Names<SheetSource>{SheetSource::chosen, "chosen"}};
+    Names<SheetSource>{SheetSource::file, "file"}, Names<SheetSource>{SheetSource::chosen, "chosen"},
+    Names<SheetSource>{SheetSource::preference, "preference"}};
 template <>
 inline constexpr std::array names_of<Severity>{
     Names<Severity>{Severity::hint, "hint"}, Names<Severity>{Severity::done, "done"},

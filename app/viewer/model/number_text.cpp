@@ -15,12 +15,13 @@ std::string figure_text(double value, int decimals, bool sign)
 
 std::string plain_number(double value)
 {
+    constexpr double rounding = 1e-9; // 1 less a rounding error has the digits of 1
     const double size = std::abs(value);
     if (value == 0)
         return "0";
     if (size < 1e-4 || size >= 1e6)
         return fmt::format("{:.2e}", value);
-    return fmt::format("{:.{}f}", value, std::clamp(2 - int(std::floor(std::log10(size))), 0, 6));
+    return fmt::format("{:.{}f}", value, std::clamp(2 - int(std::floor(std::log10(size) + rounding)), 0, 6));
 }
 
 std::string percent_range(const std::array<double, 2>& share)

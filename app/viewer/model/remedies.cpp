@@ -14,10 +14,9 @@ SetGrid with(GridOptions grid, GridMethod method)
 std::vector<Action> confirmed(const Document& document)
 {
     std::vector<Action> actions;
-    const auto given = [](SheetSource from) { return from == SheetSource::file || from == SheetSource::chosen; };
-    if (!given(document.thickness_from))
+    if (!is_given(document.thickness_from))
         actions.push_back(SetThickness{document.session.options.flatten.thickness});
-    if (!given(document.material_from))
+    if (!is_given(document.material_from))
         actions.push_back(SetMaterial{document.material});
     return actions;
 }

@@ -5,6 +5,7 @@
 
 #include "app/viewer/model/face_values.h"
 #include "app/viewer/model/html_text.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/svg_chart.h"
 #include "app/viewer/model/zone_look.h"
 #include "engine/exchange/text_encoding.h"
@@ -72,7 +73,7 @@ std::string zone_table(const LimitsResult& limits)
                        rows);
 }
 
-std::string spot_table(const LimitsResult& limits, const PartFile& part)
+std::string spot_table(const LimitsResult& limits, const PartFile& part, LengthUnit lengths)
 {
     constexpr size_t most = 10;
     const auto& spots = limits.zones.spots;
@@ -80,26 +81,28 @@ std::string spot_table(const LimitsResult& limits, const PartFile& part)
     for (size_t i = 0; i < std::min(spots.size(), most); ++i) {
         const WorstSpot& spot = spots[i];
         const auto margin = margin_of(limits, spot.face);
+        const Eigen::Vector3d at = spot.position / millimetres(lengths);
+        const int decimals = 1 + more_decimals(lengths);
         rows +=
             fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}, {}, {}</td>"
                         "<td>{}</td></tr>\n",
                         zone_words(spot.zone), margin ? fixed(100 * *margin, 1) : "\u2013", fixed(spot.strain_major, 3),
-                        fixed(spot.strain_minor, 3), fixed(100 * spot.thinning, 1), fixed(spot.position[0], 1),
-                        fixed(spot.position[1], 1), fixed(spot.position[2], 1), part.source_face[size_t(spot.face)]);
+                        fixed(spot.strain_minor, 3), fixed(100 * spot.thinning, 1), fixed(at[0], decimals),
+                        fixed(at[1], decimals), fixed(at[2], decimals), part.source_face[size_t(spot.face)]);
     }
     if (rows.empty())
         return "";
     return fmt::format(
         "<table class=\"spots\"><tr><th>Worst spot</th><th>Margin, points</th><th>Major strain</th>"
-        "<th>Minor strain</th><th>Thinning, %</th><th>At x, y, z, mm</th><th>Face of the file</th></tr>\n"
+        "<th>Minor strain</th><th>Thinning, %</th><th>At x, y, z, {}</th><th>Face of the file</th></tr>\n"
         "{}</table>\n<p>Margin: percentage points of engineering major strain that are left up to the forming limit curve, "
         "below 0 beyond it. Thinning: below 0 the sheet became thicker.</p>\n",
-        rows);
+        length_word(lengths), rows);
 }
 
 } // namespace
 
-std::string limits_section(const Session& session)
+std::string limits_section(const Session& session, LengthUnit lengths)
 {
     if (!session.limits)
         return "";
@@ -109,7 +112,7 @@ std::string limits_section(const Session& session)
     text += fmt::format("<p>{}.</p>\n", limits.curve ? escaped(limits.curve->formula) : "No forming limit curve");
     for (const std::string& note : limits.notes)
         text += fmt::format("<p class=\"note plain\">{}</p>\n", escaped(note));
-    return text + zone_table(limits) + spot_table(limits, *session.part) + "</section>\n";
+    return text + zone_table(limits) + spot_table(limits, *session.part, lengths) + "</section>\n";
 }
 
 } // namespace spia::viewer

@@ -20,6 +20,7 @@ struct ReportOptions {
     std::vector<View> pictures{std::begin(all_views), std::end(all_views)}; ///< what there is no result for is left out
     bool standard_look = true; ///< of the pictures; else the views as they are
     ReportTables tables;
+    LengthUnit lengths = LengthUnit::mm; ///< mm or inch
 
     friend bool operator==(const ReportOptions&, const ReportOptions&) = default;
 };

@@ -6,6 +6,7 @@
 
 #include "app/viewer/model/face_values.h"
 #include "app/viewer/model/html_text.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/svg_chart.h"
 #include "engine/exchange/text_encoding.h"
 #include "engine/pipeline/certificate_report.h"
@@ -17,6 +18,27 @@ Eigen::Vector2d blank_size(const FlattenResult& flat)
 {
     return flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
 }
+
+/// Numbers of lengths, areas and thicknesses in the unit that the reader wants.
+struct InUnit {
+    LengthUnit unit;
+    std::string_view word = length_word(unit);
+    std::string fine(double mm, int decimals) const
+    {
+        return fixed(shown_length(mm, unit), decimals + more_decimals(unit));
+    }
+    std::string round(double mm, int decimals = 0) const
+    {
+        return grouped(shown_length(mm, unit), decimals + more_decimals(unit));
+    }
+    std::string figure(double mm) const { return significant(shown_length(mm, unit)); }
+    std::string area(double mm2) const
+    {
+        const ShownUnit as = as_shown("mm\u00b2", unit);
+        return fmt::format("{} {}", grouped(as.factor * mm2, more_decimals(unit)), as.unit);
+    }
+    std::string text(double mm) const { return fmt::format("{} {}", figure(mm), word); }
+};
 
 /// As HTML.
 std::string law(const Hardening& hardening)
@@ -121,23 +143,24 @@ std::string residual_chart(const SolveReport& report)
 
 } // namespace
 
-std::string tiles(const Session& session, const Json& figures)
+std::string tiles(const Session& session, const Json& figures, LengthUnit lengths)
 {
     const FlattenResult& flat = *session.blank;
     const Eigen::Vector2d size = blank_size(flat);
+    const InUnit in{lengths};
+    const std::string unit(in.word);
     std::string text = "<section class=\"tiles\">\n";
-    text += tile("Blank", fmt::format("{} \u00d7 {}", grouped(size[0]), grouped(size[1])), "mm",
-                 fmt::format("area {} mm\u00b2", grouped(figures["blank"]["area_mm2"].get<double>())));
+    text += tile("Blank", fmt::format("{} \u00d7 {}", in.round(size[0]), in.round(size[1])), unit,
+                 "area " + in.area(figures["blank"]["area_mm2"].get<double>()));
     text += tile("Greatest thinning", fixed(100 * flat.face.thinning.maxCoeff(), 1), "%",
                  fmt::format("least {} %", fixed(100 * flat.face.thinning.minCoeff(), 1)));
-    text += tile(
-        "Thickness",
-        fmt::format("{} \u2013 {}", fixed(flat.face.thickness.minCoeff(), 2), fixed(flat.face.thickness.maxCoeff(), 2)),
-        "mm", fmt::format("sheet {} mm", significant(session.options.flatten.thickness)));
-    text += session.surface
-                ? tile("Largest deviation", significant(session.surface->deviation.max()), "mm",
-                       fmt::format("RMS {} mm", significant(figures["surface"]["deviation_rms_mm"].get<double>())))
-                : tile("Largest deviation", "\u2013", "", "no surface was made");
+    text += tile("Thickness",
+                 fmt::format("{} \u2013 {}", in.fine(flat.face.thickness.minCoeff(), 2),
+                             in.fine(flat.face.thickness.maxCoeff(), 2)),
+                 unit, "sheet " + in.text(session.options.flatten.thickness));
+    text += session.surface ? tile("Largest deviation", in.figure(session.surface->deviation.max()), unit,
+                                   "RMS " + in.text(figures["surface"]["deviation_rms_mm"].get<double>()))
+                            : tile("Largest deviation", "\u2013", "", "no surface was made");
     return text + "</section>\n";
 }
 
@@ -159,22 +182,23 @@ std::string fitness(const Certificate& certificate)
                        at + 1, significant(angle * 180 / std::numbers::pi));
 }
 
-std::string key_figures(const Session& session, const Json& figures)
+std::string key_figures(const Session& session, const Json& figures, LengthUnit lengths)
 {
     const FlattenResult& flat = *session.blank;
     const Json& blank = figures["blank"];
     const Eigen::Vector2d size = blank_size(flat);
+    const InUnit in{lengths};
     const int loops = figures["part"]["boundary_loops"].get<int>();
-    std::string rows = row("Part", fmt::format("{} mm\u00b2, {}", grouped(figures["part"]["area_mm2"].get<double>()),
+    std::string rows = row("Part", fmt::format("{}, {}", in.area(figures["part"]["area_mm2"].get<double>()),
                                                loops == 1   ? "no holes"
                                                : loops == 2 ? "one hole"
                                                             : fmt::format("{} holes", loops - 1)));
-    rows += row("Blank", fmt::format("{} \u00d7 {} mm, area {} mm\u00b2, outline {} mm long", grouped(size[0], 1),
-                                     grouped(size[1], 1), grouped(blank["area_mm2"].get<double>()),
-                                     grouped(blank["perimeter_mm"].get<double>(), 1)));
-    rows += row("Thickness",
-                fmt::format("{} to {} mm, from a sheet of {} mm", fixed(flat.face.thickness.minCoeff(), 3),
-                            fixed(flat.face.thickness.maxCoeff(), 3), significant(session.options.flatten.thickness)));
+    rows += row("Blank", fmt::format("{0} \u00d7 {1} {2}, area {3}, outline {4} {2} long", in.round(size[0], 1),
+                                     in.round(size[1], 1), in.word, in.area(blank["area_mm2"].get<double>()),
+                                     in.round(blank["perimeter_mm"].get<double>(), 1)));
+    rows += row("Thickness", fmt::format("{} to {} {}, from a sheet of {}", in.fine(flat.face.thickness.minCoeff(), 3),
+                                         in.fine(flat.face.thickness.maxCoeff(), 3), in.word,
+                                         in.text(session.options.flatten.thickness)));
     rows +=
         row("Thinning", fmt::format("{} % to {} % (negative: thicker)", fixed(100 * flat.face.thinning.minCoeff(), 1),
                                     fixed(100 * flat.face.thinning.maxCoeff(), 1)));
@@ -201,10 +225,9 @@ std::string key_figures(const Session& session, const Json& figures)
                                   shared_controls(patches->patches).count)
                     : fmt::format("{} \u00d7 {} control points", surface["control_points_u"].get<int>(),
                                   surface["control_points_v"].get<int>()));
-        rows += row("Surface deviation",
-                    fmt::format("at most {} mm, 95 % below {} mm, RMS {} mm", significant(deviation.max()),
-                                significant(surface["deviation_p95_mm"].get<double>()),
-                                significant(surface["deviation_rms_mm"].get<double>())));
+        rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(deviation.max()),
+                                                     in.text(surface["deviation_p95_mm"].get<double>()),
+                                                     in.text(surface["deviation_rms_mm"].get<double>())));
         const Json& certificate = figures["certificate"];
         if (patches)
             rows += row("Fitness for analysis", fitness(session.surface->certificate));
@@ -219,7 +242,7 @@ std::string key_figures(const Session& session, const Json& figures)
                                         significant(patch["scaled_jacobian_mean"].get<double>())));
         if (const auto& fit = session.surface->fit)
             rows += row("Tolerance of the surface",
-                        fmt::format("{} mm, {} in {} rounds; {} % of the area within it", significant(fit->tolerance),
+                        fmt::format("{}, {} in {} rounds; {} % of the area within it", in.text(fit->tolerance),
                                     fit->reached ? "met" : "not met", fit->rounds, fixed(100 * deviation.within(), 2)));
         constexpr double degrees = 180 / std::numbers::pi;
         if (!patches)
@@ -233,9 +256,10 @@ std::string key_figures(const Session& session, const Json& figures)
     return facts("Key figures", rows);
 }
 
-std::string thinnest_places(const Session& session)
+std::string thinnest_places(const Session& session, LengthUnit lengths)
 {
     const SheetFields& face = session.blank->face;
+    const InUnit in{lengths};
     std::string rows;
     int rank = 0;
     const TriMesh& mesh = session.part->mesh;
@@ -243,22 +267,22 @@ std::string thinnest_places(const Session& session)
     for (const int f : worst_faces(mesh, face_values(session, Field::thinning), Field::thinning, most)) {
         const Eigen::Vector3d at = mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
         rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                            ++rank, fixed(100 * face.thinning[f], 1), fixed(face.thickness[f], 3),
+                            ++rank, fixed(100 * face.thinning[f], 1), in.fine(face.thickness[f], 3),
                             fixed(face.strain_major[f], 3), fixed(face.strain_minor[f], 3),
-                            fmt::format("{}, {}, {}", fixed(at[0], 1), fixed(at[1], 1), fixed(at[2], 1)),
+                            fmt::format("{}, {}, {}", in.fine(at[0], 1), in.fine(at[1], 1), in.fine(at[2], 1)),
                             session.part->source_face[size_t(f)]);
     }
     if (rows.empty())
         return "";
     return fmt::format(
         "<section class=\"whole\"><h2>Where the sheet thins most</h2>\n<table class=\"spots\"><tr><th>Spot</th><th>Thinning, %</th>"
-        "<th>Thickness, mm</th><th>Major strain</th><th>Minor strain</th><th>At x, y, z, mm</th>"
-        "<th>Face of the file</th></tr>\n{}</table></section>\n",
-        rows);
+        "<th>Thickness, {1}</th><th>Major strain</th><th>Minor strain</th><th>At x, y, z, {1}</th>"
+        "<th>Face of the file</th></tr>\n{0}</table></section>\n",
+        rows, in.word);
 }
 
 /// What the tools were taken to do, one row a condition.
-std::string process_rows(const ProcessConditions& process)
+std::string process_rows(const ProcessConditions& process, const InUnit& in)
 {
     std::string rows;
     for (const ContactRegion& c : process.contact)
@@ -276,12 +300,12 @@ std::string process_rows(const ProcessConditions& process)
     for (const Pilot& pilot : process.pilots)
         rows += row("Pilot: " + pilot.name, pilot.line.size() == 1 ? "a point is held" : "a curve is held");
     for (const TailoredPiece& piece : process.tailored)
-        rows += row("Tailored piece: " + piece.name, fmt::format("{}, {} mm, {} faces", piece.material.name,
-                                                                 significant(piece.thickness), piece.faces.size()));
+        rows += row("Tailored piece: " + piece.name,
+                    fmt::format("{}, {}, {} faces", piece.material.name, in.text(piece.thickness), piece.faces.size()));
     return rows;
 }
 
-std::string assumptions(const Session& session)
+std::string assumptions(const Session& session, LengthUnit lengths)
 {
     const FlattenOptions& options = session.options.flatten;
     const Material& material = options.material;
@@ -297,13 +321,14 @@ std::string assumptions(const Session& session)
                                       options.process.rolling
                                           ? "rolling direction " + vector(*options.process.rolling)
                                           : fmt::format("their mean {:.3g} is used", material.normal_anisotropy())));
-    rows += row("Sheet thickness", significant(options.thickness) + " mm");
+    const InUnit in{lengths};
+    rows += row("Sheet thickness", in.text(options.thickness));
     rows += row("Stamping direction",
                 vector(session.blank->stamping.direction) + (session.options.steps && !session.options.steps->polish
                                                                  ? ", square to the plane of the blank"
                                                              : options.direction ? ", as given"
                                                                                  : ", found automatically"));
-    rows += process_rows(options.process);
+    rows += process_rows(options.process, in);
     rows += row("Trusted up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
                                              fixed(session.blank->report.trusted_strain, 2)));
     if (const auto& steps = session.options.steps)

@@ -4,16 +4,17 @@
 #include "engine/core/json_file.h"
 #include "engine/pipeline/session.h"
 
-/// The tables of a report on a part that is unfolded at least, as HTML; empty if there is nothing to say. Lengths in mm.
+/// The tables of a report on a part that is unfolded at least, as HTML; empty if there is nothing to say.
+/// `lengths`: mm or inch.
 namespace spia::viewer {
 
 /// The four great figures. @param figures report_json()
-std::string tiles(const Session& session, const Json& figures);
-std::string key_figures(const Session& session, const Json& figures);
+std::string tiles(const Session& session, const Json& figures, LengthUnit lengths = LengthUnit::mm);
+std::string key_figures(const Session& session, const Json& figures, LengthUnit lengths = LengthUnit::mm);
 /// Where the sheet thins most: the first five of worst_spots().
-std::string thinnest_places(const Session& session);
+std::string thinnest_places(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// What was taken for granted, asked for and given up: material, sheet, direction, friction, method, equations, repairs.
-std::string assumptions(const Session& session);
+std::string assumptions(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// How the solver got there, with its residuals and the hardening curve.
 std::string solving(const Session& session);
 /// The part as it was read.

@@ -47,6 +47,7 @@ struct ColourScale {
     int bands = 0;         ///< of one colour each; 0: smooth
     bool isolines = false; ///< a line at every tick of the legend
     int ticks = 10;        ///< intervals of the legend; with bands their number
+    double shown = 1;      ///< what is written beside the colours is so many times the value: 1/25.4 of lengths in inch
 };
 
 struct SceneLines {

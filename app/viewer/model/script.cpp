@@ -181,6 +181,7 @@ constexpr std::tuple forms{
     form<ClearSection>("clear_section"),
     form_of_inner("set_display", &SetDisplay::display),
     form_of_inner("set_view", &SetViewSettings::view),
+    form_of_inner("set_preferences", &SetPreferences::preferences),
     form<FitView>("fit_view", member("view", &FitView::view)),
     form<LookFrom>("look_from", member("view", &LookFrom::view), required("from", &LookFrom::from)),
     form<FlyTo>("fly_to", required("face", &FlyTo::face, any_index)),
@@ -237,6 +238,7 @@ template <class T> T before(const Json&, const ViewerState&) { return {}; }
 template <> SetGrid before(const Json&, const ViewerState& state) { return {state.document.session.options.grid}; }
 template <> SetDisplay before(const Json&, const ViewerState& state) { return {state.document.display}; }
 template <> SetViewSettings before(const Json&, const ViewerState& state) { return {state.view}; }
+template <> SetPreferences before(const Json&, const ViewerState& state) { return {state.preferences}; }
 template <> ChangeRegion before(const Json& json, const ViewerState& state)
 {
     const auto& regions = state.document.regions;

@@ -11,6 +11,7 @@
 #include "app/viewer/model/file_listing.h"
 #include "app/viewer/model/history.h"
 #include "app/viewer/model/message.h"
+#include "app/viewer/model/preferences.h"
 
 namespace spia::viewer {
 
@@ -122,6 +123,7 @@ struct ViewerState {
     Document document;
     History history;
     ViewSettings view;
+    Preferences preferences;
     JobView job;
     std::vector<Message> messages;
     std::shared_ptr<const std::vector<Doubt>>

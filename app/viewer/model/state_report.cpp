@@ -342,6 +342,7 @@ Json state_report(const ViewerState& state)
             {"display", written(document.display)},
             {"field", field_json(document, field)},
             {"view", written(state.view)},
+            {"preferences", written(state.preferences)},
             {"corners", corners_json(document.session)},
             {"history", {{"undo", state.history.undo_name()}, {"redo", state.history.redo_name()}}},
             {"messages", messages_json(state.messages)},

@@ -8,6 +8,7 @@
 #include "app/viewer/model/grades.h"
 #include "app/viewer/model/grid_advice.h"
 #include "app/viewer/model/handles.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
@@ -84,11 +85,12 @@ void ViewerModel::follow_messages()
 
 void ViewerModel::follow_doubts()
 {
-    DoubtsOf now = doubts_of(state_.document);
+    DoubtsOf now = doubts_of(state_.document, state_.preferences.lengths);
     if (state_.doubts && now == doubts_of_)
         return;
     doubts_of_ = std::move(now);
-    state_.doubts = std::make_shared<const std::vector<Doubt>>(find_doubts(state_.document));
+    state_.doubts =
+        std::make_shared<const std::vector<Doubt>>(find_doubts(state_.document, state_.preferences.lengths));
 }
 
 void ViewerModel::start(Stage from, Stage to, std::string title)
@@ -444,9 +446,9 @@ void ViewerModel::part_opened()
     std::vector<std::string> done;
     if (const auto found = part.thickness_mm; found && !project_) {
         if (*found != thickness)
-            done.push_back(fmt::format("The sheet is taken {:.6g} mm thick as in the file; another thickness can be "
+            done.push_back(fmt::format("The sheet is taken {} thick as in the file; another thickness can be "
                                        "given in the step Sheet.",
-                                       *found));
+                                       thickness_text(*found, state_.preferences.lengths)));
         thickness = *found;
         document.thickness_from = SheetSource::file;
     }
@@ -471,7 +473,9 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
         return;
     for (const std::string& lost : restore(document, project.picks, search)) // the rest of the project is sound
         say(Severity::warning, lost);
+    const bool dark = state_.view.dark; // of the one who opens it
     state_.view = project.view;
+    state_.view.dark = dark;
     steps_next_ = keep_step_ = project.steps_ran && !document.steps.empty();
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
     if (keep_cameras_ && project.blank_of_steps && steps_next_)

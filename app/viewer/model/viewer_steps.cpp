@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/model/viewer_words.h"
 
@@ -176,9 +177,9 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
                              100 * state.friction_share, state.reason));
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
-            warn(fmt::format(
-                "In the step \"{}\" {} reach beyond the end of the target, up to {:.4g} mm from what carries it.",
-                state.name, counted(size_t(state.reach.without_room), "face"), state.reach.farthest_mm));
+            warn(fmt::format("In the step \"{}\" {} reach beyond the end of the target, up to {} from what carries it.",
+                             state.name, counted(size_t(state.reach.without_room), "face"),
+                             length_text(state.reach.farthest_mm, state_.preferences.lengths)));
     if (const size_t count = last.given_up.size(); count > 0)
         say(Severity::hint,
             fmt::format("The step {}{}. The list shows the steps that were done.", last.given_up.front(),
@@ -210,8 +211,8 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
         warn(fmt::format("The blank lies on itself at {}.", counted(size_t(end.overlap.places), "place")));
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
-        fmt::format("Unfolded in {}: a blank of {:.4g} x {:.4g} mm.", counted(run.states.size(), "step"), size[0],
-                    size[1]),
+        fmt::format("Unfolded in {}: a blank of {}.", counted(run.states.size(), "step"),
+                    size_text(size[0], size[1], state_.preferences.lengths)),
         about_steps(state_));
 }
 

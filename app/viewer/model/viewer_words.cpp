@@ -1,6 +1,8 @@
 #include "app/viewer/model/viewer_words.h"
 
 #include <fmt/core.h>
+
+#include "app/viewer/model/lengths.h"
 #include <string_view>
 
 namespace spia::viewer {
@@ -40,7 +42,7 @@ std::string in_viewer_words(std::string text)
     return text;
 }
 
-std::string load_words(const FaceRegion& region)
+std::string load_words(const FaceRegion& region, LengthUnit lengths)
 {
     if (region.contact) {
         const ToolContact& contact = *region.contact;
@@ -50,8 +52,8 @@ std::string load_words(const FaceRegion& region)
                            contact.friction, region.kind == RegionKind::binder ? " on both sides" : "");
     }
     if (region.sheet)
-        return fmt::format("{}, {:.3g} mm", std::filesystem::path(region.sheet->material).filename().string(),
-                           region.sheet->thickness);
+        return fmt::format("{}, {}", std::filesystem::path(region.sheet->material).filename().string(),
+                           thickness_text(region.sheet->thickness, lengths));
     return "";
 }
 

@@ -12,6 +12,7 @@ std::string in_viewer_words(std::string text);
 std::string as_sentence(std::string text);
 
 /// What a region's tool or sheet is, with units: "120 kN, friction 0.12 on both sides"; empty: nothing.
-std::string load_words(const FaceRegion& region);
+/// @param lengths  in which its thickness is told
+std::string load_words(const FaceRegion& region, LengthUnit lengths = LengthUnit::mm);
 
 } // namespace spia::viewer

@@ -53,7 +53,7 @@ void table(Frame& frame)
             ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableHeadersRow();
         for (const ComparedFigure& figure : rows)
-            row(figure);
+            row(in_unit(figure, frame.lengths()));
         ImGui::EndTable();
     }
     ImGui::PopFont();
@@ -74,7 +74,7 @@ void field_switch(Frame& frame)
     if (!changed)
         return;
     display.range.reset(); // of other numbers
-    display.map.reset();
+    display.map = state.preferences.map;
     frame.actions.push(SetDisplay{display});
 }
 
@@ -101,7 +101,8 @@ void comparison_section(Frame& frame)
     else if (state.differences) {
         table(frame);
         if (state.differences->none_because.empty())
-            figure(frame, "Outlines apart by at most", fmt::format("{:.2f} mm", state.differences->outline_distance));
+            figure(frame, "Outlines apart by at most",
+                   fixed_length(state.differences->outline_distance, frame.lengths(), 2));
         else
             muted(frame, state.differences->none_because);
         field_switch(frame);

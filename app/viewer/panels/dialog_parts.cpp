@@ -30,10 +30,12 @@ bool begin_modal(const Frame& frame, const char* title, bool appears, ImGuiWindo
 
 bool begin_dialog(const Frame& frame, const char* title, bool appears, float width, bool urgent)
 {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float wide = std::min(width * frame.ui.scale, screen.x - 40);
-    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSizeConstraints({wide, 0}, {wide, screen.y - 20});
+    if (appears || frame.ui.dialogs.shows(title)) { // else it would be the place and size of the next window
+        const ImVec2 screen = ImGui::GetIO().DisplaySize;
+        const float wide = std::min(width * frame.ui.scale, screen.x - 40);
+        ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+        ImGui::SetNextWindowSizeConstraints({wide, 0}, {wide, screen.y - 20});
+    }
     if (!begin_modal(frame, title, appears, ImGuiWindowFlags_AlwaysAutoResize, nullptr, urgent))
         return false;
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of the window

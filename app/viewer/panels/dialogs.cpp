@@ -41,6 +41,7 @@ void shortcuts_window(Frame& frame)
             {"Ctrl + Z, Y", "undo, redo (also Ctrl + Shift + Z)"},
             {"I, +, -", "invert, grow, shrink the selection"},
             {"Ctrl + O, S, E, Q", "open, save, export, quit"},
+            {"Ctrl + comma", "preferences"},
             {"Esc", "close a menu or dialog; cancel the job; clear the selection"}};
         if (ImGui::BeginTable("keys", 2)) {
             for (const auto& row : rows) {
@@ -198,6 +199,7 @@ void dialogs(Frame& frame)
     report_dialog(frame);
     material_dialog(frame);
     material_editor(frame);
+    preferences_dialog(frame);
     follow_chosen_file(frame);
     if (frame.ui.dialogs.end_frame())
         close_dialogs();

@@ -185,10 +185,10 @@ void remeshing(Frame& frame, const PartFile* part)
         double size = done ? part->remeshed->size : before.size.value_or(0),
                tolerance = done ? part->remeshed->tolerance : before.tolerance.value_or(0);
         ImGui::SetNextItemWidth(100 * frame.ui.scale);
-        if (typed_number(frame, "Edges, mm", size, "%.4g"))
+        if (length_input(frame, "Edges", size))
             edited.size = size;
         ImGui::SetNextItemWidth(100 * frame.ui.scale);
-        if (typed_number(frame, "Tolerance, mm", tolerance, "%.3g"))
+        if (length_input(frame, "Tolerance", tolerance, {.mm = "%.3g", .inch = "%.3g"}))
             edited.tolerance = tolerance;
         if (edited != before)
             frame.actions.push(SetRemeshing{edited});
@@ -201,11 +201,12 @@ void deck_gauge(Frame& frame, const PartFile& part)
 {
     if (!part.thickness_mm)
         return;
-    muted(frame, fmt::format("The {} {:.4g} mm{}", part.solid ? "solid is" : "deck says", *part.thickness_mm,
+    muted(frame, fmt::format("The {} {}{}", part.solid ? "solid is" : "deck says",
+                             thickness_text(*part.thickness_mm, frame.lengths()),
                              part.material.empty() ? "" : fmt::format(" of \"{}\"", part.material)));
     if (*part.thickness_mm == frame.state.document.session.options.flatten.thickness || frame.model.busy())
         return;
-    if (small_button(frame, fmt::format("Use {:.4g} mm", *part.thickness_mm).c_str()))
+    if (small_button(frame, ("Use " + thickness_text(*part.thickness_mm, frame.lengths())).c_str()))
         frame.actions.push(SetThickness{*part.thickness_mm});
 }
 

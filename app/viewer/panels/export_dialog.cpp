@@ -54,7 +54,7 @@ void deviation_banner(const Frame& frame, const FitVerdict& verdict, double tole
                            : verdict.fit == Fit::within                     ? "The surface fits"
                            : loud                                           ? "The surface is far from the part"
                                                                             : "The surface leaves the tolerance";
-    const std::string words = text(verdict, tolerance) + besides;
+    const std::string words = text(verdict, tolerance, frame.lengths()) + besides;
     const float s = frame.ui.scale, pad = (loud ? 14 : verdict.fit == Fit::beyond ? 11 : 8) * s, bar = 5 * s;
     const float large = loud ? 1.35f : verdict.fit == Fit::beyond ? 1.15f : 1.f;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -291,7 +291,8 @@ void export_dialog(Frame& frame)
         ImGui::TextUnformatted("Tolerance");
         ImGui::SameLine(110 * s);
         ImGui::SetNextItemWidth(110 * s);
-        if (ImGui::InputDouble("mm##tolerance", &choices.tolerance, 0, 0, "%.4g"))
+        const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
+        if (length_inputs(frame, unit.c_str(), &choices.tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"}))
             choices.tolerance = std::clamp(choices.tolerance, 1e-6, 1e6);
         tooltip("How far the surface may be from the part. What you set here only changes this warning.");
     }

@@ -213,7 +213,8 @@ std::optional<fs::path> FileDialog::take()
             name_.clear();
         return std::nullopt;
     }
-    if (words.saves && lower(path.extension().string()) != words.endings[0])
+    if (words.saves &&
+        std::find(words.endings.begin(), words.endings.end(), lower(path.extension().string())) == words.endings.end())
         path += words.endings[0];
     const bool there = fs::exists(path, ignored);
     if (words.saves && there && !std::exchange(confirm_, true))

@@ -15,7 +15,8 @@ void fit_editor(Frame& frame, FitChoice fit)
     bool changed = false;
     bool limited = fit.tolerance.has_value();
     if (ImGui::Checkbox("Within a tolerance", &limited)) {
-        fit.tolerance = limited ? std::optional(usual_tolerance) : std::nullopt;
+        fit.tolerance =
+            limited ? std::optional(frame.state.preferences.tolerance_mm.value_or(usual_tolerance)) : std::nullopt;
         changed = true;
     }
     tooltip(
@@ -25,7 +26,8 @@ void fit_editor(Frame& frame, FitChoice fit)
               "the grid");
     if (fit.tolerance) {
         ImGui::SetNextItemWidth(width);
-        if (typed_numbers(frame, "mm##tolerance", &*fit.tolerance, 1, "%.4g")) {
+        const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
+        if (length_inputs(frame, unit.c_str(), &*fit.tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"})) {
             fit.tolerance = std::clamp(*fit.tolerance, 1e-9, 1e6);
             changed = true;
         }
@@ -76,7 +78,8 @@ void fit_figures(Frame& frame, const SurfaceStage& surface)
     ImGui::PushStyleColor(ImGuiCol_Text, surface.fit->reached ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.warning);
     if (surface.patches)
         figure(frame, "Tolerance",
-               fmt::format("{:.3g} mm: {}", surface.fit->tolerance, surface.fit->reached ? "met" : "not met"));
+               fmt::format("{}: {}", length_text(surface.fit->tolerance, frame.lengths(), 3),
+                           surface.fit->reached ? "met" : "not met"));
     else
         figure(frame, "Within tolerance", fmt::format("{:.2f} % of the area", 100 * surface.deviation.within()));
     ImGui::PopStyleColor();

@@ -42,7 +42,9 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
         fresh.keep_largest = read.doctor.keep_largest;
         fresh.leave_out_bad_faces = read.cad.leave_out_unmeshed;
         fresh.keep_triangles = read.cad.keep_triangles;
-        const auto typed = [](const std::optional<double>& mm) { return mm ? fmt::format("{}", *mm) : std::string(); };
+        const auto typed = [&](const std::optional<double>& mm) {
+            return mm ? fmt::format("{}", shown_length(*mm, frame.lengths())) : std::string();
+        };
         fresh.sewing = typed(read.cad.sewing_tolerance);
         fresh.deflection = typed(read.cad.deflection);
     } else {
@@ -54,7 +56,7 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
 }
 
 /// A length that was typed: nothing if the field is empty; false if it is none of those that projects keep.
-bool read_length(const std::string& text, const Between& range, std::optional<double>& mm)
+bool read_length(const std::string& text, LengthUnit unit, const Between& range, std::optional<double>& mm)
 {
     mm.reset();
     const size_t from = text.find_first_not_of(' ');
@@ -63,18 +65,22 @@ bool read_length(const std::string& text, const Between& range, std::optional<do
     double value = 0;
     const char *begin = text.data() + from, *end = text.data() + text.find_last_not_of(' ') + 1;
     const auto [after, fault] = std::from_chars(begin, end, value);
+    if (unit != LengthUnit::mm) // without the rounding of there and back
+        value = std::stod(fmt::format("{:.12g}", kept_length(value, unit)));
     if (fault != std::errc() || after != end || !(value >= range.least && value <= range.greatest))
         return false;
     mm = value;
     return true;
 }
 
-std::string size_words(const ListedFile& listed)
+std::string size_words(const ListedFile& listed, LengthUnit lengths)
 {
     if (!listed.picker)
         return "";
-    const Eigen::Vector3d size = listed.picker->box().sizes();
-    return fmt::format("{:.4g} x {:.4g} x {:.4g}", size.x(), size.y(), size.z());
+    const bool known = is_cad_file(listed.items); // else the file has a unit that only the user knows
+    const Eigen::Vector3d size = listed.picker->box().sizes() / (known ? millimetres(lengths) : 1);
+    return fmt::format("{:.4g} x {:.4g} x {:.4g}{}{}", size.x(), size.y(), size.z(), known ? " " : "",
+                       known ? length_word(lengths) : "");
 }
 
 /// What the file calls its unit, as people write it.
@@ -87,11 +93,10 @@ std::string unit_words(std::string unit)
 void summary_line(const Frame& frame, const ListedFile& listed)
 {
     const FileItems& items = listed.items;
-    const std::string unit = is_cad_file(items) ? " mm" : "";
     std::string text =
         items.format + (items.unit.empty() ? ", names no unit of length" : ", lengths in " + unit_words(items.unit));
-    if (const std::string size = size_words(listed); !size.empty())
-        text += ", " + size + unit;
+    if (const std::string size = size_words(listed, frame.lengths()); !size.empty())
+        text += ", " + size;
     muted(frame, text);
 }
 
@@ -104,12 +109,13 @@ std::string item_words(const FileItems& items, const FileItem& item)
                                                                                  : item.choice + "  " + item.name;
 }
 
-std::string item_figures(const FileItems& items, const FileItem& item)
+std::string item_figures(const FileItems& items, const FileItem& item, LengthUnit lengths)
 {
     std::string text = fmt::format("{}, {} {}{}", item.kind, item.faces, is_cad_file(items) ? "face" : "shell",
                                    item.faces == 1 ? "" : "s");
     if (item.thickness)
-        text += fmt::format(", thickness {:.4g}{}", *item.thickness, is_cad_file(items) ? " mm" : "");
+        text += ", thickness " + (is_cad_file(items) ? thickness_text(*item.thickness, lengths)
+                                                     : fmt::format("{:.4g}", *item.thickness));
     if (!item.material.empty())
         text += ", " + item.material;
     return text;
@@ -182,14 +188,14 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
             note_place(frame, fmt::format("import item {}", i));
             if (ImGui::IsItemHovered()) {
                 hovered = i;
-                tooltip(item_words(items, item) + "\n" + item_figures(items, item) +
+                tooltip(item_words(items, item) + "\n" + item_figures(items, item, frame.lengths()) +
                         (item.choice.empty() ? "" : "\nClick for this one, Ctrl and click for more"));
             }
             ImDrawList* draw = ImGui::GetWindowDrawList();
             draw->PushClipRect(at, {at.x + room, at.y + 2 * line}, true);
             draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), item_words(items, item).c_str());
             draw->AddText(frame.ui.fonts.small, frame.ui.fonts.small->FontSize, {at.x, at.y + line}, ink(p.muted),
-                          item_figures(items, item).c_str());
+                          item_figures(items, item, frame.lengths()).c_str());
             draw->PopClipRect();
             if (indent > 0)
                 ImGui::Unindent(indent);
@@ -334,8 +340,8 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
     reading.parts = choices_of(items, choices.chosen);
     reading.parts.insert(reading.parts.end(), choices.others.begin(), choices.others.end());
     reading.weld = choices.weld;
-    const bool sewing = read_length(choices.sewing, gap_width, reading.sewing_mm),
-               deflection = read_length(choices.deflection, chord_height, reading.deflection_mm);
+    const bool sewing = read_length(choices.sewing, frame.lengths(), gap_width, reading.sewing_mm),
+               deflection = read_length(choices.deflection, frame.lengths(), chord_height, reading.deflection_mm);
     const float s = frame.ui.scale, width = 118 * s;
     if (ImGui::BeginTable("options", 2, ImGuiTableFlags_SizingStretchSame)) {
         ImGui::TableNextColumn();
@@ -348,11 +354,11 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
             length_field(
-                frame, "Gaps up to, mm", choices.sewing, sewing,
+                frame, in_unit("Gaps up to", frame.lengths()).c_str(), choices.sewing, sewing,
                 "Gaps between faces up to this width are closed. Empty: found from the gaps themselves; 0: none.");
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
-            length_field(frame, "Chord height, mm", choices.deflection, deflection,
+            length_field(frame, in_unit("Chord height", frame.lengths()).c_str(), choices.deflection, deflection,
                          "Largest distance between triangles and faces. Empty: 1/2000 of the diagonal.");
         }
         ImGui::EndTable();

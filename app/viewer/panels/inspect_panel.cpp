@@ -31,6 +31,14 @@ Figures figures_of(const Session& session, Field field)
 
 std::string_view unit(const Frame& frame) { return info(frame.state.document.display.field).unit; }
 
+/// A value of the field that is shown, in the unit of the preferences.
+std::string value_here(const Frame& frame, double value) { return value_text(value, unit(frame), frame.lengths()); }
+/// The same number without its unit.
+std::string number_here(const Frame& frame, double value)
+{
+    return value_text(as_shown(unit(frame), frame.lengths()).factor * value, "");
+}
+
 void field_section(Frame& frame)
 {
     const Document& document = frame.state.document;
@@ -50,7 +58,7 @@ void field_section(Frame& frame)
             if (ImGui::Selectable(std::string(field.label).c_str(), field.field == display.field)) {
                 display.field = field.field;
                 display.range.reset();
-                display.map.reset();
+                display.map = frame.state.preferences.map;
                 changed = true;
             }
             ImGui::EndDisabled();
@@ -80,8 +88,9 @@ void field_section(Frame& frame)
     }
     if (available(document.session, display.field) && display.field != Field::none) {
         const Figures& now = figures(frame);
-        const ColourScale legend = field_scale(display, {now.histogram.least, now.histogram.greatest},
-                                               part_figures(frame).diagonal); // round numbers
+        const ColourScale legend =
+            field_scale(display, {now.histogram.least, now.histogram.greatest}, part_figures(frame).diagonal,
+                        as_shown(unit(frame), frame.lengths()).factor); // round numbers
         std::array<double, 2> range = display.range.value_or(std::array{double(legend.least), double(legend.greatest)});
         bool by_hand = display.range.has_value();
         if (ImGui::Checkbox("Range", &by_hand)) {
@@ -92,10 +101,11 @@ void field_section(Frame& frame)
         if (by_hand) {
             ImGui::SameLine();
             ImGui::SetNextItemWidth(-1);
-            float ends[2] = {float(range[0]), float(range[1])};
-            const float speed = float(std::max(1e-6, (now.histogram.greatest - now.histogram.least) / 300));
+            const double factor = as_shown(unit(frame), frame.lengths()).factor;
+            float ends[2] = {float(factor * range[0]), float(factor * range[1])};
+            const float speed = float(std::max(1e-6, factor * (now.histogram.greatest - now.histogram.least) / 300));
             if (ImGui::DragFloat2("##range", ends, speed, 0, 0, "%.4g") && ends[0] < ends[1]) {
-                display.range = std::array<double, 2>{ends[0], ends[1]};
+                display.range = std::array<double, 2>{ends[0] / factor, ends[1] / factor};
                 changed = true;
             }
         }
@@ -138,11 +148,11 @@ void histogram_section(Frame& frame)
     if (ImGui::IsItemHovered()) {
         const size_t k = std::min(h.share.size() - 1, size_t(std::max(0.f, (ImGui::GetMousePos().x - at.x) / width)));
         const double step = (h.greatest - h.least) / double(h.share.size());
-        ImGui::SetTooltip("%s to %s: %.2f %% of the area", value_text(h.least + double(k) * step, "").c_str(),
-                          value_text(h.least + double(k + 1) * step, unit(frame)).c_str(), 100 * h.share[k]);
+        ImGui::SetTooltip("%s to %s: %.2f %% of the area", number_here(frame, h.least + double(k) * step).c_str(),
+                          value_here(frame, h.least + double(k + 1) * step).c_str(), 100 * h.share[k]);
     }
     ImGui::PushFont(frame.ui.fonts.small);
-    figure(frame, value_text(h.least, "").c_str(), value_text(h.greatest, unit(frame)));
+    figure(frame, number_here(frame, h.least).c_str(), value_here(frame, h.greatest));
     ImGui::PopFont();
 }
 
@@ -158,11 +168,12 @@ void worst_section(Frame& frame)
                                     part.position.col(part.triangle(2, f))) /
                                    3;
         const bool here = frame.state.document.selected == std::vector<int>{f};
-        if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_text(now.face.value[f], unit(frame)), f).c_str(),
-                              here))
+        if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_here(frame, now.face.value[f]), f).c_str(), here))
             frame.actions.push(FlyTo{f});
         tooltip("Click to look at it in every view");
-        const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} mm", at[0] + 0., at[1] + 0., at[2] + 0.);
+        const Eigen::Vector3d there = at / millimetres(frame.lengths());
+        const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} {}", there[0] + 0., there[1] + 0., there[2] + 0.,
+                                              length_word(frame.lengths()));
         const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x,
                     value_end = ImGui::CalcTextSize("8.  -88.8 %").x + 2 * ImGui::GetStyle().ItemSpacing.x;
         if (right < value_end)
@@ -183,7 +194,7 @@ void probes_section(Frame& frame)
         ImGui::PushID(int(k));
         std::string value;
         if (now.face.value.size()) // as the label in the view has it
-            value = value_text(now.face.value[probe.face], unit(frame));
+            value = value_here(frame, now.face.value[probe.face]);
         if (ImGui::Selectable(fmt::format("P{}   face {}   {}", k + 1, probe.face, value).c_str(), false, 0,
                               {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
             frame.actions.push(FlyTo{probe.face});
@@ -202,12 +213,13 @@ void vertex_distance(Frame& frame)
     const auto distance = distance_of_picked(frame.state.document);
     if (!distance)
         return;
-    figure(frame, "Distance on the part", fmt::format("{:.2f} mm", distance->on_part));
+    figure(frame, "Distance on the part", fixed_length(distance->on_part, frame.lengths(), 2));
     if (!distance->on_blank)
         return;
-    figure(frame, "Distance on the blank", fmt::format("{:.2f} mm", *distance->on_blank));
+    figure(frame, "Distance on the blank", fixed_length(*distance->on_blank, frame.lengths(), 2));
     figure(frame, "Part less blank",
-           fmt::format("{:+.2f} mm  ({:+.2f} %)", distance->on_part - *distance->on_blank,
+           fmt::format("{}  ({:+.2f} %)",
+                       fixed_length(distance->on_part - *distance->on_blank, frame.lengths(), 2, true),
                        100 * (distance->on_part / *distance->on_blank - 1)));
 }
 
@@ -278,7 +290,7 @@ void vertices_section(Frame& frame)
     if (ImGui::BeginTable("vertices", 4, flags, {0, row * float(std::min(vertices.size(), most_rows) + 1)})) {
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableSetupColumn("Vertex");
-        ImGui::TableSetupColumn("x, y, z, mm", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn(in_unit("x, y, z", frame.lengths()).c_str(), ImGuiTableColumnFlags_WidthStretch);
         const bool mean = now.at_vertex.size() && is_smoothed(document.display);
         ImGui::TableSetupColumn(now.at_vertex.size()
                                     ? (std::string(info(document.display.field).label) + (mean ? ", mean" : "")).c_str()
@@ -290,7 +302,8 @@ void vertices_section(Frame& frame)
         while (rows.Step())
             for (int k = rows.DisplayStart; k < rows.DisplayEnd; ++k) {
                 const int v = vertices[size_t(k)];
-                const Eigen::Vector3d at = part.mesh.position.col(v);
+                const Eigen::Vector3d at = part.mesh.position.col(v) / millimetres(frame.lengths());
+                const int decimals = 1 + more_decimals(frame.lengths());
                 ImGui::PushID(v);
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
@@ -300,10 +313,11 @@ void vertices_section(Frame& frame)
                 tooltip("Click to look at it in every view");
                 ImGui::TableNextColumn();
                 ImGui::TextUnformatted(
-                    fmt::format("{:.1f}, {:.1f}, {:.1f}", at[0] + 0., at[1] + 0., at[2] + 0.).c_str());
+                    fmt::format("{1:.{0}f}, {2:.{0}f}, {3:.{0}f}", decimals, at[0] + 0., at[1] + 0., at[2] + 0.)
+                        .c_str());
                 ImGui::TableNextColumn();
                 if (now.at_vertex.size())
-                    ImGui::TextUnformatted(value_text(now.at_vertex[v], unit(frame)).c_str());
+                    ImGui::TextUnformatted(value_here(frame, now.at_vertex[v]).c_str());
                 ImGui::TableNextColumn();
                 if (ImGui::SmallButton("x"))
                     frame.actions.push(SelectVertices{{v}, PickMode::remove});

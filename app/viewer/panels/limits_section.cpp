@@ -150,11 +150,13 @@ void spots(Frame& frame, const LimitsResult& limits)
         if (ImGui::Selectable(fmt::format("{}.  {}##spot{}", k + 1, zone_words(spot.zone), spot.face).c_str(), here,
                               ImGuiSelectableFlags_SpanAllColumns))
             frame.actions.push(FlyTo{spot.face});
+        const Eigen::Vector3d at = spot.position / millimetres(frame.lengths());
+        const ShownUnit area = as_shown("mm\u00b2", frame.lengths());
         tooltip(fmt::format(
-            "Face {} at {:.4g}, {:.4g}, {:.4g} mm: major strain {:.3f}, minor {:.3f}, thinning {} %. The worst "
-            "of a region of {} faces, {:.4g} mm2. Click to look at it.",
-            spot.face, spot.position[0], spot.position[1], spot.position[2], spot.strain_major, spot.strain_minor,
-            figure_text(100 * spot.thinning, 1), spot.region_faces, spot.region_area_mm2));
+            "Face {} at {:.4g}, {:.4g}, {:.4g} {}: major strain {:.3f}, minor {:.3f}, thinning {} %. The worst "
+            "of a region of {} faces, {:.4g} {}. Click to look at it.",
+            spot.face, at[0], at[1], at[2], length_word(frame.lengths()), spot.strain_major, spot.strain_minor,
+            figure_text(100 * spot.thinning, 1), spot.region_faces, area.factor * spot.region_area_mm2, area.unit));
         ImGui::TableNextColumn();
         right_aligned(margin ? figure_text(100 * *margin, 1) : "-");
         ImGui::TableNextColumn();
@@ -185,7 +187,7 @@ void limits_section(Frame& frame)
         FieldDisplay display = frame.state.document.display;
         display.field = Field::zone;
         display.range.reset();
-        display.map.reset();
+        display.map = frame.state.preferences.map;
         frame.actions.push(SetDisplay{display});
     }
     spots(frame, limits);

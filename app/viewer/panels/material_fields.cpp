@@ -299,7 +299,8 @@ void limit_fields(Frame& frame, Fields& fields)
     } else
         muted(frame, "Keeler-Brazier for steel with the n of the law; no curve for other metals.");
     if (const std::string flc0 = limit_words(limit, thickness, fields.material.name); !flc0.empty())
-        figure(frame, limit.minor.empty() ? fmt::format("FLC0 at {:.4g} mm", thickness).c_str() : "FLC0", flc0);
+        figure(frame, limit.minor.empty() ? ("FLC0 at " + thickness_text(thickness, frame.lengths())).c_str() : "FLC0",
+               flc0);
 }
 
 } // namespace

@@ -120,6 +120,9 @@ void menu_bar(Frame& frame)
             frame.actions.push(KeepReference{});
         if (ImGui::MenuItem("Forget the reference", nullptr, false, state.reference != nullptr))
             frame.actions.push(DropReference{});
+        ImGui::Separator();
+        if (ImGui::MenuItem("Preferences...", "Ctrl+,"))
+            frame.ui.show_preferences = true;
         ImGui::EndMenu();
     }
     run_menu(frame);

@@ -62,6 +62,16 @@ bool number_input(Frame& frame, const char* label, double& value, double least, 
     return changed;
 }
 
+/// Likewise of a length, mm.
+bool bead_length(Frame& frame, const char* label, double& mm, double least, double greatest, const char* help)
+{
+    ImGui::SetNextItemWidth(86 * frame.ui.scale);
+    const bool changed = length_input(frame, label, mm);
+    tooltip(help);
+    mm = std::clamp(mm, least, greatest);
+    return changed;
+}
+
 /// The equivalent bead: force of a shape.
 bool shape_inputs(Frame& frame, ProcessLine& bead)
 {
@@ -72,11 +82,9 @@ bool shape_inputs(Frame& frame, ProcessLine& bead)
         bead.shape = by_shape ? std::optional(BeadShape{}) : std::nullopt;
     if (!bead.shape)
         return changed;
-    changed |= number_input(frame, "Bead radius, mm", bead.shape->radius, 1e-3, 1e3, "Of the bead that presses");
-    changed |=
-        number_input(frame, "Shoulder radius, mm", bead.shape->shoulder_radius, 1e-3, 1e3, "Of the groove's edges");
-    changed |=
-        number_input(frame, "Depth, mm", bead.shape->depth, 0, 1e3, "How far it pushes the sheet out of its plane");
+    changed |= bead_length(frame, "Bead radius", bead.shape->radius, 1e-3, 1e3, "Of the bead that presses");
+    changed |= bead_length(frame, "Shoulder radius", bead.shape->shoulder_radius, 1e-3, 1e3, "Of the groove's edges");
+    changed |= bead_length(frame, "Depth", bead.shape->depth, 0, 1e3, "How far it pushes the sheet out of its plane");
     changed |= number_input(frame, "Friction", bead.shape->friction, 0, 10, "Coefficient in the bead");
     return changed;
 }

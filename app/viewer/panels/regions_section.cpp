@@ -83,7 +83,7 @@ void sheet_inputs(Frame& frame, int number, const FaceRegion& region)
             ImGui::EndCombo();
         }
         ImGui::SetNextItemWidth(86 * frame.ui.scale);
-        changed |= typed_number(frame, "Thickness, mm", sheet->thickness, "%.3g");
+        changed |= length_input(frame, "Thickness", sheet->thickness);
         sheet->thickness = std::clamp(sheet->thickness, 1e-3, 1e3);
     }
     if (changed)
@@ -160,7 +160,7 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
     tooltip("Remove this region (its faces stay)");
     if (edit)
         frame.ui.edited_region = edit_of(frame.state.document, number);
-    if (const std::string load = load_words(region); !load.empty()) {
+    if (const std::string load = load_words(region, frame.lengths()); !load.empty()) {
         ImGui::Indent(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
         muted(frame, load);
         ImGui::Unindent(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);

@@ -98,6 +98,7 @@ void report_dialog(Frame& frame)
     const bool ready = !choices.file.empty();
     const Answer answer = answer_buttons(frame, "Write the report", ready, palette_of(frame.state.view.dark).accent);
     if (ready && (answer == Answer::yes || (enter_pressed(frame) && !typing))) {
+        options.lengths = frame.lengths();
         frame.actions.push(WriteReport{file, options});
         ImGui::CloseCurrentPopup();
     }

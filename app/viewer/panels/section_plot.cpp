@@ -74,7 +74,8 @@ void section_plot(Frame& frame)
             high = std::max({high, piece.from_value, piece.to_value});
             length = std::max(length, piece.to_arc);
         }
-        const RoundRange y = round_range(low, high, 0, false);
+        const ShownUnit as = as_shown(field.unit, frame.lengths());
+        const RoundRange y = round_range(as.factor * low, as.factor * high, 0, false);
         const float s = frame.ui.scale, left = 44 * s, bottom = 22 * s, head = ImGui::GetTextLineHeight();
         const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 150 * s};
         const ImVec2 from{at.x + left, at.y + head + 6 * s}, to{at.x + size.x - 4 * s, at.y + size.y - bottom};
@@ -84,8 +85,8 @@ void section_plot(Frame& frame)
         };
         ImDrawList* draw = ImGui::GetWindowDrawList();
         ImGui::PushFont(frame.ui.fonts.small);
-        const std::string what(field.unit.empty() ? std::string(field.label)
-                                                  : fmt::format("{}, {}", field.label, field.unit));
+        const std::string what(as.unit.empty() ? std::string(field.label)
+                                               : fmt::format("{}, {}", field.label, as.unit));
         draw->AddText(at, ink(p.muted), what.c_str());
         for (int k = 0; k <= y.intervals; ++k) {
             const double value = y.least + (y.greatest - y.least) * k / y.intervals;
@@ -101,7 +102,7 @@ void section_plot(Frame& frame)
                     ink(p.muted), text.c_str());
             }
         }
-        const std::string far = fmt::format("{:.4g} mm", length);
+        const std::string far = length_text(length, frame.lengths());
         const char* words = frame.state.document.section->on_blank ? "along the cut of the blank" : "along the cut";
         draw->AddText({from.x, to.y + 3 * s}, ink(p.muted), "0");
         const float taken = 2 * (ImGui::CalcTextSize(far.c_str()).x + 8 * s); // of a line with the words in its middle
@@ -110,8 +111,8 @@ void section_plot(Frame& frame)
         draw->AddText({to.x - ImGui::CalcTextSize(far.c_str()).x, to.y + 3 * s}, ink(p.muted), far.c_str());
         ImGui::PopFont();
         for (const SectionPiece& piece : pieces)
-            draw->AddLine(place(piece.from_arc, piece.from_value), place(piece.to_arc, piece.to_value), ink(p.accent),
-                          1.6f * s);
+            draw->AddLine(place(piece.from_arc, as.factor * piece.from_value),
+                          place(piece.to_arc, as.factor * piece.to_value), ink(p.accent), 1.6f * s);
         ImGui::InvisibleButton("section", size);
         if (ImGui::IsItemHovered()) {
             const double arc = (ImGui::GetMousePos().x - from.x) / (to.x - from.x) * length;
@@ -119,8 +120,9 @@ void section_plot(Frame& frame)
                 const SectionPiece& piece = pieces[here->piece];
                 const double value = piece.from_value + here->share * (piece.to_value - piece.from_value);
                 draw->AddLine({place(arc, 0).x, from.y}, {place(arc, 0).x, to.y}, ink(p.warning), s);
-                draw->AddCircleFilled(place(arc, value), 3.5f * s, ink(p.warning));
-                const std::string text = fmt::format("{:.4g} mm: {}", arc, value_text(value, field.unit));
+                draw->AddCircleFilled(place(arc, as.factor * value), 3.5f * s, ink(p.warning));
+                const std::string text = fmt::format("{}: {}", length_text(arc, frame.lengths()),
+                                                     value_text(value, field.unit, frame.lengths()));
                 ImGui::SetTooltip("%s", text.c_str());
                 frame.ui.section_mark = SectionMark{*here, ImGui::GetFrameCount()};
             }

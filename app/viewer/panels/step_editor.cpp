@@ -13,30 +13,37 @@ bool place_row(Frame& frame, const char* label, Eigen::Vector3d& v)
     return typed_numbers(frame, label, v.data(), 3, "%.4g");
 }
 
+/// Likewise of a place.
+bool length_row(Frame& frame, const char* label, Eigen::Vector3d& v)
+{
+    ImGui::SetNextItemWidth(190 * frame.ui.scale);
+    return length_inputs(frame, label, v.data(), 3, frame.lengths(), {});
+}
+
 /// The numbers of a target of one's own.
 bool target_numbers(Frame& frame, StepTarget& target)
 {
     const float width = 86 * frame.ui.scale;
     bool changed = false;
     if (target.plane) {
-        changed |= place_row(frame, "Through", target.plane->origin);
+        changed |= length_row(frame, "Through", target.plane->origin);
         Eigen::Vector3d normal = target.plane->normal;
         if (place_row(frame, "Normal", normal) && normal.norm() > 0) {
             target.plane->normal = normal;
             changed = true;
         }
     } else if (target.cylinder) {
-        changed |= place_row(frame, "On axis", target.cylinder->origin);
+        changed |= length_row(frame, "On axis", target.cylinder->origin);
         Eigen::Vector3d axis = target.cylinder->axis;
         if (place_row(frame, "Axis", axis) && axis.norm() > 0) {
             target.cylinder->axis = axis;
             changed = true;
         }
         ImGui::SetNextItemWidth(width);
-        changed |= typed_number(frame, "Radius, mm", target.cylinder->radius, "%.5g");
+        changed |= length_input(frame, "Radius", target.cylinder->radius, {.mm = "%.5g"});
         target.cylinder->radius = std::max(1e-6, target.cylinder->radius);
     } else if (target.cone) {
-        changed |= place_row(frame, "Apex", target.cone->apex);
+        changed |= length_row(frame, "Apex", target.cone->apex);
         Eigen::Vector3d axis = target.cone->axis;
         if (place_row(frame, "Axis", axis) && axis.norm() > 0) {
             target.cone->axis = axis;
@@ -150,7 +157,7 @@ bool extent_editor(Frame& frame, std::optional<double>& extent_mm, float width)
 {
     double length = extent_mm.value_or(0);
     ImGui::SetNextItemWidth(width);
-    const bool changed = typed_number(frame, "Extent, mm", length, "%.4g");
+    const bool changed = length_input(frame, "Extent", length);
     if (changed)
         extent_mm = length > 0 ? std::optional(length) : std::nullopt;
     tooltip(
@@ -178,11 +185,11 @@ void step_editor(Frame& frame, int number)
     if (step.kind == UnfoldKind::lay) {
         changed |= target_editor(frame, number, edited);
         ImGui::SetNextItemWidth(width);
-        changed |= typed_number(frame, "Offset, mm", edited.offset_mm, "%.4g");
+        changed |= length_input(frame, "Offset", edited.offset_mm);
         tooltip("Moves the target to its outer side");
         if (!step.pick.target) {
             ImGui::SetNextItemWidth(width);
-            changed |= typed_number(frame, "Within, mm", edited.within_mm, "%.4g");
+            changed |= length_input(frame, "Within", edited.within_mm);
             edited.within_mm = std::max(0., edited.within_mm);
             tooltip(
                 "How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is "

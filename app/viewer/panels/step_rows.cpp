@@ -41,15 +41,15 @@ std::string percent(double share)
 constexpr double no_distance_mm = 5e-4, no_angle_deg = 0.05, no_strain = 5e-4;
 
 /// How well the target goes on from what stays.
-std::string hinge_words(const StepFigures::Hinge& hinge)
+std::string hinge_words(const StepFigures::Hinge& hinge, LengthUnit lengths)
 {
-    return fmt::format("hinge {} mm off, turned {:.1f}\u00b0",
-                       hinge.distance_mm < no_distance_mm ? "0" : fmt::format("{:.2g}", hinge.distance_mm),
+    return fmt::format("hinge {} off, turned {:.1f}\u00b0",
+                       length_text(hinge.distance_mm < no_distance_mm ? 0 : hinge.distance_mm, lengths, 2),
                        hinge.angle_deg);
 }
 
 /// The figures that are more than nothing: noughts in every row would hide them.
-std::string figures_words(const std::string& laid_on, const StepFigures& figures)
+std::string figures_words(const std::string& laid_on, const StepFigures& figures, LengthUnit lengths)
 {
     std::string text = laid_on + (figures.strain_equivalent < no_strain
                                       ? ", strain below 0.001"
@@ -59,7 +59,7 @@ std::string figures_words(const std::string& laid_on, const StepFigures& figures
         text += fmt::format("\nthinning {} to {} %", least, greatest);
     if (const auto& hinge = figures.hinge; hinge && !hinge->bad && laid_on == "smooth" &&
                                            (hinge->distance_mm >= no_distance_mm || hinge->angle_deg >= no_angle_deg))
-        text += "\n" + hinge_words(*hinge);
+        text += "\n" + hinge_words(*hinge, lengths);
     return text;
 }
 
@@ -74,12 +74,12 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
         const StepFigures& figures = document.unfolding->figure[number];
         const UnfoldState& after = document.unfolding->run.states[number];
         const bool bad = figures.hinge && figures.hinge->bad;
-        muted(frame, figures_words(after.plain, figures));
+        muted(frame, figures_words(after.plain, figures, frame.lengths()));
         tooltip(
             "What it was laid on; equivalent strain and thinning per face of the faces that it moves; where these hang on what "
             "stays, how far the target lies beside it, and by how much it turns from it. What is nothing when rounded is left out.");
         if (bad) {
-            coloured(p.warning, hinge_words(*figures.hinge));
+            coloured(p.warning, hinge_words(*figures.hinge, frame.lengths()));
             tooltip(
                 "Where what moves hangs on what stays the target lies beside it or turns from it: the sheet has a step or a "
                 "crease there. Fit the target to other faces, or give it other numbers.");

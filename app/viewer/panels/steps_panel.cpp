@@ -25,7 +25,7 @@ Status status(const Frame& frame, Stage stage, bool there)
 /// Where a part that is no sheet was cut open.
 void seam_rows(Frame& frame, const PartFile& part)
 {
-    figure(frame, "Cut open along", fmt::format("{:.4g} mm", part.seam_length));
+    figure(frame, "Cut open along", length_text(part.seam_length, frame.lengths()));
     tooltip("To cut it elsewhere, draw a seam with the tool Line");
     if (frame.state.document.session.options.read.seam.mode != SeamOptions::Mode::given)
         return;
@@ -66,9 +66,10 @@ void part_step(Frame& frame)
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(session.file.filename().string().c_str());
     ImGui::PopTextWrapPos();
-    const Eigen::Vector3d& size = part_figures(frame).size;
+    const Eigen::Vector3d size = part_figures(frame).size / millimetres(frame.lengths());
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
-    figure(frame, "Size", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size[0], size[1], size[2]));
+    figure(frame, "Size",
+           fmt::format("{:.4g} x {:.4g} x {:.4g} {}", size[0], size[1], size[2], length_word(frame.lengths())));
     if (!part.seam.empty())
         seam_rows(frame, part);
     doubt_rows(frame, ChainStep::part);
@@ -107,10 +108,14 @@ void sheet_step(Frame& frame)
     const Material& material = document.session.options.flatten.material;
     tooltip(fmt::format("{}\n{}", material.name, material.source));
     double thickness = document.session.options.flatten.thickness;
-    ImGui::SetNextItemWidth(110 * frame.ui.scale);
-    if (typed_number(frame, "Thickness, mm", thickness, "%.3g", 0.05))
+    ImGui::SetNextItemWidth((frame.lengths() == LengthUnit::inch ? 126 : 110) * frame.ui.scale); // four decimals
+    if (length_input(frame, "Thickness", thickness, {.mm = "%.3g", .step_mm = 0.05, .step_inch = 0.002}))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
+    if (document.material_from == SheetSource::preference || document.thickness_from == SheetSource::preference)
+        muted(frame, document.material_from != SheetSource::preference    ? "Thickness of your preferences"
+                     : document.thickness_from != SheetSource::preference ? "Grade of your preferences"
+                                                                          : "Grade and thickness of your preferences");
     doubt_rows(frame, ChainStep::sheet);
 }
 
@@ -200,7 +205,7 @@ void unfold_step(Frame& frame)
     direction_control(frame);
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
-    figure(frame, "Blank", fmt::format("{:.4g} x {:.4g} mm", sheet.size[0], sheet.size[1]));
+    figure(frame, "Blank", size_text(sheet.size[0], sheet.size[1], frame.lengths()));
     figure(frame, "Thinning", percent_range(sheet.thinning));
     tooltip("Least and greatest of all faces; below 0 the sheet became thicker");
     figure(frame, "Equivalent strain",
@@ -300,8 +305,8 @@ void grid_step(Frame& frame)
             "in the quad mesh.");
         std::string lengths;
         for (const double length : figures.side)
-            lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", length);
-        figure(frame, "Sides", lengths + " mm");
+            lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", shown_length(length, frame.lengths()));
+        figure(frame, "Sides", fmt::format("{} {}", lengths, length_word(frame.lengths())));
     }
 }
 

@@ -80,7 +80,7 @@ void picked_handles(Frame& frame, HandleKind kind)
     figure(frame, "Picked", fmt::format("{} {}{}", picked.size(), what, picked.size() == 1 ? "" : "s"));
     double by[3] = {0, 0, 0};
     ImGui::SetNextItemWidth(150 * frame.ui.scale);
-    if (typed_numbers(frame, "Move by, mm", by, 3, "%.4g"))
+    if (length_inputs(frame, in_unit("Move by", frame.lengths()).c_str(), by, 3, frame.lengths(), {}))
         frame.actions.push(MoveHandles{kind, {by[0], by[1], by[2]}, false});
 }
 
@@ -115,9 +115,9 @@ void shape_editor(Frame& frame)
         picked_handles(frame, kind);
     if (!session.deformed)
         return;
-    figure(frame, "Moved by up to", fmt::format("{:.4g} mm", session.deformed->result.largest));
+    figure(frame, "Moved by up to", length_text(session.deformed->result.largest, frame.lengths()));
     if (lattice && !frame.state.shape_dragged && session.deformed->result.off_lattice > 0) {
-        figure(frame, "Off the lattice's bend", fmt::format("{:.2g} mm", session.deformed->result.off_lattice));
+        figure(frame, "Off the lattice's bend", length_text(session.deformed->result.off_lattice, frame.lengths(), 2));
         tooltip(
             "As far is the surface of the moved control points from the surface bent by the lattice itself; more control points "
             "bring it nearer");
@@ -213,13 +213,12 @@ void surface_figures(Frame& frame, const SurfaceStage& surface)
         figure(frame, "Control points",
                fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
     }
-    figure(frame, "Deviation, max", fmt::format("{:.3g} mm", surface.deviation.max()));
+    const auto length = [&](double mm) { return length_text(mm, frame.lengths(), 3); };
+    figure(frame, "Deviation, max", length(surface.deviation.max()));
     figure(frame, "rms",
-           fmt::format("{:.3g} mm",
-                       std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
+           length(std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
     figure(frame, "95 % within",
-           fmt::format("{:.3g} mm",
-                       std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
+           length(std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
     fit_figures(frame, surface);
     if (!frame.state.shape_dragged)
         certificate_figures(frame, surface_certificate(frame.state.document.session));

@@ -23,7 +23,8 @@ ImFont* load(const char* file, float size, Fonts& fonts)
         config.SizePixels = std::round(size);
         return io.Fonts->AddFontDefault(&config);
     }
-    return io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size), nullptr, size > large ? few : glyphs);
+    return io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size), nullptr,
+                                        size > large ? few : glyphs);
 }
 
 ImVec4 rgb(unsigned hex, float alpha = 1)

@@ -8,7 +8,7 @@ struct Fonts {
     ImFont* text = nullptr;
     ImFont* bold = nullptr;
     ImFont* small = nullptr;
-    std::string missing; ///< which font file was not found, if any; ImGui's own font then takes its place
+    std::string missing;       ///< which font file was not found, if any; ImGui's own font then takes its place
 };
 
 /// Loads the interface font in the sizes for a screen scale; call before the first frame.

@@ -316,8 +316,9 @@ void shortcuts(Frame& frame)
         bool any = false;
         for (const KeyPress& press : frame.ui.keys)
             if ((press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F12) ||
-                (press.modifiers == GLFW_MOD_CONTROL && (press.key == GLFW_KEY_S || press.key == GLFW_KEY_E ||
-                                                         press.key == GLFW_KEY_O || press.key == GLFW_KEY_Q))) {
+                (press.modifiers == GLFW_MOD_CONTROL &&
+                 (press.key == GLFW_KEY_S || press.key == GLFW_KEY_E || press.key == GLFW_KEY_O ||
+                  press.key == GLFW_KEY_Q || press.key == GLFW_KEY_COMMA))) {
                 frame.ui.keys_later.insert(frame.ui.keys_later.begin(), press);
                 any = true;
             }
@@ -358,6 +359,8 @@ void shortcuts(Frame& frame)
         }
         if (pressed(GLFW_KEY_Q))
             frame.actions.push(Quit{});
+        if (pressed(GLFW_KEY_COMMA))
+            frame.ui.show_preferences = true;
         return;
     }
     if (frame.ui.focus)

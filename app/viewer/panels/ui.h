@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/viewer/model/actions.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/charts.h"
 #include "app/viewer/panels/comparison_section.h"
@@ -21,6 +22,7 @@
 #include "app/viewer/panels/material_dialog.h"
 #include "app/viewer/panels/material_editor.h"
 #include "app/viewer/panels/picture_dialog.h"
+#include "app/viewer/panels/preferences_dialog.h"
 #include "app/viewer/panels/report_dialog.h"
 #include "app/viewer/panels/side_panels.h"
 #include "app/viewer/panels/theme.h"
@@ -64,15 +66,15 @@ struct HandleDrag {
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
-    float scale = 1; ///< of the screen: 1 for 96 dots per inch
+    float scale = 1; ///< of the screen, 1 for 96 dots per inch, times the size of the interface that is preferred
     float left_width = 300, right_width = 320;
     SidePanels panels;
     bool show_shortcuts = false, show_messages = false;
-    bool show_export = false, show_picture = false, show_report = false,
-         show_material = false;          ///< dialogs that open in the next frame
-    std::map<int, double> message_since; ///< seconds; by number
-    int unfolded_message = 0;            ///< the one whose details are shown; 0: none
-    double wake_at = 0;                  ///< seconds of ImGui's clock: the window changes then without an event; 0: no
+    bool show_export = false, show_picture = false, show_report = false, show_material = false,
+         show_preferences = false; ///< dialogs that open in the next frame
+    std::map<int, double> message_since;                                       ///< seconds; by number
+    int unfolded_message = 0; ///< the one whose details are shown; 0: none
+    double wake_at = 0;       ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     DialogQueue dialogs;
     std::optional<View>
@@ -108,6 +110,7 @@ struct Ui {
     MaterialEditor materials;
     ComparisonTable compared;
     ImportChoices importing;
+    PreferenceChoices preferring;
 
     Charts charts;
     std::optional<SectionMark> section_mark;
@@ -151,6 +154,8 @@ struct Frame {
     std::function<ImTextureID(const Scene& scene, const Camera& camera, int width, int height)> draw_small;
     /// The same for the small picture of a step; null where it comes a frame later.
     std::function<ImTextureID(const StepPicture& picture, size_t step, int width, int height)> draw_step;
+
+    LengthUnit lengths() const { return state.preferences.lengths; } ///< of the screen
 };
 
 void menu_bar(Frame& frame);

@@ -152,7 +152,7 @@ void blank_of_steps(Frame& frame)
     if (!run.blank)
         return coloured(p.warning, "The part does not lie in a plane yet; add a step.");
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    figure(frame, "Blank of the steps", fmt::format("{:.4g} x {:.4g} mm", size[0], size[1]));
+    figure(frame, "Blank of the steps", size_text(size[0], size[1], frame.lengths()));
     if (run.flipped > 0)
         return coloured(p.warning,
                         fmt::format("{} triangles of it are flipped; unfold there in smaller steps.", run.flipped));

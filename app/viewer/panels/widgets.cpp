@@ -105,6 +105,26 @@ bool typed_numbers(Frame& frame, const char* label, double* value, int count, co
     return true;
 }
 
+bool length_inputs(Frame& frame, const char* label, double* mm, int count, LengthUnit unit, const LengthFormat& format)
+{
+    const bool inch = unit == LengthUnit::inch;
+    std::array<double, 3> before{}, typed{};
+    for (int k = 0; k < count; ++k)
+        before[size_t(k)] = typed[size_t(k)] = shown_length(mm[k], unit);
+    if (!typed_numbers(frame, label, typed.data(), count, inch ? format.inch : format.mm,
+                       inch ? format.step_inch : format.step_mm))
+        return false;
+    for (int k = 0; k < count; ++k)
+        if (typed[size_t(k)] != before[size_t(k)])
+            mm[k] = kept_length(typed[size_t(k)], unit);
+    return true;
+}
+
+bool length_input(Frame& frame, const char* label, double& mm, const LengthFormat& format)
+{
+    return length_inputs(frame, in_unit(label, frame.lengths()).c_str(), &mm, 1, frame.lengths(), format);
+}
+
 bool typed_integer(Frame& frame, const char* label, int& value, int step)
 {
     double number = value;

@@ -43,6 +43,16 @@ inline bool typed_number(Frame& frame, const char* label, double& value, const c
     return typed_numbers(frame, label, &value, 1, format, step);
 }
 bool typed_integer(Frame& frame, const char* label, int& value, int step = 0);
+/// How lengths are typed, by unit; the numbers themselves are mm.
+struct LengthFormat {
+    const char* mm = "%.4g";
+    const char* inch = "%.4f";         ///< 0.0025 mm
+    double step_mm = 0, step_inch = 0; ///< of the buttons; 0: there are none
+};
+/// Likewise lengths, shown and typed in a unit and kept in mm. One that is not typed does not change, not even by rounding.
+bool length_inputs(Frame& frame, const char* label, double* mm, int count, LengthUnit unit, const LengthFormat& format);
+/// One, in the unit of the preferences, whose name stands behind the label's: "Thickness" becomes "Thickness, mm".
+bool length_input(Frame& frame, const char* label, double& mm, const LengthFormat& format = {});
 /// The same for a line of text. An empty one is no change.
 bool typed_text(Frame& frame, const char* label, std::string& text, const char* hint);
 

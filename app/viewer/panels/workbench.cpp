@@ -69,15 +69,18 @@ void status_bar(Frame& frame)
     else
         for (int a = 0; a < 3; ++a)
             at += probe->barycentric[a] * part.position.col(part.triangle(a, probe->face));
-    std::string text = fmt::format("{}    {:.2f}, {:.2f}, {:.2f} mm",
-                                   vertex ? fmt::format("Vertex {}", session.part->source_vertex[size_t(*vertex)])
-                                          : fmt::format("Face {}", probe->face),
-                                   at[0], at[1], at[2]);
+    at /= millimetres(frame.lengths());
+    std::string text =
+        fmt::format("{0}    {2:.{1}f}, {3:.{1}f}, {4:.{1}f} {5}",
+                    vertex ? fmt::format("Vertex {}", session.part->source_vertex[size_t(*vertex)])
+                           : fmt::format("Face {}", probe->face),
+                    2 + more_decimals(frame.lengths()), at[0], at[1], at[2], length_word(frame.lengths()));
     const Field field = state.document.display.field;
     if (field != Field::none && available(session, field)) {
         const Figures& now = figures(frame);
         text += fmt::format("    {} {}{}", label_of_field(state),
-                            value_text(vertex ? now.at_vertex[*vertex] : now.face.value[probe->face], info(field).unit),
+                            value_text(vertex ? now.at_vertex[*vertex] : now.face.value[probe->face], info(field).unit,
+                                       frame.lengths()),
                             vertex && is_smoothed(state.document.display) ? ", mean of its faces" : "");
     }
     ImGui::TextUnformatted(text.c_str());

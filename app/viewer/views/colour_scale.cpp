@@ -79,17 +79,18 @@ static std::array<double, 2> lengthened(const FieldDisplay& display, const std::
     return {extremes[0] - missing / 2, extremes[1] + missing / 2};
 }
 
-std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
+std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size, double shown)
 {
     if (display.range || lengthened(display, extremes, size) == extremes)
         return "";
-    return fmt::format("even within {:.2g}", least_range(display.field, size));
+    return fmt::format("even within {:.2g}", shown * least_range(display.field, size));
 }
 
-ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size)
+ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size, double shown)
 {
     const bool diverging = info(display.field).diverging || display.difference;
     ColourScale scale;
+    scale.shown = shown;
     if (display.field == Field::zone) { // a colour for each
         scale.map = ColourMap::zones;
         scale.least = -0.5f, scale.greatest = float(zone_count) - 0.5f;
@@ -104,12 +105,13 @@ ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>
     if (display.range) {
         scale.least = float((*display.range)[0]);
         scale.greatest = float((*display.range)[1]);
-        scale.ticks = display.bands > 0 ? display.bands : intervals_of((*display.range)[1] - (*display.range)[0]);
+        scale.ticks =
+            display.bands > 0 ? display.bands : intervals_of(shown * ((*display.range)[1] - (*display.range)[0]));
     } else {
         const auto [low, high] = lengthened(display, extremes, size);
-        const RoundRange range = round_range(low, high, display.bands, diverging);
-        scale.least = float(range.least);
-        scale.greatest = float(range.greatest);
+        const RoundRange range = round_range(shown * low, shown * high, display.bands, diverging);
+        scale.least = float(range.least / shown);
+        scale.greatest = float(range.greatest / shown);
         scale.ticks = range.intervals;
     }
     return scale;
@@ -131,7 +133,7 @@ std::string tick_text(const ColourScale& scale, double value)
         value = 0; // a remainder of single precision
     const double step = (double(scale.greatest) - double(scale.least)) / std::max(1, scale.ticks);
     const double places = std::abs(value) > 0 && step > 0 ? std::log10(std::abs(value) / step) : 0;
-    return fmt::format("{:.{}g}", value, std::clamp(int(std::ceil(places)) + 1, 4, 9));
+    return fmt::format("{:.{}g}", scale.shown * value, std::clamp(int(std::ceil(places)) + 1, 4, 9));
 }
 
 bool below(const ColourScale& scale, double value)
@@ -175,16 +177,17 @@ std::vector<LegendTick> legend_ticks(const SceneLegend& legend, int most)
     return ticks;
 }
 
-std::string value_text(double value, std::string_view unit)
+std::string value_text(double value, std::string_view unit, LengthUnit lengths)
 {
     if (!std::isfinite(value))
         return "no value";
     if (unit == info(Field::zone).unit)
         return zone_words(Zone(std::clamp(int(std::lround(value)), 0, zone_count - 1)));
-    const std::string number = plain_number(value);
+    const ShownUnit as = as_shown(unit, lengths);
+    const std::string number = plain_number(as.factor * value);
     if (unit.empty())
         return number;
-    return fmt::format("{}{}{}", number, unit == "\u00b0" ? "" : " ", unit);
+    return fmt::format("{}{}{}", number, unit == "\u00b0" ? "" : " ", as.unit);
 }
 
 } // namespace spia::viewer

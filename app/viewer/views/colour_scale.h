@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/viewer/model/document.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/scene.h"
 
 namespace spia::viewer {
@@ -29,10 +30,13 @@ double least_range(Field field, double size);
 /// values, symmetric about 0 where zero matters, and no shorter than least_range().
 /// @param extremes the field's least and greatest value
 /// @param size     of the part, mm
-ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size = 0);
+/// @param shown    see ColourScale: the values that are written are round
+ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size = 0,
+                        double shown = 1);
 
 /// What a legend says under its title where the values are nearer to each other than the least range; else empty.
-std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size);
+std::string noise_note(const FieldDisplay& display, const std::array<double, 2>& extremes, double size,
+                       double shown = 1);
 
 /// A value written beside the colours of a scale.
 struct LegendTick {
@@ -55,6 +59,7 @@ bool below(const ColourScale& scale, double value);
 bool above(const ColourScale& scale, double value);
 
 /// A value for people: three significant digits at least, no exponent within 1e-4 to 1e6, its unit behind it.
-std::string value_text(double value, std::string_view unit);
+/// @param lengths  what a unit with mm in it is shown in
+std::string value_text(double value, std::string_view unit, LengthUnit lengths = LengthUnit::mm);
 
 } // namespace spia::viewer

@@ -89,7 +89,7 @@ LineList region_borders(const SceneMesh& mesh, const std::vector<FaceRegion>& re
 }
 
 std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix3Xd& position,
-                                      const std::vector<FaceRegion>& regions, bool dark)
+                                      const std::vector<FaceRegion>& regions, bool dark, LengthUnit lengths)
 {
     std::vector<SceneLabel> labels;
     for (const FaceRegion& region : regions) {
@@ -117,7 +117,7 @@ std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Ei
                     least = away;
                     place = centre(face);
                 }
-        const std::string load = load_words(region);
+        const std::string load = load_words(region, lengths);
         labels.push_back({place, load.empty() ? region.name : fmt::format("{}: {}", region.name, load),
                           palette::text(dark), LabelKind::region});
     }
@@ -156,7 +156,9 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
         std::vector<Eigen::Vector3d> places;
         for (const auto& [word, at] : {std::pair("min", values->said.least), std::pair("max", values->said.greatest)}) {
             places.push_back(centre(at));
-            scene.labels.push_back({places.back(), fmt::format("{} {}", word, value_text(here(at), unit)), text});
+            scene.labels.push_back({places.back(),
+                                    fmt::format("{} {}", word, value_text(here(at), unit, state.preferences.lengths)),
+                                    text});
         }
         dots(places, palette::extreme);
     }
@@ -166,11 +168,11 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
         if (probe.face < 0 || probe.face >= triangle.cols())
             continue; // of another part; the user sees it in the list of probes
         places.push_back(place_on(position, triangle, probe.face, probe.barycentric));
-        scene.labels.push_back(
-            {places.back(),
-             fmt::format("P{}  {}", &probe - state.document.probes.data() + 1,
-                         values ? value_text(here(probe.face), unit) : fmt::format("face {}", probe.face)),
-             text});
+        scene.labels.push_back({places.back(),
+                                fmt::format("P{}  {}", &probe - state.document.probes.data() + 1,
+                                            values ? value_text(here(probe.face), unit, state.preferences.lengths)
+                                                   : fmt::format("face {}", probe.face)),
+                                text});
     }
     dots(places, palette::probe);
 }

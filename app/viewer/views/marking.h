@@ -22,7 +22,8 @@ LineList region_borders(const SceneMesh& mesh, const std::vector<FaceRegion>& re
 /// The name of each region on the face that is nearest to its middle.
 /// @param position 3 by #V of the part, mm: on the part or flat
 std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix3Xd& position,
-                                      const std::vector<FaceRegion>& regions, bool dark);
+                                      const std::vector<FaceRegion>& regions, bool dark,
+                                      LengthUnit lengths = LengthUnit::mm);
 
 /// Place of barycentric coordinates on a face, mm.
 Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,

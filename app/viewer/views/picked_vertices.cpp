@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 
@@ -52,7 +53,7 @@ void add_picked_vertices(Scene& scene, const ViewerState& state, SceneCache::Ver
             scene.labels.push_back({position.col(v), fmt::format("{}", in_file[size_t(v)]), text});
     if (vertices.size() == 2) {
         const Eigen::Vector3d a = position.col(vertices[0]), b = position.col(vertices[1]);
-        scene.labels.push_back({(a + b) / 2, fmt::format("{:.2f} mm", (b - a).norm()), text});
+        scene.labels.push_back({(a + b) / 2, fixed_length((b - a).norm(), state.preferences.lengths, 2), text});
     }
 }
 

@@ -94,7 +94,7 @@ struct SheetCache {
     Memo<std::shared_ptr<const std::vector<Isoline>>, std::shared_ptr<const SceneField>, float, float, int> isolines;
     Memo<LineList, Mesh, std::vector<FaceRegion>> regions;
     Memo<LineShapes, Mesh, Part, std::vector<ProcessLine>> process_lines;
-    Memo<std::vector<SceneLabel>, Mesh, std::vector<FaceRegion>, bool> region_labels;
+    Memo<std::vector<SceneLabel>, Mesh, std::vector<FaceRegion>, bool, LengthUnit> region_labels;
     Memo<LineList, Part, Blank, double> glyphs;
     Memo<LineList, Mesh, std::vector<int>> selection;
     Memo<LineList, Mesh, std::optional<int>> hover;
@@ -163,7 +163,7 @@ struct SceneCache {
     Memo<LineList, Part> boundary_on_quads;
     using Net = std::shared_ptr<const MultiPatch>;
     Memo<Net, Surface, Deformed> net;
-    Memo<StageShape, Part, Grid, Net, SurfaceLook, double> surface;
+    Memo<StageShape, Part, Grid, Net, SurfaceLook, double, LengthUnit> surface;
     Memo<StageShape, Surface> patch_mesh;
     Memo<LineList, Surface, bool> patch_lines;
     Memo<StageShape, Net, bool> control_net;

@@ -40,11 +40,12 @@ SceneLegend legend_of(const ViewerState& state, const FieldValues& values, doubl
 {
     const FieldInfo& field = info(state.document.display.field);
     const std::array<double, 2> extremes = values.said.extremes();
-    SceneLegend legend{label_of_field(state), field.field == Field::zone ? std::string() : std::string(field.unit),
-                       field_scale(state.document.display, extremes, size)};
+    const ShownUnit as = as_shown(field.unit, state.preferences.lengths);
+    SceneLegend legend{label_of_field(state), field.field == Field::zone ? std::string() : as.unit,
+                       field_scale(state.document.display, extremes, size, as.factor)};
     legend.below = below(legend.scale, extremes[0]);
     legend.above = above(legend.scale, extremes[1]);
-    legend.note = noise_note(state.document.display, extremes, size);
+    legend.note = noise_note(state.document.display, extremes, size, as.factor);
     if (is_smoothed(state.document.display))
         legend.note += legend.note.empty() ? "contour smoothed" : ", smoothed";
     return legend;
@@ -105,9 +106,11 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
         return;
     add_watched_places(scene, state, values, place.position);
     add_process_lines(scene, state, place.position, mesh, cache, shared);
-    const auto& names = cache.region_labels.of({mesh, document.regions, state.view.dark}, [&] {
-        return region_labels(part.triangle, place.position, document.regions, state.view.dark);
-    });
+    const auto& names =
+        cache.region_labels.of({mesh, document.regions, state.view.dark, state.preferences.lengths}, [&] {
+            return region_labels(part.triangle, place.position, document.regions, state.view.dark,
+                                 state.preferences.lengths);
+        });
     scene.labels.insert(scene.labels.end(), names.begin(), names.end());
 }
 

@@ -16,33 +16,28 @@ namespace {
 /// That of the fit; a surface without one is held against what is usual.
 double shown_tolerance(const SurfaceStage& surface) { return surface.fit ? surface.fit->tolerance : usual_tolerance; }
 
-SceneLegend legend_of(SurfaceLook look, const SurfaceStage& surface, const SceneLayer& layer, double size)
+SceneLegend legend_of(SurfaceLook look, const SurfaceStage& surface, const SceneLayer& layer, double size,
+                      LengthUnit lengths)
 {
     SceneLegend legend;
     legend.scale = layer.scale;
+    legend.unit = as_shown(unit_of(look), lengths).unit;
     const Eigen::VectorXf& value = layer.field->value;
     const auto finite = value.array().isNaN().select(0, value.array());
     legend.below = value.size() > 0 && below(layer.scale, finite.minCoeff());
     legend.above = value.size() > 0 && above(layer.scale, finite.maxCoeff());
     switch (look) {
-    case SurfaceLook::mean_curvature:
-        legend.title = "Mean curvature";
-        legend.unit = "1/mm";
-        return legend;
-    case SurfaceLook::gaussian_curvature:
-        legend.title = "Gaussian curvature";
-        legend.unit = "1/mm\u00b2";
-        return legend;
+    case SurfaceLook::mean_curvature: legend.title = "Mean curvature"; return legend;
+    case SurfaceLook::gaussian_curvature: legend.title = "Gaussian curvature"; return legend;
     case SurfaceLook::tolerance: legend.note = "middle: within tolerance"; [[fallthrough]];
     default: break;
     }
     legend.title = "Deviation";
-    legend.unit = "mm";
     if (look == SurfaceLook::deviation) {
         FieldDisplay shown;
         shown.field = Field::deviation;
         const double largest = surface.deviation.surface_to_mesh.max;
-        legend.note = noise_note(shown, {-largest, largest}, size);
+        legend.note = noise_note(shown, {-largest, largest}, size, layer.scale.shown);
     }
     return legend;
 }
@@ -93,15 +88,16 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
     const SurfaceLook look = state.shape_dragged && has_scale(state.view.surface_look) ? SurfaceLook::plain // quick
                                                                                        : state.view.surface_look;
     const double tolerance = shown_tolerance(*made.surface);
+    const LengthUnit lengths = state.preferences.lengths;
     const bool is_now = made.surface == session.surface; // what there was before is shown as it was fitted
     const SceneCache::Net net = cache.net.of({made.surface, is_now ? session.deformed : nullptr}, [&] {
         return std::make_shared<MultiPatch>(is_now ? surface_patches(session) : fitted_patches(*made.surface));
     });
-    const StageShape& shape = cache.surface.of({session.part, made.grid, net, look, tolerance}, [&] {
+    const StageShape& shape = cache.surface.of({session.part, made.grid, net, look, tolerance, lengths}, [&] {
         if (made.surface->patches)
-            return surface_shape(*net, {session.part->mesh, session.part->mesh.triangles()}, look, tolerance);
+            return surface_shape(*net, {session.part->mesh, session.part->mesh.triangles()}, look, tolerance, lengths);
         const FilledMesh& filled = *made.grid->result.filled;
-        return surface_shape(*net, {filled.mesh, filled.part_triangles}, look, tolerance);
+        return surface_shape(*net, {filled.mesh, filled.part_triangles}, look, tolerance, lengths);
     });
     result.layers = shape.layers;
     for (SceneLayer& layer : result.layers) {
@@ -110,7 +106,7 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
     }
     result.box = shape.box;
     if (has_scale(look))
-        result.legend = legend_of(look, *made.surface, result.layers.front(), shape.box.diagonal().norm());
+        result.legend = legend_of(look, *made.surface, result.layers.front(), shape.box.diagonal().norm(), lengths);
     if (state.view.control_net) {
         const StageShape& drawn =
             cache.control_net.of({net, state.view.dark}, [&] { return control_net_shape(*net, state.view.dark); });

@@ -98,9 +98,10 @@ double reach(const Eigen::VectorXd& value, double share)
     return *at;
 }
 
-ColourScale scale_of(SurfaceLook look, const Eigen::VectorXd& value, double tolerance, double size)
+ColourScale scale_of(SurfaceLook look, const Eigen::VectorXd& value, double tolerance, double size, LengthUnit lengths)
 {
     ColourScale scale{.map = ColourMap::diverging};
+    scale.shown = as_shown(unit_of(look), lengths).factor;
     if (look == SurfaceLook::tolerance) { // one band of three lies within it
         scale.greatest = float(3 * tolerance);
         scale.least = -scale.greatest;
@@ -112,14 +113,19 @@ ColourScale scale_of(SurfaceLook look, const Eigen::VectorXd& value, double tole
                                                     : reach(value, 0.98);
     if (look != SurfaceLook::deviation) // a plane is bent by rounding
         largest = std::max(largest, look == SurfaceLook::mean_curvature ? 1e-6 / size : 1e-6 / (size * size));
-    const RoundRange range = round_range(-largest, largest, 0, true);
-    scale.least = float(range.least);
-    scale.greatest = float(range.greatest);
+    const RoundRange range = round_range(-scale.shown * largest, scale.shown * largest, 0, true);
+    scale.least = float(range.least / scale.shown);
+    scale.greatest = float(range.greatest / scale.shown);
     scale.ticks = range.intervals;
     return scale;
 }
 
 } // namespace
+
+std::string_view unit_of(SurfaceLook look)
+{
+    return look == SurfaceLook::mean_curvature ? "1/mm" : look == SurfaceLook::gaussian_curvature ? "1/mm\u00b2" : "mm";
+}
 
 Eigen::VectorXd surface_deviation(const Tessellation& surface, const DrawnPart& part)
 {
@@ -174,7 +180,8 @@ std::vector<int> patch_colours(const MultiPatch& surface)
     return colour;
 }
 
-StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, SurfaceLook look, double tolerance)
+StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, SurfaceLook look, double tolerance,
+                         LengthUnit lengths)
 {
     const int fine = samples(surface);
     const std::vector<int> colour =
@@ -202,7 +209,7 @@ StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, Surfa
         if (has_scale(look)) {
             const Eigen::VectorXd value = drawn[c].values();
             layer.field = scene_field(*layer.mesh, value, false);
-            layer.scale = scale_of(look, value, tolerance, size);
+            layer.scale = scale_of(look, value, tolerance, size, lengths);
         }
         shape.layers.push_back(std::move(layer));
         shape.box.extend(Eigen::AlignedBox3d(mesh.position.rowwise().minCoeff(), mesh.position.rowwise().maxCoeff()));

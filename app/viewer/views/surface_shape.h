@@ -26,7 +26,11 @@ Eigen::VectorXd surface_curvature(const NurbsSurface& surface, const Tessellatio
 
 /// The surface in triangles, one layer, or one for each colour of patches.
 /// @param tolerance  mm, of SurfaceLook::tolerance
-StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, SurfaceLook look, double tolerance);
+/// @param lengths    in which the values beside the colours are round
+StageShape surface_shape(const MultiPatch& surface, const DrawnPart& part, SurfaceLook look, double tolerance,
+                         LengthUnit lengths = LengthUnit::mm);
+/// Of the values that a look shows: "mm", "1/mm", "1/mm²".
+std::string_view unit_of(SurfaceLook look);
 
 /// Colours by number, 0 to 5, as few as it takes, so that no two patches that share a side have the same. (Where six do not
 /// suffice, which no map in the plane needs, neighbours may.)
