@@ -26,9 +26,11 @@
 #include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/pictures.h"
+#include "app/viewer/render/file_textures.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/render/renderer.h"
 #include "app/viewer/render/view_images.h"
+#include "app/viewer/versions.h"
 #include "app/viewer/views/views.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
@@ -52,6 +54,7 @@ public:
             model_.say(Severity::warning,
                        fmt::format("The font {} is missing (Debian package fonts-inter).", ui_.fonts.missing));
         ui_.recent = recent_files();
+        ui_.versions = versions();
         glfwSetWindowUserPointer(window_.get(), this);
         glfwSetDropCallback(window_.get(), [](GLFWwindow* window, int count, const char** paths) {
             for (int k = 0; k < count; ++k)
@@ -280,6 +283,11 @@ private:
             [&](const StepPicture& picture, size_t step, int w, int h) {
                 return reinterpret_cast<ImTextureID>(
                     uintptr_t(images_.draw_small(1 + step, picture.scene, picture.camera, w, h, look())));
+            },
+            [&](const std::filesystem::path& file) {
+                const FileTextures::Shown shown = textures_.of(file);
+                return PictureOnScreen{reinterpret_cast<ImTextureID>(uintptr_t(shown.texture)), shown.width,
+                                       shown.height};
             }};
         // One key a frame, in the order in which they were pressed: what a key does is there for the next one.
         // Letters that are typed into a field are ImGui's.
@@ -550,6 +558,7 @@ private:
     ViewerModel model_;
     Renderer renderer_;
     ViewImages images_{renderer_};
+    FileTextures textures_;
     SceneCache cache_;
     ActionQueue queue_;
     Ui ui_;

@@ -200,11 +200,13 @@ void dialogs(Frame& frame)
     material_dialog(frame);
     material_editor(frame);
     preferences_dialog(frame);
+    about_dialog(frame);
     follow_chosen_file(frame);
     if (frame.ui.dialogs.end_frame())
         close_dialogs();
     shortcuts_window(frame);
     messages_window(frame);
+    manual_window(frame);
 }
 
 } // namespace spia::viewer

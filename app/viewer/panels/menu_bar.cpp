@@ -177,8 +177,13 @@ void menu_bar(Frame& frame)
         ImGui::EndMenu();
     }
     if (ImGui::BeginMenu("Help")) {
+        if (ImGui::MenuItem("Manual"))
+            frame.ui.manual.shown = frame.ui.manual.appears = true;
         ImGui::MenuItem("Keyboard and mouse", "F1", &frame.ui.show_shortcuts);
         ImGui::MenuItem("Messages", nullptr, &frame.ui.show_messages);
+        ImGui::Separator();
+        if (ImGui::MenuItem("About..."))
+            frame.ui.show_about = true;
         ImGui::EndMenu();
     }
     const std::string title =

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* inter = "/usr/share/fonts/opentype/inter/"; // Debian's fonts-inter
 
-ImFont* load(const char* file, float size, Fonts& fonts)
+ImFont* load(const char* file, float size, Fonts& fonts, bool few_glyphs = false)
 {
     // In large pictures only those that labels and legends have, or the texture of all letters would be too large.
     static const ImWchar few[] = {0x20, 0xff, 0x2010, 0x2027, 0x2212, 0x2212, 0x2264, 0x2265, 0};
@@ -24,7 +24,7 @@ ImFont* load(const char* file, float size, Fonts& fonts)
         return io.Fonts->AddFontDefault(&config);
     }
     return io.Fonts->AddFontFromFileTTF(path.c_str(), std::round(size), nullptr,
-                                        size > large ? few : glyphs);
+                                        few_glyphs || size > large ? few : glyphs);
 }
 
 ImVec4 rgb(unsigned hex, float alpha = 1)
@@ -40,6 +40,7 @@ Fonts load_fonts(float scale)
     fonts.text = load("Inter-Regular.otf", 15 * scale, fonts);
     fonts.bold = load("Inter-SemiBold.otf", 15 * scale, fonts);
     fonts.small = load("Inter-Regular.otf", 13 * scale, fonts);
+    fonts.heading = load("Inter-SemiBold.otf", 22 * scale, fonts, true);
     return fonts;
 }
 

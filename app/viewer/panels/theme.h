@@ -8,6 +8,7 @@ struct Fonts {
     ImFont* text = nullptr;
     ImFont* bold = nullptr;
     ImFont* small = nullptr;
+    ImFont* heading = nullptr; ///< of the manual, larger
     std::string missing;       ///< which font file was not found, if any; ImGui's own font then takes its place
 };
 

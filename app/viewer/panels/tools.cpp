@@ -377,8 +377,8 @@ void shortcuts(Frame& frame)
         frame.ui.by_keys = true;
     }
     if (pressed(GLFW_KEY_ESCAPE)) {
-        if (frame.ui.show_shortcuts || frame.ui.show_messages)
-            frame.ui.show_shortcuts = frame.ui.show_messages = false;
+        if (frame.ui.show_shortcuts || frame.ui.show_messages || frame.ui.manual.shown)
+            frame.ui.show_shortcuts = frame.ui.show_messages = frame.ui.manual.shown = false;
         else if (!frame.ui.line.empty())
             frame.ui.line.clear();
         else if (frame.state.job.running)

@@ -19,6 +19,7 @@
 #include "app/viewer/panels/file_dialog.h"
 #include "app/viewer/panels/import_dialog.h"
 #include "app/viewer/panels/labels.h"
+#include "app/viewer/panels/manual_window.h"
 #include "app/viewer/panels/material_dialog.h"
 #include "app/viewer/panels/material_editor.h"
 #include "app/viewer/panels/picture_dialog.h"
@@ -71,7 +72,7 @@ struct Ui {
     SidePanels panels;
     bool show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false, show_material = false,
-         show_preferences = false; ///< dialogs that open in the next frame
+         show_preferences = false, show_about = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since;                                       ///< seconds; by number
     int unfolded_message = 0; ///< the one whose details are shown; 0: none
     double wake_at = 0;       ///< seconds of ImGui's clock: the window changes then without an event; 0: no
@@ -111,6 +112,8 @@ struct Ui {
     ComparisonTable compared;
     ImportChoices importing;
     PreferenceChoices preferring;
+    ManualWindow manual;
+    std::vector<std::pair<std::string, std::string>> versions; ///< of the program and the libraries that it runs with
 
     Charts charts;
     std::optional<SectionMark> section_mark;
@@ -141,6 +144,12 @@ struct Ui {
     std::vector<std::filesystem::path> recent;
 };
 
+/// A picture of a file as ImGui shows it.
+struct PictureOnScreen {
+    ImTextureID texture = {};  ///< null: there is none
+    int width = 0, height = 0; ///< pixels of the file
+};
+
 /// Everything a panel may look at and act through.
 struct Frame {
     ViewerModel& model;
@@ -154,6 +163,8 @@ struct Frame {
     std::function<ImTextureID(const Scene& scene, const Camera& camera, int width, int height)> draw_small;
     /// The same for the small picture of a step; null where it comes a frame later.
     std::function<ImTextureID(const StepPicture& picture, size_t step, int width, int height)> draw_step;
+    /// A picture (PNG) of the manual.
+    std::function<PictureOnScreen(const std::filesystem::path& file)> picture = {};
 
     LengthUnit lengths() const { return state.preferences.lengths; } ///< of the screen
 };
@@ -193,6 +204,8 @@ MessageStrip message_strip(Frame& frame, float width);
 void draw_messages(Frame& frame, const MessageStrip& strip);
 /// All that was said, if asked for.
 void messages_window(Frame& frame);
+/// Version, licence and libraries.
+void about_dialog(Frame& frame);
 /// Keyboard shortcuts, unless a text is being typed.
 void shortcuts(Frame& frame);
 
