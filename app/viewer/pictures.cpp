@@ -168,7 +168,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
     aside.left_work.reset();
     aside.sample = false;
     aside.show_export = aside.show_picture = aside.show_report = aside.show_material = aside.materials.appears =
-        aside.show_shortcuts = aside.show_preferences = aside.show_about = aside.manual.shown =
+        aside.show_shortcuts = aside.show_preferences = aside.show_about = aside.show_animation = aside.manual.shown =
             false;
     aside.dialogs = {};
     std::array<Renderer::Image, 4> images;

@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <OpenMesh/Core/System/config.h>
 #include <fmt/core.h>
+#include <gif_lib.h>
 #include <glm/glm.hpp>
 #include <imgui.h>
 #include <nlohmann/json.hpp>
@@ -32,7 +33,8 @@ std::vector<std::pair<std::string, std::string>> versions()
             {"GLM", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
             {"JSON for Modern C++", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                                 NLOHMANN_JSON_VERSION_PATCH)},
-            {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)}};
+            {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+            {"GIFLIB", fmt::format("{}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)}};
 }
 
 } // namespace spia::viewer

@@ -12,6 +12,7 @@
 #include <imgui_impl_opengl3.h>
 #include <set>
 
+#include "app/viewer/animation.h"
 #include "app/viewer/gl_window.h"
 #include "app/viewer/model/file_writer.h"
 #include "app/viewer/model/frame_times.h"
@@ -70,7 +71,7 @@ public:
         int settle = 3;
         while (!quit_) {
             const bool moves =
-                !script_.ended() || !queue_.empty() || !pictures_.empty() || settle > 0 || finishing();
+                !script_.ended() || !queue_.empty() || !pictures_.empty() || animation_ || settle > 0 || finishing();
             if (options_.follow && !moves)
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
@@ -229,7 +230,7 @@ private:
     /// Whether --exit waits for nothing any more, and the last frames are drawn.
     bool finishing() const
     {
-        return options_.exit && script_.ended() && !model_.busy() && !writer_.busy() && queue_.empty();
+        return options_.exit && script_.ended() && !model_.busy() && !writer_.busy() && !animation_ && queue_.empty();
     }
 
     void frame()
@@ -320,6 +321,7 @@ private:
             marked_ = marked_item();
         }
         take_pictures(width, height);
+        follow_animation();
         const double busy = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         times_.all.push_back(busy);
         if (solving)
@@ -384,6 +386,8 @@ private:
                 pictures_.push_back(*picture);
             else if (const auto* wanted = std::get_if<WriteReport>(&action))
                 write_report(*wanted);
+            else if (const auto* animated = std::get_if<SaveAnimation>(&action))
+                begin_animation(*animated);
             else if (std::get_if<Quit>(&action))
                 quit_ = true;
             else if (opens && !options_.exit)
@@ -416,6 +420,42 @@ private:
             } catch (const std::exception& error) {
                 model_.say(Severity::error, error.what());
             }
+    }
+
+    void begin_animation(const SaveAnimation& wanted)
+    {
+        if (animation_)
+            throw InputError("Wait for the animation that is being made, or cancel it.");
+        animation_ = std::make_unique<Animation>(wanted, model_.state(), [] { glfwPostEmptyEvent(); });
+        ui_.animation = AnimationRun{};
+    }
+
+    /// A picture of it a frame, until it is written.
+    void follow_animation()
+    {
+        if (!animation_)
+            return;
+        GlWindow::news() = true;
+        try {
+            if (ui_.animation && ui_.animation->cancelling)
+                animation_->cancel();
+            animation_->draw_next(renderer_, model_);
+            ui_.animation->fraction = animation_->fraction();
+            if (!animation_->ended())
+                return;
+            const auto files = animation_->take();
+            if (files.empty())
+                model_.say(Severity::hint, "The animation was cancelled; nothing was written.");
+            else if (files.size() == 1)
+                model_.say(Severity::done, fmt::format("Wrote {}", files[0].string()));
+            else
+                model_.say(Severity::done, fmt::format("Wrote {} pictures, {} to {}", files.size(), files[0].string(),
+                                                       files.back().filename().string()));
+        } catch (const std::exception& error) {
+            model_.say(Severity::error, error.what());
+        }
+        animation_.reset();
+        ui_.animation.reset();
     }
 
     Picture view_picture(const Screenshot& wanted)
@@ -485,7 +525,7 @@ private:
     /// One step of the script per frame; at its end, what was asked for on the command line.
     void next_step()
     {
-        if (!queue_.empty() || !pictures_.empty() || writer_.busy())
+        if (!queue_.empty() || !pictures_.empty() || animation_ || writer_.busy())
             return;
         if (script_.ended()) {
             if (finishing() && ++idle_frames_ > 4) {
@@ -559,6 +599,7 @@ private:
     Renderer renderer_;
     ViewImages images_{renderer_};
     FileTextures textures_;
+    std::unique_ptr<Animation> animation_; ///< that is being made
     SceneCache cache_;
     ActionQueue queue_;
     Ui ui_;

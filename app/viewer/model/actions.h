@@ -415,6 +415,16 @@ struct Screenshot {
     bool legend = true, labels = true; ///< of a view; the window shows what it shows
     bool transparent = false;          ///< ground of a view; else that of the theme
 };
+/// "animation", in the background: the unfolding from the part to the blank, as many pictures in as many seconds, and back again if asked
+/// for. A GIF that repeats, or where the file is called .png, numbered pictures beside each other.
+struct SaveAnimation {
+    std::filesystem::path file;
+    int frames = 48; ///< from the part to the blank
+    double seconds = 4;
+    int width = 960, height = 640; ///< pixels
+    bool legend = true;
+    bool back = true; ///< then from the blank to the part, in as many seconds
+};
 struct DismissMessages {}; ///< "dismiss_messages"
 struct Quit {};            ///< "quit"
 
@@ -430,7 +440,7 @@ using Action =
                  SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
                  SetViewSettings, SetPreferences, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
                  KeepReference, DropReference, Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport,
-                 Screenshot, DismissMessages, Quit>;
+                 Screenshot, SaveAnimation, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

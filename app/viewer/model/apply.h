@@ -174,6 +174,7 @@ struct ViewerModel::Apply {
     void operator()(const DismissMessages&);
     void operator()(const Screenshot&) {}
     void operator()(const WriteReport&) {}
+    void operator()(const SaveAnimation&) {}
     void operator()(const Quit&) {}
 };
 

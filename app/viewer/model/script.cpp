@@ -203,6 +203,12 @@ constexpr std::tuple forms{
                      member("width", &Screenshot::width, pixels), member("height", &Screenshot::height, pixels),
                      member("legend", &Screenshot::legend), member("labels", &Screenshot::labels),
                      member("transparent", &Screenshot::transparent)),
+    form<SaveAnimation>("animation", required("file", &SaveAnimation::file, not_empty),
+                        member("frames", &SaveAnimation::frames, Between{2, 500}),
+                        member("seconds", &SaveAnimation::seconds, Between{0.1, 600}),
+                        member("width", &SaveAnimation::width, Between{16, 4096}),
+                        member("height", &SaveAnimation::height, Between{16, 4096}),
+                        member("legend", &SaveAnimation::legend), member("back", &SaveAnimation::back)),
     form<DismissMessages>("dismiss_messages"),
     form<Quit>("quit")};
 

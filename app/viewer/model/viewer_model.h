@@ -28,7 +28,7 @@ public:
     const ViewerState& state() const { return state_; }
     const std::filesystem::path& assets() const { return assets_; }
 
-    /// Carries out one action. What goes wrong becomes a message, never an exception. Screenshot, WriteReport and Quit are
+    /// Carries out one action. What goes wrong becomes a message, never an exception. Screenshot, SaveAnimation, WriteReport and Quit are
     /// the window's.
     void apply(const Action& action);
 

@@ -162,6 +162,10 @@ void follow_chosen_file(Frame& frame)
     }
     case FileDialog::Purpose::open_steps: frame.actions.push(OpenSteps{*path}); break;
     case FileDialog::Purpose::save_steps: frame.actions.push(SaveSteps{*path}); break;
+    case FileDialog::Purpose::save_animation:
+        frame.ui.animating.file = path->string();
+        frame.ui.show_animation = true;
+        break;
     case FileDialog::Purpose::open_material: frame.actions.push(SetMaterial{path->string()}); break;
     case FileDialog::Purpose::open_tensile_test:
         frame.ui.fitting.table = path->string();
@@ -200,6 +204,7 @@ void dialogs(Frame& frame)
     material_dialog(frame);
     material_editor(frame);
     preferences_dialog(frame);
+    animation_dialog(frame);
     about_dialog(frame);
     follow_chosen_file(frame);
     if (frame.ui.dialogs.end_frame())

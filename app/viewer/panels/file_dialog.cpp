@@ -43,6 +43,7 @@ const Wording& wording(FileDialog::Purpose purpose)
     static const Wording steps{"Open the steps", "Open", {".json"}, false, false};
     static const Wording save_steps{"Save the steps", "Save", {".json"}, true, false};
     static const Wording picture{"Save a picture", "Save", {".png"}, true, false};
+    static const Wording animation{"Save an animation", "Save", {".gif", ".png"}, true, false};
     switch (purpose) {
     case P::open_part: return part;
     case P::open_project: return project;
@@ -54,6 +55,7 @@ const Wording& wording(FileDialog::Purpose purpose)
     case P::export_folder: return folder;
     case P::save_report: return report;
     case P::save_picture: return picture;
+    case P::save_animation: return animation;
     case P::open_steps: return steps;
     case P::save_steps: return save_steps;
     }

@@ -19,6 +19,7 @@ public:
         export_folder,
         save_report,
         save_picture,
+        save_animation,
         open_material,
         open_tensile_test,
         save_material,

@@ -89,6 +89,9 @@ void menu_bar(Frame& frame)
             frame.ui.show_report = true;
         if (ImGui::MenuItem("Picture...", nullptr, false, part))
             frame.ui.show_picture = true;
+        if (ImGui::MenuItem("Animation...", nullptr, false,
+                            part && (state.document.session.blank || steps_done(state.document) > 0)))
+            frame.ui.show_animation = true;
         ImGui::Separator();
         if (ImGui::MenuItem("Quit", "Ctrl+Q"))
             frame.actions.push(Quit{});

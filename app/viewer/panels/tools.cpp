@@ -383,6 +383,8 @@ void shortcuts(Frame& frame)
             frame.ui.line.clear();
         else if (frame.state.job.running)
             frame.actions.push(CancelJob{});
+        else if (frame.ui.animation)
+            frame.ui.animation->cancelling = true;
         else
             frame.actions.push(ClearSelection{});
     }

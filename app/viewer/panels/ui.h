@@ -11,6 +11,7 @@
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/lengths.h"
 #include "app/viewer/model/viewer_model.h"
+#include "app/viewer/panels/animation_dialog.h"
 #include "app/viewer/panels/charts.h"
 #include "app/viewer/panels/comparison_section.h"
 #include "app/viewer/panels/dialog_queue.h"
@@ -72,7 +73,7 @@ struct Ui {
     SidePanels panels;
     bool show_shortcuts = false, show_messages = false;
     bool show_export = false, show_picture = false, show_report = false, show_material = false,
-         show_preferences = false, show_about = false; ///< dialogs that open in the next frame
+         show_preferences = false, show_about = false, show_animation = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since;                                       ///< seconds; by number
     int unfolded_message = 0; ///< the one whose details are shown; 0: none
     double wake_at = 0;       ///< seconds of ImGui's clock: the window changes then without an event; 0: no
@@ -112,6 +113,8 @@ struct Ui {
     ComparisonTable compared;
     ImportChoices importing;
     PreferenceChoices preferring;
+    AnimationChoices animating;
+    std::optional<AnimationRun> animation; ///< the one that is being made; null: none
     ManualWindow manual;
     std::vector<std::pair<std::string, std::string>> versions; ///< of the program and the libraries that it runs with
 

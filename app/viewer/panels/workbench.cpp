@@ -41,6 +41,20 @@ void selection_actions(Frame& frame)
     }
 }
 
+void animation_status(Frame& frame, AnimationRun& run)
+{
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Making the animation");
+    ImGui::SameLine();
+    ImGui::ProgressBar(float(run.fraction), {180 * frame.ui.scale, ImGui::GetFrameHeight() * 0.8f},
+                       fmt::format("{:.0f} %", 100 * run.fraction).c_str());
+    ImGui::SameLine();
+    ImGui::BeginDisabled(run.cancelling);
+    if (small_button(frame, run.cancelling ? "Cancelling..." : "Cancel"))
+        run.cancelling = true;
+    ImGui::EndDisabled();
+}
+
 void status_bar(Frame& frame)
 {
     const ViewerState& state = frame.state;
@@ -52,6 +66,10 @@ void status_bar(Frame& frame)
         ImGui::ProgressBar(float(state.job.fraction), {180 * frame.ui.scale, ImGui::GetFrameHeight() * 0.8f}, "");
         ImGui::SameLine();
         ImGui::TextColored(p.muted, "%s", state.job.step.c_str());
+        return;
+    }
+    if (frame.ui.animation) {
+        animation_status(frame, *frame.ui.animation);
         return;
     }
     ImGui::AlignTextToFramePadding();
