@@ -19,11 +19,16 @@ uniform int bands, ticks; // bands 0: smooth
 uniform bool isolines;
 uniform vec4 no_value;
 
+uniform bool coarse;            // the triangles stand for some of the mesh's
+uniform usamplerBuffer face_of; // which
+
 uniform bool has_marks;
 uniform usamplerBuffer face_mark;
 uniform vec4 region_colour[64];
 uniform vec4 selected_colour;
 const uint region = 0x3fu, hovered = 0x40u, selected = 0x80u;
+
+int face() { return coarse ? int(texelFetch(face_of, gl_PrimitiveID).r) : gl_PrimitiveID; }
 
 float slope(float x) { return max(length(vec2(dFdx(x), dFdy(x))), 1e-12); } // per pixel
 
@@ -58,7 +63,7 @@ bool is_number(float x) { return (floatBitsToUint(x) & 0x7fffffffu) <= 0x7f80000
 
 vec3 field_colour()
 {
-    float value = per_face ? texelFetch(face_value, gl_PrimitiveID).r : vertex_value;
+    float value = per_face ? texelFetch(face_value, face()).r : vertex_value;
     float t = greatest > least ? (value - least) / (greatest - least) : 0.5;
     float along = t * float(ticks), steepness = slope(along), band_slope = slope(t * float(max(bands, 1)));
     if (!is_number(value))
@@ -117,7 +122,7 @@ void main()
     if (zebra)
         colour.rgb *= lamps(normal);
 
-    uint mark = has_marks ? texelFetch(face_mark, gl_PrimitiveID).r : 0u;
+    uint mark = has_marks ? texelFetch(face_mark, face()).r : 0u;
     if ((mark & region) != 0u) {
         vec4 tint = region_colour[(mark & region) - 1u];
         colour.rgb = mix(colour.rgb, tint.rgb, tint.a * (has_field ? 0.0 : 0.4)); // a field keeps its colours

@@ -187,8 +187,8 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
                 cache,
                 [&](const Scene& shown, View view, int w, int h) {
                     const Camera& camera = model.state().view.camera[size_t(view)];
-                    return reinterpret_cast<ImTextureID>(
-                        uintptr_t(renderer.draw(images[size_t(view)], shown, camera, w, h, look)));
+                    return DrawnView{reinterpret_cast<ImTextureID>(
+                        uintptr_t(renderer.draw(images[size_t(view)], shown, camera, w, h, look)))};
                 },
                 [&](const Scene& shown, const Camera& camera, int w, int h) {
                     return reinterpret_cast<ImTextureID>(uintptr_t(renderer.draw(beside, shown, camera, w, h, look)));

@@ -70,15 +70,19 @@ public:
     {
         int settle = 3;
         while (!quit_) {
+            const bool was_moving = moving();
             const bool moves =
                 !script_.ended() || !queue_.empty() || !pictures_.empty() || animation_ || settle > 0 || finishing();
-            if (options_.follow && !moves)
+            if (options_.follow && !moves && (ui_.busy || !was_moving))
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
                 glfwPollEvents();
             else if (model_.busy())
                 glfwWaitEventsTimeout(0.1);
-            else {
+            else if (was_moving) {
+                glfwWaitEventsTimeout(seconds_to_stand_still);
+                GlWindow::news() = true;
+            } else {
                 const double until = ui_.wake_at > 0          ? std::max(0.01, ui_.wake_at - ImGui::GetTime())
                                      : model_.state().unsaved ? 15
                                                               : 60; // work is kept now and then
@@ -267,7 +271,9 @@ private:
         if (options_.exit) // nobody is there: where the mouse happens to be is not to be seen
             ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
         ImGui::NewFrame();
+        const bool drawing = images_.any_late();
         images_.begin_frame();
+        follow_cameras();
         Frame now{
             model_,
             model_.state(),
@@ -275,8 +281,9 @@ private:
             ui_,
             cache_,
             [&](const Scene& shown, View view, int w, int h) {
-                return reinterpret_cast<ImTextureID>(uintptr_t(images_.draw(
-                    size_t(view), ui_.busy == view, shown, model_.state().view.camera[size_t(view)], w, h, look())));
+                const ViewImages::Drawn drawn = images_.draw(size_t(view), ui_.busy == view, shown,
+                                                             model_.state().view.camera[size_t(view)], w, h, look());
+                return DrawnView{reinterpret_cast<ImTextureID>(uintptr_t(drawn.texture)), drawn.old};
             },
             [&](const Scene& shown, const Camera& camera, int w, int h) {
                 return reinterpret_cast<ImTextureID>(uintptr_t(images_.draw_small(0, shown, camera, w, h, look())));
@@ -285,6 +292,7 @@ private:
                 return reinterpret_cast<ImTextureID>(
                     uintptr_t(images_.draw_small(1 + step, picture.scene, picture.camera, w, h, look())));
             },
+            drawing,
             [&](const std::filesystem::path& file) {
                 const FileTextures::Shown shown = textures_.of(file);
                 return PictureOnScreen{reinterpret_cast<ImTextureID>(uintptr_t(shown.texture)), shown.width,
@@ -326,6 +334,8 @@ private:
         times_.all.push_back(busy);
         if (solving)
             times_.solving.push_back(busy);
+        if (ui_.busy)
+            times_.turning.push_back(busy);
         glfwSwapBuffers(window_.get());
         for (Action& action : queue_.take()) {
             if (options_.follow)
@@ -349,9 +359,26 @@ private:
         Look result;
         result.dark = model_.state().view.dark;
         result.content_scale = ui_.scale;
-        if (renderer_.in_software() && ui_.busy) // while a view moves; the next frame that stands still is smooth again
+        if (moving()) {
             result.samples = 1;
+            result.most_triangles = most_while_moving;
+        }
         return result;
+    }
+
+    /// Whether views are drawn coarse because they follow the mouse. A graphics card draws them as they are; a picture to be
+    /// kept, and what a script looks at, never is coarse.
+    bool moving() const
+    {
+        return software_ && !options_.exit && script_.ended() && pictures_.empty() &&
+               (ui_.busy || ImGui::GetTime() < moved_at_ + seconds_to_stand_still);
+    }
+    void follow_cameras()
+    {
+        if (const auto& now = model_.state().view.camera; now != cameras_) {
+            moved_at_ = ImGui::GetTime();
+            cameras_ = now;
+        }
     }
 
     /// What would lose unsaved work waits for the user's word.
@@ -560,6 +587,7 @@ private:
         Json json = state_report(model_.state());
         json["frames"] = FrameTimes::figures(times_.all);
         json["frames_while_solving"] = FrameTimes::figures(times_.solving);
+        json["frames_while_turning"] = FrameTimes::figures(times_.turning);
         json["window"] = window_json();
         return json;
     }
@@ -593,10 +621,18 @@ private:
     }
 
     WindowOptions options_;
+    // Of a mesh, while it is turned under software OpenGL, and how long a view stands still before it is drawn fine again: a
+    // turn of the wheel is followed by another one within 0.2 s.
+    static constexpr int most_while_moving = 60000;
+    static constexpr double seconds_to_stand_still = 0.3;
+
     GlWindow window_;
     ImGuiContextOwner gui_;
     ViewerModel model_;
     Renderer renderer_;
+    bool software_ = renderer_.in_software();
+    std::array<Camera, 4> cameras_;
+    double moved_at_ = -seconds_to_stand_still; ///< of ImGui's clock: a camera was another one in the frame before
     ViewImages images_{renderer_};
     FileTextures textures_;
     std::unique_ptr<Animation> animation_; ///< that is being made

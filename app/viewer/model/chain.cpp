@@ -134,7 +134,8 @@ std::string out_of_date(const Document& document)
                  : "";
 }
 
-ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress)
+ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
+                      const std::function<void(const ChainResult&)>& ended)
 {
     ChainResult result;
     result.session = std::move(session);
@@ -154,6 +155,8 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
             note(stage, result.session.options, result.made_with);
             if (stage == Stage::read)
                 result.search = std::make_shared<ClosestPointSearch>(result.session.part->mesh);
+            if (ended)
+                ended(result);
         } catch (const Cancelled&) {
             result.cancelled = true;
             return result;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,7 +35,9 @@ struct ChainResult {
 };
 
 /// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.
-ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress);
+/// @param ended  called on this thread after every stage, with all that has been finished so far
+ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
+                      const std::function<void(const ChainResult&)>& ended = {});
 
 /// What to do about a stage that failed, in one sentence. @param options  that it was to be made with
 std::string advice(Stage failed, const SessionOptions& options);

@@ -22,6 +22,7 @@ namespace spia::viewer {
 /// Filled on the solver's thread, emptied on the window's.
 struct ViewerModel::Live {
     Mailbox<std::shared_ptr<const Eigen::Matrix2Xd>> blank;
+    Mailbox<ChainResult> so_far; ///< the stages that have ended
     std::mutex mutex;
     std::vector<double> residual;
     std::chrono::steady_clock::time_point last;
@@ -96,6 +97,7 @@ void ViewerModel::follow_doubts()
 void ViewerModel::start(Stage from, Stage to, std::string title)
 {
     live_ = std::make_shared<Live>();
+    cancelled_at_.reset();
     depth_at_start_ = state_.history.depth();
     Session session = state_.document.session;
     if (session.options.steps) { // the tools are not in them
@@ -115,8 +117,10 @@ void ViewerModel::start(Stage from, Stage to, std::string title)
     state_.job.running = true;
     state_.job.title = std::move(title);
     chain_job_ = std::make_unique<Job<ChainResult>>(
-        [session = std::move(session), made_with = state_.document.made_with, from, to](const Progress& progress) {
-            return run_chain(session, made_with, from, to, progress);
+        [session = std::move(session), made_with = state_.document.made_with, from, to,
+         live = live_](const Progress& progress) {
+            return run_chain(session, made_with, from, to, progress,
+                             [&](const ChainResult& result) { live->so_far.post(result); });
         },
         wake_);
 }
@@ -177,7 +181,7 @@ bool ViewerModel::poll()
             news |= live_->residual.size() != view.residual.size();
             view.residual = live_->residual;
         }
-        if (chain_job_->finished()) {
+        if (chain_job_->finished() || waited_long_for_cancel()) {
             take_chain_result();
             news = true;
         }
@@ -227,14 +231,35 @@ void ViewerModel::follow_list()
     }
 }
 
+/// Whether the running job was cancelled and has not come to its next checkpoint for as long as a person waits without wondering.
+bool ViewerModel::waited_long_for_cancel() const
+{
+    constexpr auto patience = std::chrono::milliseconds(500); // half of the second that a cancel may take
+    return cancelled_at_ && std::chrono::steady_clock::now() - *cancelled_at_ > patience;
+}
+
+/// Lets the running chain end by itself. @returns the stages that it has finished
+ChainResult ViewerModel::leave_chain()
+{
+    ChainResult result;
+    if (auto so_far = live_->so_far.fetch()) {
+        result = std::move(*so_far);
+    } else {
+        result.session = state_.document.session;
+        result.made_with = state_.document.made_with;
+    }
+    result.cancelled = true;
+    ending_.push_back(std::move(chain_job_));
+    return result;
+}
+
 void ViewerModel::take_chain_result()
 {
-    const auto job = std::move(chain_job_);
     const std::string title = state_.job.title;
     state_.job = JobView{};
     ChainResult result;
     try {
-        result = job->take();
+        result = chain_job_->finished() ? std::exchange(chain_job_, nullptr)->take() : leave_chain();
     } catch (const std::exception& error) { // no memory for a copy of the session
         say(Severity::error, error.what());
         return;

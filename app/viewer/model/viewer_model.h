@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -67,6 +68,8 @@ private:
     void start(Stage from, Stage to, std::string title);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
+    ChainResult leave_chain();
+    bool waited_long_for_cancel() const;
     std::vector<std::string> take_over(Document& document, const ChainResult& result) const;
     std::vector<std::string> restore(Document& document, const StoredPicks& picks,
                                      const std::shared_ptr<const ClosestPointSearch>& search) const;
@@ -118,7 +121,8 @@ private:
     int said_ = 0;                       ///< messages so far
     DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
     int openings_ = 0;
-    bool opening_ = false;           ///< the running job reads a new part
+    std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job
+    bool opening_ = false; ///< the running job reads a new part
     std::optional<Project> project_; ///< waits for its part
     Pickers pickers_;
     std::optional<Probe> under_mouse_;

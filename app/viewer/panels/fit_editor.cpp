@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/chain.h"
+#include "app/viewer/model/fit_cost.h"
 #include "app/viewer/model/lights.h"
 #include "app/viewer/model/viewer_words.h"
 
@@ -31,6 +33,9 @@ void fit_editor(Frame& frame, FitChoice fit)
             fit.tolerance = std::clamp(*fit.tolerance, 1e-9, 1e6);
             changed = true;
         }
+        const Document& document = frame.state.document;
+        if (document.session.part && first_stale(document))
+            muted(frame, fit_cost(document.session.part->mesh.triangles()));
     }
     double degrees[] = {double(fit.degree_u), double(fit.degree_v)};
     ImGui::SetNextItemWidth(width);

@@ -94,6 +94,10 @@ void doubt_rows(Frame& frame, ChainStep step)
 void ready_light(Frame& frame)
 {
     const Palette p = palette_of(frame.state.view.dark);
+    if (frame.drawing) {
+        ImGui::TextColored(p.muted, "Drawing...");
+        return;
+    }
     const Readiness ready = readiness(frame.state);
     if (ready.fine) {
         ImGui::TextColored(p.muted, "%s", ready.text.c_str());

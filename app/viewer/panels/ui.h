@@ -153,6 +153,12 @@ struct PictureOnScreen {
     int width = 0, height = 0; ///< pixels of the file
 };
 
+/// The picture of a view.
+struct DrawnView {
+    ImTextureID texture;
+    bool old = false; ///< it shows another scene yet, say the field before: nothing may be read from it
+};
+
 /// Everything a panel may look at and act through.
 struct Frame {
     ViewerModel& model;
@@ -160,12 +166,13 @@ struct Frame {
     ActionQueue& actions;
     Ui& ui;
     SceneCache& cache;
-    /// Draws a view of this size (pixels) and gives its texture for ImGui.
-    std::function<ImTextureID(const Scene& scene, View view, int width, int height)> draw;
+    /// Draws a view of this size (pixels), or leaves it for a later frame.
+    std::function<DrawnView(const Scene& scene, View view, int width, int height)> draw;
     /// A picture beside the four views; null where it comes a frame later.
     std::function<ImTextureID(const Scene& scene, const Camera& camera, int width, int height)> draw_small;
     /// The same for the small picture of a step; null where it comes a frame later.
     std::function<ImTextureID(const StepPicture& picture, size_t step, int width, int height)> draw_step;
+    bool drawing = false; ///< some view had to wait for this frame
     /// A picture (PNG) of the manual.
     std::function<PictureOnScreen(const std::filesystem::path& file)> picture = {};
 

@@ -70,6 +70,32 @@ void draw_section(Frame& frame, View view, glm::dvec2 size, ImVec2 from, ImDrawL
     draw->AddCircleFilled(middle, 5 * s, ink(p.warning));
 }
 
+/// Over a picture that is to be replaced.
+void veil(const Frame& frame, ImVec2 from, ImVec2 size, ImDrawList* draw)
+{
+    const Palette p = palette_of(frame.state.view.dark);
+    draw->AddRectFilled(from, {from.x + size.x, from.y + size.y}, ink(ImVec4(p.panel.x, p.panel.y, p.panel.z, 0.75f)));
+    constexpr const char* text = "Drawing...";
+    const ImVec2 room = ImGui::CalcTextSize(text);
+    draw->AddText({from.x + (size.x - room.x) / 2, from.y + (size.y - room.y) / 2}, ImGui::GetColorU32(ImGuiCol_Text),
+                  text);
+}
+
+/// The face under the mouse: white on a dark casing, so that it is seen on every colour.
+void mark_hovered(const Frame& frame, View view, const std::array<Eigen::Vector3d, 3>& corners, glm::dvec2 size,
+                  ImVec2 from, ImDrawList* draw)
+{
+    const float s = frame.ui.scale;
+    std::array<ImVec2, 3> at;
+    for (size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], corners[k], size);
+        at[k] = {from.x + float(pixel.x), from.y + float(pixel.y)};
+    }
+    draw->AddTriangleFilled(at[0], at[1], at[2], IM_COL32(255, 255, 255, 90));
+    draw->AddTriangle(at[0], at[1], at[2], IM_COL32(20, 24, 30, 230), 4 * s);
+    draw->AddTriangle(at[0], at[1], at[2], IM_COL32(255, 255, 255, 255), 2 * s);
+}
+
 /// Where Return clicks with the tool.
 void draw_cross(const Frame& frame, ImVec2 middle, ImDrawList* draw)
 {
@@ -135,8 +161,9 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     const Scene shown = scene(view, frame.state, frame.cache, size.y / frame.ui.scale);
     const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
     ImGui::SetCursorScreenPos(from);
-    ImGui::Image(frame.draw(shown, view, std::max(1, int(size.x * dots.x)), std::max(1, int(size.y * dots.y))), size,
-                 {0, 1}, {1, 0});
+    const DrawnView drawn =
+        frame.draw(shown, view, std::max(1, int(size.x * dots.x)), std::max(1, int(size.y * dots.y)));
+    ImGui::Image(drawn.texture, size, {0, 1}, {1, 0});
     const bool coloured_by_result = view != View::part || frame.state.document.display.field != Field::none;
     const bool live = view == View::blank && frame.state.job.running;
     if (old && coloured_by_result && !live) // dimmed, until newer ones stand
@@ -164,8 +191,14 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     }
     if (frame.state.document.section)
         draw_section(frame, view, mouse.size, from, draw);
-    const auto legend = draw_legend(frame, shown, from, size, draw);
-    draw_labels(frame, view, shown, from, size, legend, draw);
+    if (drawn.old && !live) { // no legend, no label over another picture
+        veil(frame, from, size, draw);
+    } else {
+        if (shown.hovered)
+            mark_hovered(frame, view, *shown.hovered, mouse.size, from, draw);
+        const auto legend = draw_legend(frame, shown, from, size, draw);
+        draw_labels(frame, view, shown, from, size, legend, draw);
+    }
     use_tool(frame, view, mouse, from, draw);
     if (frame.ui.focus == view && frame.ui.by_keys && tool_clicks(frame.state.view.tool))
         draw_cross(frame, {from.x + size.x / 2, from.y + size.y / 2}, draw);

@@ -63,9 +63,12 @@ void status_bar(Frame& frame)
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(state.job.title.c_str());
         ImGui::SameLine();
-        ImGui::ProgressBar(float(state.job.fraction), {180 * frame.ui.scale, ImGui::GetFrameHeight() * 0.8f}, "");
+        ImGui::ProgressBar(float(state.job.fraction), {180 * frame.ui.scale, ImGui::GetFrameHeight() * 0.8f},
+                           fmt::format("{:.0f} %", 100 * state.job.fraction).c_str());
         ImGui::SameLine();
-        ImGui::TextColored(p.muted, "%s", state.job.step.c_str());
+        ImGui::TextColored(p.muted, "%s",
+                           state.job.cancelling ? "cancelling..."
+                                                : fmt::format("{}    Esc cancels", state.job.step).c_str());
         return;
     }
     if (frame.ui.animation) {

@@ -8,14 +8,22 @@ namespace spia::viewer {
 namespace {
 
 // Texture units. Samplers of different kinds must not share one, even unused.
-constexpr int unit_map = 0, unit_values = 1, unit_marks = 2;
+constexpr int unit_map = 0, unit_values = 1, unit_marks = 2, unit_face = 3;
 
 constexpr float ghost_push = 8; // of the lift of lines: a few pixels, or a hundredth of the part
 } // namespace
 
+bool SceneDrawer::is_coarse(const Pass& pass, const SceneLayer& layer)
+{
+    return pass.look.most_triangles > 0 && layer.mesh->triangle.cols() > pass.look.most_triangles;
+}
+
 void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
 {
-    const MeshBuffer& mesh = uploads_.of(layer.mesh);
+    MeshBuffer& mesh = uploads_.of(layer.mesh);
+    const bool coarse = is_coarse(pass, layer);
+    if (coarse && !mesh.coarse)
+        mesh.coarse = upload_coarse(*layer.mesh, mesh, pass.look.most_triangles);
     ShaderProgram& shader = mesh_shader_;
     shader.use();
     place(shader, pass, layer.mesh->origin);
@@ -29,9 +37,15 @@ void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
     shader.set("map", unit_map);
     shader.set("face_value", unit_values);
     shader.set("face_mark", unit_marks);
+    shader.set("face_of", unit_face);
+    shader.set("coarse", coarse);
+    if (coarse) {
+        glActiveTexture(GL_TEXTURE0 + unit_face);
+        glBindTexture(GL_TEXTURE_BUFFER, mesh.coarse->face_of);
+    }
     shader.set("selected_colour", palette::selected);
 
-    glBindVertexArray(mesh.array);
+    glBindVertexArray(coarse ? mesh.coarse->array : mesh.array);
     glDisableVertexAttribArray(2);
     shader.set("has_field", layer.field != nullptr);
     if (layer.field) {
@@ -63,7 +77,7 @@ void SceneDrawer::draw_faces(const Pass& pass, const SceneLayer& layer)
         glActiveTexture(GL_TEXTURE0 + unit_marks);
         glBindTexture(GL_TEXTURE_BUFFER, *uploads_.of(layer.marks, *layer.mesh).by_face);
     }
-    glDrawElements(GL_TRIANGLES, mesh.indices, GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, coarse ? mesh.coarse->indices : mesh.indices, GL_UNSIGNED_INT, nullptr);
 }
 
 } // namespace spia::viewer

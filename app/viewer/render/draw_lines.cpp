@@ -35,7 +35,7 @@ void SceneDrawer::draw_layer_lines(const Pass& pass, const SceneLayer& layer)
         glBindVertexArray(lines->array);
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, lines->lines);
     };
-    if (layer.edges)
+    if (layer.edges && !is_coarse(pass, layer))
         stroke(mesh.edge, layer.mesh->edge, 1, 0.38f, false, 0);
     const bool isolines = layer.field && layer.scale.isolines; // in the same ink: they are what is asked about
     if (layer.features)

@@ -70,6 +70,11 @@ bool Renderer::shows(const Image& image, const Scene& scene, const Camera& camer
            same_picture(drawn->scene, scene);
 }
 
+bool Renderer::shows(const Image& image, const Scene& scene)
+{
+    return image.drawn_ && image.drawn_->camera.height > 0 && same_picture(image.drawn_->scene, scene);
+}
+
 unsigned Renderer::texture(const Image& image) { return image.drawn_ ? image.drawn_->target.texture() : 0; }
 
 unsigned Renderer::draw(Image& image, const Scene& scene, const Camera& camera, int width, int height, const Look& look)

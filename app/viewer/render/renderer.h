@@ -16,6 +16,7 @@ struct Look {
     bool ground = true;      ///< else what shows nothing is transparent; `dark` is then of no matter
     float content_scale = 1; ///< of the screen: how many pixels a line of width 1 has
     int samples = 4;         ///< per pixel, against jagged edges; fewer if the graphics card cannot
+    int most_triangles = 0;  ///< of a mesh, about; a finer one is drawn coarse, without its edges: while a view moves. 0: no limit
 
     friend bool operator==(const Look&, const Look&) = default;
 };
@@ -61,6 +62,8 @@ public:
     /// Whether the image shows just that already, so that draw() costs nothing.
     bool shows(const Image& image, const Scene& scene, const Camera& camera, int width, int height,
                const Look& look) const;
+    /// Whether it shows this scene, however it was seen.
+    static bool shows(const Image& image, const Scene& scene);
     /// What the image shows, whatever it is; 0: nothing yet.
     static unsigned texture(const Image& image);
 

@@ -43,6 +43,7 @@ private:
         float lift; ///< mm towards the viewer, for what lies on a surface; away for what lies behind
     };
     Eigen::AlignedBox3d bounds(const Scene& scene);
+    static bool is_coarse(const Pass& pass, const SceneLayer& layer);
     void draw_background(const Pass& pass);
     void draw_faces(const Pass& pass, const SceneLayer& layer);
     void draw_layer_lines(const Pass& pass, const SceneLayer& layer);

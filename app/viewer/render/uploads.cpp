@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/viewer/render/coarse_mesh.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {
@@ -38,6 +39,17 @@ void require_count(Eigen::Index count, Eigen::Index wanted, const char* what)
                         what, count, wanted));
 }
 
+/// Of the mesh, for the vertex array that is bound.
+void take_vertices(const MeshBuffer& mesh)
+{
+    GLuint number = 0;
+    for (const Buffer* const buffer : {&mesh.position, &mesh.normal}) {
+        glBindBuffer(GL_ARRAY_BUFFER, *buffer);
+        glVertexAttribPointer(number, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        glEnableVertexAttribArray(number++);
+    }
+}
+
 MeshBuffer upload(const SceneMesh& mesh)
 {
     if (mesh.triangle.size() > 0)
@@ -46,11 +58,8 @@ MeshBuffer upload(const SceneMesh& mesh)
     MeshBuffer result;
     glBindVertexArray(result.array);
     fill(result.position, GL_ARRAY_BUFFER, mesh.position);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    glEnableVertexAttribArray(0);
     fill(result.normal, GL_ARRAY_BUFFER, mesh.normal);
-    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    glEnableVertexAttribArray(1);
+    take_vertices(result);
     fill(result.index, GL_ELEMENT_ARRAY_BUFFER, mesh.triangle);
     glBindVertexArray(0);
     result.indices = int(mesh.triangle.size());
@@ -142,6 +151,21 @@ LineBuffer upload_lines(const Eigen::Matrix3Xf& position, const Eigen::Matrix<ui
     for (Eigen::Index i = 0; i < end.size(); ++i)
         point.col(i) = position.col(end.data()[i]);
     return upload_pairs(point);
+}
+
+CoarseBuffer upload_coarse(const SceneMesh& mesh, const MeshBuffer& fine, int about)
+{
+    const CoarseMesh coarse = coarse_mesh(mesh, about);
+    CoarseBuffer result;
+    glBindVertexArray(result.array);
+    take_vertices(fine);
+    fill(result.index, GL_ELEMENT_ARRAY_BUFFER, coarse.triangle);
+    glBindVertexArray(0);
+    fill(result.face, GL_TEXTURE_BUFFER, coarse.face);
+    glBindTexture(GL_TEXTURE_BUFFER, result.face_of);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, result.face);
+    result.indices = int(coarse.triangle.size());
+    return result;
 }
 
 MeshBuffer& Uploads::of(const std::shared_ptr<const SceneMesh>& mesh)

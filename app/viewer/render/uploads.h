@@ -16,12 +16,21 @@ struct LineBuffer {
     int lines = 0;
 };
 
+/// Its coarse picture, from the vertices of the mesh.
+struct CoarseBuffer {
+    VertexArray array;
+    Buffer index, face;
+    Texture face_of; ///< the face of the mesh, by number of the coarse triangle
+    int indices = 0;
+};
+
 struct MeshBuffer {
     VertexArray array;
     Buffer position, normal, index;
     int indices = 0;
     Eigen::AlignedBox3d box;                 ///< mm, in space
     std::optional<LineBuffer> edge, feature; ///< made when they are first drawn
+    std::optional<CoarseBuffer> coarse;      ///< likewise
 };
 
 /// A field or marks: a vertex attribute if there is one value per vertex, else a texture that is read by number of
@@ -71,6 +80,9 @@ private:
     Shelf<SceneLines, LooseLineBuffer> lines_;
     Shelf<ScenePoints, PointBuffer> points_;
 };
+
+/// @param about  so many triangles
+CoarseBuffer upload_coarse(const SceneMesh& mesh, const MeshBuffer& fine, int about);
 
 /// Pairs of positions, one instance per line. @param end 2 by #lines
 LineBuffer upload_lines(const Eigen::Matrix3Xf& position, const Eigen::Matrix<uint32_t, 2, Eigen::Dynamic>& end);

@@ -47,19 +47,19 @@ unsigned ViewImages::draw_small(size_t number, const Scene& scene, const Camera&
     return renderer_.draw(image, scene, camera, width, height, look);
 }
 
-unsigned ViewImages::draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
-                          const Look& look)
+ViewImages::Drawn ViewImages::draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width,
+                                   int height, const Look& look)
 {
     Renderer::Image& image = images_[view];
     const unsigned before = Renderer::texture(image);
     // What shows already costs nothing, and has no more to wait for.
     const bool needed = !renderer_.shows(image, scene, camera, width, height, look);
     if (!turns_.may_draw(view, urgent || !needed || before == 0))
-        return before;
+        return {before, !Renderer::shows(image, scene)};
     const auto start = std::chrono::steady_clock::now();
     const unsigned texture = renderer_.draw(image, scene, camera, width, height, look);
     turns_.spent(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    return texture;
+    return {texture, false};
 }
 
 } // namespace spia::viewer

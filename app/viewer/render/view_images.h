@@ -39,8 +39,12 @@ public:
         turns_.begin_frame();
         small_drawn_ = small_waits_ = false;
     }
-    /// As Renderer::draw(), but the texture may show the view as it was a frame ago; then any_late() is true.
-    unsigned draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
+    struct Drawn {
+        unsigned texture;
+        bool old; ///< it shows another scene
+    };
+    /// As Renderer::draw(), but the texture may show the view as it was some frames ago; then any_late() is true.
+    Drawn draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
                   const Look& look);
     /// A small picture, by number; one in a frame is drawn. 0: it is not there yet.
     unsigned draw_small(size_t number, const Scene& scene, const Camera& camera, int width, int height,

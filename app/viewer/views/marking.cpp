@@ -18,7 +18,7 @@ constexpr size_t most_regions = FaceMarks::region; // more share the last colour
 } // namespace
 
 std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& selected,
-                                            const std::vector<FaceRegion>& regions, std::optional<int> hovered)
+                                            const std::vector<FaceRegion>& regions)
 {
     const auto there = [&](int face) { return face >= 0 && face < faces; };
     auto marks = std::make_shared<FaceMarks>();
@@ -30,11 +30,18 @@ std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& s
     for (const int face : selected)
         if (there(face))
             marks->mark[size_t(face)] |= FaceMarks::selected;
-    if (hovered && there(*hovered))
-        marks->mark[size_t(*hovered)] |= FaceMarks::hovered;
     if (std::all_of(marks->mark.begin(), marks->mark.end(), [](uint8_t mark) { return mark == 0; }))
         return nullptr;
     return marks;
+}
+
+void add_hovered(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position)
+{
+    const Eigen::Matrix3Xi& triangle = state.document.session.part->mesh.triangle;
+    const std::optional<int> face = state.hovered;
+    if (face && *face >= 0 && *face < triangle.cols())
+        scene.hovered = {position.col(triangle(0, *face)), position.col(triangle(1, *face)),
+                         position.col(triangle(2, *face))};
 }
 
 std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions)

@@ -6,7 +6,11 @@ namespace spia::viewer {
 
 /// @return null if no face is marked
 std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& selected,
-                                            const std::vector<FaceRegion>& regions, std::optional<int> hovered);
+                                            const std::vector<FaceRegion>& regions);
+
+/// The face under the mouse is to be drawn over the scene, which stays as it is: a fine mesh is not drawn again for it.
+/// @param position 3 by #V of the part, mm: on the part, flat or on the way
+void add_hovered(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position);
 
 /// Colours of the regions by number, as many as face_marks() tells apart.
 std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions);

@@ -39,7 +39,7 @@ Scene scene(View view, const ViewerState& state, SceneCache& cache, double pixel
     case View::part: return part_scene(state, cache, pixels);
     case View::blank: return blank_scene(state, cache, pixels);
     case View::quads: return quad_scene(state, cache);
-    case View::surface: return surface_scene(state, cache);
+    case View::surface: return surface_scene(state, cache, pixels);
     }
     return {};
 }

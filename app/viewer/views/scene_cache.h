@@ -97,7 +97,6 @@ struct SheetCache {
     Memo<std::vector<SceneLabel>, Mesh, std::vector<FaceRegion>, bool, LengthUnit> region_labels;
     Memo<LineList, Part, Blank, double> glyphs;
     Memo<LineList, Mesh, std::vector<int>> selection;
-    Memo<LineList, Mesh, std::optional<int>> hover;
 };
 
 /// The part as its steps have unfolded it.
@@ -115,7 +114,7 @@ struct StepsCache {
     Memo<UnfoldedShape, Mesh, Run, double> shape;
     Memo<Eigen::AlignedBox3d, Mesh, Run, size_t> box; ///< mm, around all states
     Memo<std::vector<FaceRegion>, Step> picks;        ///< its fixed and its freed faces
-    Memo<std::shared_ptr<const FaceMarks>, Mesh, Step, std::vector<int>, std::optional<int>> marks;
+    Memo<std::shared_ptr<const FaceMarks>, Mesh, Step, std::vector<int>> marks;
     Memo<LineList, Mesh, Step> borders;
     Memo<std::vector<SceneLabel>, Mesh, Step, bool> labels;
     Memo<Mesh, Run, size_t> target;
@@ -123,7 +122,6 @@ struct StepsCache {
     Memo<FieldValues, Run, size_t, Field, bool> values;
     Memo<std::shared_ptr<const SceneField>, Mesh, Run, size_t, Field, bool> field;
     Memo<LineList, Mesh, std::vector<int>> selection;
-    Memo<LineList, Mesh, std::optional<int>> hover;
     Memo<VertexShape, Mesh, std::vector<int>> vertices;
 };
 
@@ -146,9 +144,8 @@ struct SceneCache {
     Memo<FieldValues, Part, Blank, Limits, Surface, Field, bool> values;
     SheetCache on_part, on_blank;
     StepsCache steps;
-    Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>, std::optional<int>> marks;
+    Memo<std::shared_ptr<const FaceMarks>, Part, std::vector<int>, std::vector<FaceRegion>> marks;
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
-    Memo<LineList, std::shared_ptr<const SceneMesh>, std::optional<int>> hover_elsewhere;
     Memo<std::vector<std::vector<ClosestPoint>>, Part, std::vector<ProcessLine>> line_places;
     Vertices vertices_on_part, vertices_on_blank;
     Memo<std::optional<std::array<int, 4>>, Part, std::array<int, 4>> chosen_corners;
@@ -166,7 +163,8 @@ struct SceneCache {
     Memo<StageShape, Part, Grid, Net, SurfaceLook, double, LengthUnit> surface;
     Memo<StageShape, Surface> patch_mesh;
     Memo<LineList, Surface, bool> patch_lines;
-    Memo<StageShape, Net, bool> control_net;
+    Memo<double, Net> net_spacing; ///< mm
+    Memo<StageShape, Net, bool, double> control_net;
     Memo<StageShape, Part> refused;
 };
 

@@ -54,8 +54,8 @@ SceneLegend legend_of(const ViewerState& state, const FieldValues& values, doubl
 std::shared_ptr<const FaceMarks> marks_of(const ViewerState& state, SceneCache& cache)
 {
     const Document& document = state.document;
-    return cache.marks.of({document.session.part, document.selected, document.regions, state.hovered}, [&] {
-        return face_marks(document.session.part->mesh.triangles(), document.selected, document.regions, state.hovered);
+    return cache.marks.of({document.session.part, document.selected, document.regions}, [&] {
+        return face_marks(document.session.part->mesh.triangles(), document.selected, document.regions);
     });
 }
 
@@ -99,9 +99,7 @@ void add_sheet(Scene& scene, const ViewerState& state, const SheetPlace& place, 
     }
     add(cache.selection.of({mesh, document.selected},
                            [&] { return outline_of_faces(*mesh, document.selected, 1.5f, false); }));
-    add(cache.hover.of({mesh, state.hovered}, [&] {
-        return state.hovered ? outline_of_faces(*mesh, {*state.hovered}, 2, false) : LineList{};
-    }));
+    add_hovered(scene, state, place.position);
     if (place.converging)
         return;
     add_watched_places(scene, state, values, place.position);
@@ -120,11 +118,8 @@ void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache
     const auto& selected = state.document.selected;
     const LineList& selection = cache.selection_elsewhere.of(
         {mesh, selected}, [&] { return outline_of_faces(*mesh, selected, 2, true, palette::selected); });
-    const LineList& hover = cache.hover_elsewhere.of({mesh, state.hovered}, [&] {
-        return state.hovered ? outline_of_faces(*mesh, {*state.hovered}, 2.5f, true) : LineList{};
-    });
-    for (const LineList* lines : {&selection, &hover})
-        scene.lines.insert(scene.lines.end(), lines->begin(), lines->end());
+    scene.lines.insert(scene.lines.end(), selection.begin(), selection.end());
+    add_hovered(scene, state, state.document.session.part->mesh.position);
     add_picked_vertices(scene, state, cache.vertices_on_part, mesh, state.document.session.part->mesh.position);
 }
 

@@ -199,7 +199,7 @@ void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, s
     const std::vector<FaceRegion> picks = picks_of(*step);
     SceneLayer sheet;
     sheet.mesh = after == 0 ? mesh : std::make_shared<SceneMesh>(moved(*mesh, place));
-    sheet.marks = face_marks(int(mesh->triangle.cols()), {}, picks, {});
+    sheet.marks = face_marks(int(mesh->triangle.cols()), {}, picks);
     picture.scene.region_colours = region_colours(picks);
     picture.scene.layers.push_back(std::move(sheet));
     picture.scene.box = Eigen::AlignedBox3d(place.rowwise().minCoeff(), place.rowwise().maxCoeff());
@@ -256,8 +256,8 @@ Scene step_scene(const ViewerState& state, SceneCache& cache)
     const std::vector<FaceRegion>& picks =
         chosen ? cache.steps.picks.of({chosen}, [&] { return picks_of(*chosen); }) : nothing;
     scene.region_colours = region_colours(picks);
-    sheet.marks = cache.steps.marks.of({part_shape(state, cache).mesh, chosen, document.selected, state.hovered}, [&] {
-        return face_marks(int(shape.mesh->triangle.cols()), document.selected, picks, state.hovered);
+    sheet.marks = cache.steps.marks.of({part_shape(state, cache).mesh, chosen, document.selected}, [&] {
+        return face_marks(int(shape.mesh->triangle.cols()), document.selected, picks);
     });
     if (values)
         colour_by_field(scene, sheet, state, *values, cache);
@@ -274,9 +274,7 @@ Scene step_scene(const ViewerState& state, SceneCache& cache)
     add(cache.steps.borders.of({shape.mesh, chosen}, [&] { return region_borders(*shape.mesh, picks); }));
     add(cache.steps.selection.of({shape.mesh, document.selected},
                                  [&] { return outline_of_faces(*shape.mesh, document.selected, 1.5f, false); }));
-    add(cache.steps.hover.of({shape.mesh, state.hovered}, [&] {
-        return state.hovered ? outline_of_faces(*shape.mesh, {*state.hovered}, 2, false) : LineList{};
-    }));
+    add_hovered(scene, state, shape.position);
     add_watched_places(scene, state, values, shape.position);
     const auto& labels = cache.steps.labels.of({shape.mesh, chosen, state.view.dark}, [&] {
         return region_labels(document.session.part->mesh.triangle, shape.position, picks, state.view.dark);

@@ -73,7 +73,7 @@ void add_handles(Scene& scene, const ViewerState& state)
 
 } // namespace
 
-Scene surface_scene(const ViewerState& state, SceneCache& cache)
+Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels)
 {
     Scene result;
     const Session& session = state.document.session;
@@ -108,8 +108,13 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache)
     if (has_scale(look))
         result.legend = legend_of(look, *made.surface, result.layers.front(), shape.box.diagonal().norm(), lengths);
     if (state.view.control_net) {
-        const StageShape& drawn =
-            cache.control_net.of({net, state.view.dark}, [&] { return control_net_shape(*net, state.view.dark); });
+        const double mm_per_pixel = state.view.camera[size_t(View::surface)].height / pixels;
+        const double strength =
+            control_net_strength(cache.net_spacing.of({net}, [&] { return control_net_spacing(*net); }) / mm_per_pixel);
+        if (strength == 0 && result.legend)
+            result.legend->note += result.legend->note.empty() ? "control net: zoom in" : ", control net: zoom in";
+        const StageShape& drawn = cache.control_net.of(
+            {net, state.view.dark, strength}, [&] { return control_net_shape(*net, state.view.dark, strength); });
         result.lines = drawn.lines;
         result.points = drawn.points;
         result.box.extend(drawn.box);

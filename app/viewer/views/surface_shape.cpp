@@ -250,7 +250,26 @@ StageShape lattice_shape(const Lattice& lattice, bool dark)
     return shape;
 }
 
-StageShape control_net_shape(const MultiPatch& surface, bool dark)
+double control_net_spacing(const MultiPatch& surface)
+{
+    double sum = 0;
+    Eigen::Index count = 0;
+    for (const NurbsSurface& patch : surface.patch) {
+        const Eigen::Matrix2Xi net = net_lines(patch.count_u, patch.count_v);
+        for (Eigen::Index k = 0; k < net.cols(); ++k)
+            sum += (patch.control.col(net(1, k)) - patch.control.col(net(0, k))).norm();
+        count += net.cols();
+    }
+    return count > 0 ? sum / double(count) : 0;
+}
+
+double control_net_strength(double pixels)
+{
+    constexpr double least = 5, full = 25; // of lines 1 pixel wide: they cover 2/5 of the surface, or 2/25
+    return std::round(8 * std::clamp((pixels - least) / (full - least), 0., 1.)) / 8;
+}
+
+StageShape control_net_shape(const MultiPatch& surface, bool dark, double strength)
 {
     Eigen::Index controls = 0, edges = 0;
     for (const NurbsSurface& patch : surface.patch) {
@@ -260,20 +279,20 @@ StageShape control_net_shape(const MultiPatch& surface, bool dark)
     Eigen::Matrix3Xd control(3, controls);
     Eigen::Matrix2Xi lines(2, edges);
     controls = edges = 0;
-    int most = 1;
     for (const NurbsSurface& patch : surface.patch) {
         const Eigen::Matrix2Xi net = net_lines(patch.count_u, patch.count_v);
         control.middleCols(controls, patch.control.cols()) = patch.control;
         lines.middleCols(edges, net.cols()) = net.array() + int(controls);
         controls += patch.control.cols();
         edges += net.cols();
-        most = std::max({most, patch.count_u, patch.count_v});
     }
-    // The denser the net, the fainter: it is not to cover the surface. As on a drawing, what is hidden is fainter still.
     StageShape shape;
+    shape.box = {control.rowwise().minCoeff(), control.rowwise().maxCoeff()};
+    if (strength <= 0)
+        return shape;
+    // As on a drawing, what is hidden is fainter.
     Colour colour = palette::net(dark);
-    most = std::max(most, int(std::sqrt(double(control.cols())))); // of many patches
-    colour[3] *= std::clamp(14.f / float(most), 0.2f, 1.f);
+    colour[3] *= float(strength);
     const auto hidden = scene_lines(control, lines);
     hidden->colour = colour;
     hidden->colour[3] *= 0.3f;
@@ -287,7 +306,6 @@ StageShape control_net_shape(const MultiPatch& surface, bool dark)
     points->size = 3;
     points->on_top = false;
     shape.points.push_back(points);
-    shape.box = {control.rowwise().minCoeff(), control.rowwise().maxCoeff()};
     return shape;
 }
 

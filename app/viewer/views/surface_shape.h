@@ -39,7 +39,14 @@ std::vector<int> patch_colours(const MultiPatch& surface);
 /// Lines and points of a lattice, where they are now.
 StageShape lattice_shape(const Lattice& lattice, bool dark);
 
-/// Lines and points of the control nets.
-StageShape control_net_shape(const MultiPatch& surface, bool dark);
+/// Lines and points of the control nets, with their box. @param strength  0 to 1, of their colour; 0: only the box
+StageShape control_net_shape(const MultiPatch& surface, bool dark, double strength);
+
+/// Mean length of the lines of the control nets, mm; 0 if there are none.
+double control_net_spacing(const MultiPatch& surface);
+
+/// How strongly a net is drawn whose lines are so many pixels long: fainter where they are close, not at all where they would
+/// cover the surface. In steps of an eighth.
+double control_net_strength(double pixels);
 
 } // namespace spia::viewer

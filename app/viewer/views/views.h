@@ -19,8 +19,8 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels = u
 /// The quad mesh on the part, its cells coloured by the scaled Jacobian they have in the plane; folded cells are red.
 Scene quad_scene(const ViewerState& state, SceneCache& cache);
 
-/// The NURBS surface, coloured by its distance from the part, with its control net.
-Scene surface_scene(const ViewerState& state, SceneCache& cache);
+/// The NURBS surface, coloured by its distance from the part, with its control net where that leaves the surface to be seen.
+Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels = usual_height);
 
 Scene scene(View view, const ViewerState& state, SceneCache& cache, double pixels = usual_height);
 

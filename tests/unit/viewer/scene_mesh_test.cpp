@@ -137,17 +137,16 @@ TEST(OutlineOfFaces, RunsAroundThemAcrossSharpEdges)
     EXPECT_TRUE(outline_of_faces(scene, {-1, 100000}, 2, false).empty());
 }
 
-TEST(FaceMarks, SayRegionSelectionAndTheFaceUnderTheMouse)
+TEST(FaceMarks, SayRegionAndSelection)
 {
     std::vector<FaceRegion> regions(2);
     regions[0].faces = {1, 2, 3};
     regions[1].faces = {3, 4, 99};
-    const auto marks = face_marks(6, {2, 5}, regions, 4);
+    const auto marks = face_marks(6, {2, 5}, regions);
     ASSERT_TRUE(marks);
-    EXPECT_EQ(marks->mark,
-              (std::vector<uint8_t>{0, 1, 1 | FaceMarks::selected, 2, 2 | FaceMarks::hovered, FaceMarks::selected}));
-    EXPECT_FALSE(face_marks(6, {}, {}, std::nullopt));
-    EXPECT_FALSE(face_marks(6, {}, {}, 17));
+    EXPECT_EQ(marks->mark, (std::vector<uint8_t>{0, 1, 1 | FaceMarks::selected, 2, 2, FaceMarks::selected}));
+    EXPECT_FALSE(face_marks(6, {}, {}));
+    EXPECT_FALSE(face_marks(6, {17}, {}));
 }
 
 } // namespace

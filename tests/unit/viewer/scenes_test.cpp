@@ -311,15 +311,27 @@ TEST_F(Scenes, WhileCornersAreChosenThoseTheGridWouldGetAreShown)
     EXPECT_EQ(corners_of(blank_scene(state, cache)).size(), 4u);
 }
 
-TEST_F(Scenes, TheFaceUnderTheMouseIsOutlinedInEveryView)
+TEST_F(Scenes, TheFaceUnderTheMouseIsKnownInEveryViewWithoutAnotherPicture)
 {
     for (const View view : all_views) {
         state.hovered = std::nullopt;
-        const size_t without = scene(view, state, cache).lines.size();
+        const Scene without = scene(view, state, cache);
+        EXPECT_FALSE(without.hovered);
         state.hovered = 11;
         const Scene shown = scene(view, state, cache);
-        ASSERT_EQ(shown.lines.size(), without + 2) << int(view);
-        EXPECT_EQ(shown.lines.back()->point.cols(), 6) << "three sides";
+        ASSERT_TRUE(shown.hovered) << int(view);
+        const Eigen::Vector3i corner = session->part->mesh.triangle.col(11);
+        for (int k = 0; k < 3; ++k) {
+            Eigen::Vector3d place = session->part->mesh.position.col(corner[k]);
+            if (view == View::blank)
+                place << session->blank->blank.position.col(corner[k]), 0;
+            EXPECT_EQ((*shown.hovered)[size_t(k)], place) << int(view);
+        }
+        EXPECT_EQ(shown.lines, without.lines);
+        for (size_t i = 0; i < shown.layers.size(); ++i)
+            EXPECT_EQ(shown.layers[i].marks, without.layers[i].marks) << "else all of it is drawn again";
+        state.hovered = 1000000; // of another part
+        EXPECT_FALSE(scene(view, state, cache).hovered);
     }
 }
 

@@ -129,7 +129,7 @@ TEST(ControlNet, HasThePointsOfAllPatches)
             points += s.control.cols();
             lines += (s.count_u - 1) * s.count_v + s.count_u * (s.count_v - 1);
         }
-        const StageShape shape = control_net_shape(sample.patches, true);
+        const StageShape shape = control_net_shape(sample.patches, true, 1);
         EXPECT_EQ(shape.points.at(0)->point.cols(), points);
         EXPECT_EQ(shape.lines.at(0)->point.cols(), 2 * lines);
         const Eigen::Vector3d first = sample.patches.patch.back().control.col(0);
@@ -137,7 +137,27 @@ TEST(ControlNet, HasThePointsOfAllPatches)
         for (Eigen::Index i = 0; i < shape.lines[0]->point.cols(); ++i)
             found |= (shape.lines[0]->origin + shape.lines[0]->point.col(i).cast<double>() - first).norm() < 1e-3;
         EXPECT_TRUE(found) << sample.name;
+        const StageShape nothing = control_net_shape(sample.patches, true, 0);
+        EXPECT_TRUE(nothing.lines.empty() && nothing.points.empty());
+        EXPECT_TRUE(nothing.box.isApprox(shape.box)) << "fitting the view does not depend on how it is drawn";
     }
+}
+
+TEST(ControlNet, IsFaintWhereItIsDenseAndGoneBeforeItCoversTheSurface)
+{
+    NurbsSurface plane; // 3 x 4 control points, 10 and 20 mm apart
+    plane.degree_u = plane.degree_v = 2;
+    plane.count_u = 3;
+    plane.count_v = 4;
+    plane.control.resize(3, 12);
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 3; ++i)
+            plane.control.col(i + 3 * j) << 10 * i, 20 * j, 0;
+    EXPECT_NEAR(control_net_spacing({{plane}, {}}), (8 * 10 + 9 * 20) / 17., 1e-12);
+    EXPECT_EQ(control_net_spacing({}), 0);
+    EXPECT_EQ(control_net_strength(3), 0);
+    EXPECT_EQ(control_net_strength(15), 0.5);
+    EXPECT_EQ(control_net_strength(100), 1);
 }
 
 } // namespace spia::viewer
