@@ -182,14 +182,16 @@ private:
             try {
                 kept_.keep(model_.state());
             } catch (const std::exception& error) {
-                text += fmt::format("; and the work cannot be kept: {}", error.what());
+                text += fmt::format("; the work cannot be autosaved: {}", error.what());
             }
         constexpr int most = 3;
         if (++failed_frames_ >= most)
             throw Error(fmt::format("the window could not be drawn {} times in a row: {}", most, text));
-        model_.say(Severity::error, fmt::format("The window could not be drawn: {}. Save the project; if this comes "
-                                                "again, start the program anew.",
-                                                text));
+        model_.say(
+            Severity::error,
+            fmt::format(
+                "The window could not be drawn: {}. Save the project; if this happens again, restart the program.",
+                text));
     }
 
     void open(const std::filesystem::path& file, const std::string& unit)
@@ -408,7 +410,7 @@ private:
                 ui_.sample_exported = true;
             const bool opens = std::holds_alternative<OpenPart>(action) || std::holds_alternative<OpenProject>(action);
             if (opens)
-                ui_.sample = std::exchange(opening_sample_, false);
+                sample_next_ = std::exchange(opening_sample_, false);
             if (const auto* picture = std::get_if<Screenshot>(&action))
                 pictures_.push_back(*picture);
             else if (const auto* wanted = std::get_if<WriteReport>(&action))
@@ -498,12 +500,18 @@ private:
         const Document& document = model_.state().document;
         if (!document.session.blank)
             throw InputError("There is nothing to report yet: unfold the part first.");
+        if (shows_refused(model_.state()))
+            throw InputError("Go back to the part first, in the step Part: the view shows the file that was refused.");
         ReportOptions options = wanted.options;
         if (const std::string stale = out_of_date(document); !stale.empty())
             options.remarks = stale + (options.remarks.empty() ? "" : "\n" + options.remarks);
+        std::vector<std::string> doubts;
+        for (const Doubt& doubt : find_doubts(document, wanted.options.lengths))
+            doubts.push_back(doubt.text);
         writer_.later(wanted.file, [file = wanted.file, session = as_made(document), options = std::move(options),
+                                    doubts = std::move(doubts),
                                     pictures = report_pictures(renderer_, model_, cache_, wanted.options)] {
-            write_html_report(file, session, png_files(pictures), options);
+            write_html_report(file, session, png_files(pictures), options, doubts);
         });
     }
 
@@ -528,6 +536,8 @@ private:
     void follow_part()
     {
         const ViewerState& state = model_.state();
+        if (std::exchange(known_document_, model_.documents()) != model_.documents())
+            ui_.sample = sample_next_;
         if (state.document.session.part == known_part_)
             return;
         known_part_ = state.document.session.part;
@@ -654,7 +664,8 @@ private:
     bool forced_light_ = false;                   ///< by the command line, not by the user's choice
     size_t actions_done_ = 0;
     int idle_frames_ = 0, failed_frames_ = 0, exit_code_ = 0;
-    bool quit_ = false, opening_sample_ = false;
+    int known_document_ = 0;
+    bool quit_ = false, opening_sample_ = false, sample_next_ = false;
 };
 
 } // namespace

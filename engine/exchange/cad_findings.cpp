@@ -72,7 +72,7 @@ void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
                             -1,
                             cad.unmeshed_left_out ? text + "; left out" : text,
                             cad.unmeshed_left_out
-                                ? "look at the holes that they leave"
+                                ? "check the holes they leave"
                                 : "repair them in the CAD system, choose the other faces (--part), or leave "
                                   "these out and take the rest (--skip-bad-faces)",
                             {},
@@ -80,8 +80,8 @@ void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
     };
     if (!cad.unmeshed.empty())
         report(int(cad.unmeshed.size()),
-               fmt::format("no triangles could be made of {}: {}",
-                           counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"), listed(cad.unmeshed)));
+               fmt::format("{} could not be meshed: {}", counted(int(cad.unmeshed.size()), "CAD face", "CAD faces"),
+                           listed(cad.unmeshed)));
     const auto lost = [](const std::vector<std::string>& labels) {
         return fmt::format("{} of the file could not be read: {}",
                            counted(int(labels.size()), "face or body", "faces and bodies"), listed(labels));
@@ -174,10 +174,10 @@ void report_overlaps(const CadContent& cad, std::vector<Finding>& findings)
     std::set<int> others(cad.face.begin(), cad.face.end());
     for (const int face : cad.overlapping)
         others.erase(face);
-    finding.advice = "leave the ones out that are double or branch off: choose the others (--part)";
+    finding.advice = "leave out duplicate or branching faces: choose the others (--part)";
     if (!others.empty())
-        finding.advice = fmt::format("leave the ones out that are double or branch off: choose the others (--part {})",
-                                     ranges(others));
+        finding.advice =
+            fmt::format("leave out duplicate or branching faces: choose the others (--part {})", ranges(others));
     findings.push_back(std::move(finding));
 }
 
@@ -310,7 +310,7 @@ void report_cad(const CadContent& cad, PartFile& part)
                                                        : fmt::format(", lengths converted from {} to mm", cad.unit),
                                      cad.deflection));
     part.notes.push_back(cad.sewing_tolerance > 0
-                             ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges from {} to {}",
+                             ? fmt::format("sewn with a tolerance of {:.3g} mm: free edges reduced from {} to {}",
                                            cad.sewing_tolerance, cad.free_before, cad.free_after)
                              : fmt::format("not sewn: {} free edges", cad.free_after));
     if (cad.sewing_tolerance > 0 && cad.sewing_tolerance >= cad.half_an_edge)

@@ -144,7 +144,7 @@ void DeckBuilder::drop_absurd_thicknesses()
         if (!part.thickness || makes_sense(*part.thickness))
             continue;
         if (told++ < 20)
-            note(fmt::format("part {} {}: a thickness of {:.4g} makes no sense and is not taken", part.id.value_or(0),
+            note(fmt::format("part {} {}: its thickness of {:.4g} is invalid and ignored", part.id.value_or(0),
                              part.name, *part.thickness));
         part.thickness.reset();
     }
@@ -156,9 +156,8 @@ void DeckBuilder::drop_absurd_thicknesses()
             thickness_[e] = 0;
         }
     if (dropped > 0)
-        note(fmt::format(
-            "{} shells have a thickness of their own that makes no sense and is not taken (first: element {})", dropped,
-            shell_[first].id));
+        note(fmt::format("{} shells have an invalid thickness of their own, which is ignored (first: element {})",
+                         dropped, shell_[first].id));
 }
 
 void DeckBuilder::thickness_from_elements()
@@ -187,13 +186,11 @@ void DeckBuilder::thickness_from_elements()
             part.thickness = sum / shells;
             if (told++ < 20)
                 note(fmt::format(
-                    "part {} {}: its elements have thicknesses of their own, from {:.4g} to {:.4g}; their mean, "
-                    "{:.4g}, is taken",
+                    "part {} {}: its elements have their own thicknesses, from {:.4g} to {:.4g}; their mean, {:.4g}, is used",
                     part.id.value_or(0), part.name, low, high, *part.thickness));
         } else if (told++ < 20)
             note(fmt::format(
-                "part {} {}: some of its elements have thicknesses of their own, up to {:.4g}, others none at all; "
-                "{} is taken",
+                "part {} {}: some of its elements have their own thicknesses, up to {:.4g}, others none; {} is used",
                 part.id.value_or(0), part.name, high, part.thickness ? "that of its section" : "none"));
     }
 }

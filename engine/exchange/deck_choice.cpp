@@ -103,8 +103,9 @@ void take_over_properties(const Deck& deck, const std::vector<char>& part_used, 
     if (thicknesses.size() > 1) {
         const double low = *thicknesses.begin(), high = *thicknesses.rbegin();
         choice.notes.push_back(
-            low > 0 ? fmt::format("the parts are {:.4g} to {:.4g} thick in the deck; none of it is taken", low, high)
-                    : std::string("only some of the parts have a thickness in the deck; none of it is taken"));
+            low > 0
+                ? fmt::format("the parts have thicknesses from {:.4g} to {:.4g} in the deck; none is used", low, high)
+                : std::string("only some of the parts have a thickness in the deck; none is used"));
     }
 }
 
@@ -121,7 +122,7 @@ std::string in_words(const DeckPart& part)
 {
     std::string text = fmt::format("{:<28} {:>8} shells", title(part), part.elements + part.broken);
     if (part.thickness)
-        text += fmt::format(", {:.4g} thick", *part.thickness);
+        text += fmt::format(", thickness {:.4g}", *part.thickness);
     if (!part.material.empty())
         text += fmt::format(", {}", part.material);
     if (part.broken > 0)

@@ -55,7 +55,7 @@ PolygonSoup soup_of_deck(const fs::path& path, const ReadOptions& options, PartF
     part.doubts = deck.doubts;
     part.notes.insert(part.notes.end(), choice.notes.begin(), choice.notes.end());
     if (deck.unit && *deck.unit != part.unit)
-        part.notes.push_back(fmt::format("the deck says that its lengths are in {}; they are taken as {}, as was asked",
+        part.notes.push_back(fmt::format("the deck gives its lengths in {}; they are read as {}, as requested",
                                          name(*deck.unit), name(part.unit)));
     part.deck = origin_of(deck, choice);
     for (Eigen::Vector3d& p : choice.soup.position)
@@ -177,7 +177,7 @@ void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, b
     part.source_face = std::move(examination.source_face);
     part.same_as = std::move(examination.same_as);
     const bool refused = take_skin(part, options, solid, progress.part(0.6, 0.95));
-    progress.checkpoint(0.95, "looking for where it must be cut open");
+    progress.checkpoint(0.95, "finding where it must be cut open");
     if (!refused)
         cut_where_needed(part, options.seam);
     note_size(part, options.unit.has_value());
@@ -202,14 +202,14 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         return part;
     }
     if (!options.parts.empty())
-        throw InputError("parts can be chosen from solver decks and CAD files only; this file is taken whole");
+        throw InputError("parts can be chosen from solver decks and CAD files only; this file is read as a whole");
     const bool gltf = extension == "gltf" || extension == "glb";
     part.unit = options.unit.value_or(gltf ? LengthUnit::m : LengthUnit::mm);
     MeshFile file = read_mesh_file(path, extension, progress.part(0, 0.5));
     part.format = std::move(file.format);
     part.notes = std::move(file.notes);
     if (gltf && !options.unit)
-        part.notes.push_back("lengths were taken as metres, as the glTF specification says");
+        part.notes.push_back("lengths were read as metres, as the glTF specification says");
     for (Eigen::Vector3d& p : file.soup.position)
         p *= millimetres(part.unit);
     fill(part, file.soup, options, gltf || extension == "stl", false, progress.part(0.5, 1));
@@ -227,8 +227,7 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
     if (total_curvature(part.mesh) < unrolls) {
         if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
             part.notes.push_back(
-                "its long narrow triangles follow the straight lines of a surface that can be unrolled: "
-                "they do not spoil the strains");
+                "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");
         return;
     }
     try {
@@ -237,16 +236,16 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
             remesh.tolerance =
                 std::clamp(*deflection, 1e-6 * bounding_diagonal(part.mesh), 1e-3 * bounding_diagonal(part.mesh));
         remesh_part(part, remesh, progress);
-        part.notes.push_back("triangles of its CAD faces were needles on a surface that does not unroll, whose "
-                             "chords are taken for strain; they can be kept (--no-remesh)");
+        part.notes.push_back(
+            "needle triangles on doubly curved CAD faces were remeshed, because they falsify the strains; they can be kept (--no-remesh)");
     } catch (const InputError& error) {
         for (Finding& finding : part.doctor.findings)
             if (finding.fault == Fault::sliver)
-                finding.advice = "strains there mean little; remeshing failed (see the notes), but may do with another "
-                                 "size or tolerance (--remesh-size or --remesh-tolerance)";
-        part.notes.push_back(fmt::format("the triangles of its CAD faces are needles on a surface that does not "
-                                         "unroll, so that strains there mean little; they were not remeshed: {}",
-                                         error.what()));
+                finding.advice =
+                    "strains there are unreliable; remeshing failed (see the notes), but may work with another size or tolerance (--remesh-size or --remesh-tolerance)";
+        part.notes.push_back(fmt::format(
+            "needle triangles on doubly curved CAD faces make the strains there unreliable; they were not remeshed: {}",
+            error.what()));
     }
 }
 

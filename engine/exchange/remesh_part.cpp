@@ -73,10 +73,9 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
     for (int f = 0; f < part.mesh.triangles(); ++f)
         slivers += least_angle(part.mesh.position(Eigen::all, part.mesh.triangle.col(f))) < sliver;
     if (slivers > 0)
-        part.notes.push_back(
-            fmt::format("{} of its triangles still {} an angle below 1 degree, where lines of the part are "
-                        "close to each other; strains there mean little",
-                        slivers, slivers == 1 ? "has" : "have"));
+        part.notes.push_back(fmt::format(
+            "{} of its triangles still {} an angle below 1 degree, where lines of the part are close to each other; strains there are unreliable",
+            slivers, slivers == 1 ? "has" : "have"));
 }
 
 PartFile as_read(const PartFile& part)

@@ -78,10 +78,10 @@ Examination examine(const PolygonSoup& soup, const DoctorOptions& options, const
     if (options.keep_largest)
         keep_largest(s, report);
     check_edges(s, options.keep_largest, report);
-    progress.checkpoint(0.7, "turning faces to one side");
+    progress.checkpoint(0.7, "orienting faces");
     orient(s, report);
     mend_flat_triangles(s, dropped, report);
-    progress.checkpoint(0.8, "looking at vertices");
+    progress.checkpoint(0.8, "checking vertices");
     separate_fans(s, report);
     report_strays(s, report);
     Examination result = number_vertices(s, std::move(report));

@@ -27,7 +27,7 @@ void check_coordinates(const PolygonSoup& soup, DoctorReport& report)
                fmt::format("{} a coordinate that is no number or beyond {} mm (first: vertex {} at {}, {}, {})",
                            counted(bad.count, "vertex has", "vertices have"), beyond_any_part, bad.first, p.x(), p.y(),
                            p.z()),
-               "write the file anew and check the unit of length");
+               "export the file again and check its length unit");
 }
 
 void check_indices(const PolygonSoup& soup, DoctorReport& report)
@@ -45,7 +45,7 @@ void check_indices(const PolygonSoup& soup, DoctorReport& report)
         report.add(Fault::bad_index, Severity::fatal, bad,
                    fmt::format("{} a vertex that does not exist (first: face {}, vertex {} where there are {})",
                                counted(bad.count, "face names", "faces name"), bad.first, wrong, soup.vertices()),
-                   "the file is damaged or cut off: write it anew");
+                   "the file is damaged or cut off: export it again");
 }
 
 double least_angle(const Triangle& t, const std::vector<Vector3d>& position)
@@ -98,10 +98,8 @@ void check_edges(MendedSurface& s, bool kept_largest, DoctorReport& report)
                     "{})",
                     counted(faces.count, "edge belongs", "edges belong"), most, first.low, first.high, faces.first),
         kept_largest
-            ? "a sheet goes on to two sides only, and what meets here hangs together elsewhere, too: remove doubled layers, keep one "
-              "skin of the part"
-            : "a sheet goes on to two sides only: remove ribs and doubled layers, keep one skin of the part; --keep-largest "
-              "leaves out what hangs on such edges");
+            ? "an edge of a sheet joins two faces at most, and those that meet here are connected elsewhere too: remove duplicate layers, keep one skin of the part"
+            : "an edge of a sheet joins two faces at most: remove ribs and duplicate layers, keep one skin of the part; --keep-largest leaves out what is attached at such edges");
 }
 
 void report_strays(const MendedSurface& s, DoctorReport& report)
@@ -138,7 +136,7 @@ void note_slivers(const MendedSurface& s, double angle_deg, DoctorReport& report
                    fmt::format("{} an angle below {:.3g} degrees (first: face {}); the smallest is {:.3g} degrees",
                                counted(slivers.count, "triangle has", "triangles have"), angle_deg, slivers.first,
                                least * 180 / std::numbers::pi),
-                   "strains there mean little; a more even mesh is better: mesh the part again (--remesh)");
+                   "strains there are unreliable; use a more even mesh (--remesh)");
 }
 
 } // namespace spia

@@ -44,9 +44,8 @@ void count_pieces(const MendedSurface& s, DoctorReport& report)
             "there are {} separate pieces, the largest by area first: of {}{} triangles (first face outside it: {})",
             report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
         unjoined
-            ? "join vertices at one place (--weld) if the pieces touch; otherwise keep the largest (--keep-largest), or "
-              "save each as a file of its own"
-            : "keep the largest (--keep-largest), or save each piece as a file of its own");
+            ? "weld vertices at the same place (--weld) if the pieces touch; otherwise keep the largest (--keep-largest), or save each piece as a separate file"
+            : "keep the largest (--keep-largest), or save each piece as a separate file");
 }
 
 /// Edges of the surface, and boundary loops of each piece.
@@ -83,7 +82,7 @@ void check_topology(const MendedSurface& s, int vertices, DoctorReport& report)
 {
     if (s.triangle.empty()) {
         report.add(Fault::nothing_there, Severity::fatal, Tally{}, "no face is left after the repairs",
-                   "the faces of the file have no area: write it anew");
+                   "the faces of the file have no area: export it again");
         return;
     }
     const int pieces = report.components;
@@ -105,14 +104,15 @@ void check_topology(const MendedSurface& s, int vertices, DoctorReport& report)
             closed.add(s.number[f]);
         }
     if (closed.count > 0)
-        report.add(Fault::closed_surface, Severity::fatal, closed,
-                   report.components == 1 ? std::string("the surface is closed, it has no boundary")
-                                          : fmt::format("{} closed, without a boundary (first: the one of face {})",
-                                                        counted(closed.count, "piece is", "pieces are"), closed.first),
-                   "a sheet is given by one of its skins: delete the other side and the faces across the thickness");
+        report.add(
+            Fault::closed_surface, Severity::fatal, closed,
+            report.components == 1 ? std::string("the surface is closed, it has no boundary")
+                                   : fmt::format("{} closed, without a boundary (first: the one of face {})",
+                                                 counted(closed.count, "piece is", "pieces are"), closed.first),
+            "a sheet is described by one of its skins: delete the other side and the faces across the thickness");
     if (report.genus.value_or(0) > 0)
         report.add(Fault::handle, Severity::fatal, Tally{*report.genus, -1, {}},
-                   fmt::format("the surface has {} (genus {}), like that of a cup: it cannot be laid flat as it is",
+                   fmt::format("the surface has {} (genus {}), like the ear of a cup: it cannot be flattened as it is",
                                counted(*report.genus, "handle", "handles"), *report.genus),
                    "cut each handle open");
 }

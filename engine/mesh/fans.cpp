@@ -58,10 +58,10 @@ void separate_fans(MendedSurface& s, DoctorReport& report)
     if (touching.count > 0)
         report.add(
             Fault::touching_fans, Severity::repaired, touching,
-            fmt::format("at {} parts of the sheet touched without a common edge (first: vertex {}); separated by "
-                        "doubling the vertex",
-                        counted(touching.count, "vertex", "vertices"), touching.first),
-            "if they should hang together there, give them a common edge");
+            fmt::format(
+                "at {} parts of the sheet touched without a common edge (first: vertex {}); separated by duplicating the vertex",
+                counted(touching.count, "vertex", "vertices"), touching.first),
+            "if they should be connected there, give them a common edge");
 }
 
 } // namespace spia

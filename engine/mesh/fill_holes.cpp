@@ -53,8 +53,7 @@ void require_disk(const FilledMesh& filled)
             components += find(v) == v;
         }
     if (components != 1)
-        throw InputError(
-            fmt::format("the part has {} pieces that do not hang together; weld them or take one of them", components));
+        throw InputError(fmt::format("the part has {} disconnected pieces; weld them or keep one of them", components));
     const int boundary_edges = int(filled.outline.size());
     const int edges = (3 * mesh.triangles() + boundary_edges) / 2;
     const int euler = vertices - edges + mesh.triangles();

@@ -38,13 +38,13 @@ void mend_flat_triangles(MendedSurface& s, const Tally& dropped, DoctorReport& r
                 gone.add(s.number[size_t(f)]);
         gone.count = mended;
         gone.first = first;
-        report.add(Fault::flat_face, Severity::repaired, gone,
-                   fmt::format("{} no area (first: face {}): {} gone by joining two vertices at one place, "
-                               "{} by turning the "
-                               "longest edge, {} left out at the boundary or where the edge had other faces",
-                               counted(mended, "triangle had", "triangles had"), first, repair.joined, repair.flipped,
-                               repair.dropped + dropped.count),
-                   "");
+        report.add(
+            Fault::flat_face, Severity::repaired, gone,
+            fmt::format(
+                "{} no area (first: face {}): {} removed by merging two vertices, {} by flipping the longest edge, {} left out at the boundary or where the edge had other faces",
+                counted(mended, "triangle had", "triangles had"), first, repair.joined, repair.flipped,
+                repair.dropped + dropped.count),
+            "");
     }
     if (!repair.left.empty()) {
         const Triangle& t = s.triangle[size_t(repair.left[0])];
@@ -57,7 +57,7 @@ void mend_flat_triangles(MendedSurface& s, const Tally& dropped, DoctorReport& r
             fmt::format("{} no area and cannot be taken out without tearing the surface (first: face {} with the "
                         "vertices {}, {}, {})",
                         counted(int(repair.left.size()), "triangle has", "triangles have"), number, t[0], t[1], t[2]),
-            "mesh the part anew there");
+            "remesh the part there");
     }
     remove(s, repair.removed);
 }

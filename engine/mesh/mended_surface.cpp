@@ -55,9 +55,9 @@ void keep_largest(MendedSurface& s, DoctorReport& report)
     const Tally removed = remove(s, other);
     report.add(
         Fault::several_components, Severity::repaired, removed,
-        fmt::format("{} pieces of sheet were there or hung together at edges of three faces; the largest was kept, "
-                    "{} left out (first: face {})",
-                    pieces.count, counted(removed.count, "triangle was", "triangles were"), removed.first),
+        fmt::format(
+            "the part had {} pieces, separate or connected at edges of three faces; the largest was kept, {} left out (first: face {})",
+            pieces.count, counted(removed.count, "triangle was", "triangles were"), removed.first),
         "");
 }
 

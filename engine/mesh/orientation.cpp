@@ -75,12 +75,12 @@ void orient(MendedSurface& s, DoctorReport& report)
         s.two_sided = false;
         Tally strip;
         strip.add(s.number[size_t(clash)]);
-        report.add(Fault::one_sided, Severity::fatal, strip,
-                   fmt::format("the surface has one side only, like a Moebius strip: going round it, one "
-                               "comes back to face {} "
-                               "from behind",
-                               s.number[size_t(clash)]),
-                   "cut it open, or look for a wrongly connected strip of faces");
+        report.add(
+            Fault::one_sided, Severity::fatal, strip,
+            fmt::format(
+                "the surface has one side only, like a Moebius strip: a path around it returns to face {} from behind",
+                s.number[size_t(clash)]),
+            "cut it open, or look for a wrongly connected strip of faces");
         return;
     }
     Tally turns;
@@ -92,7 +92,7 @@ void orient(MendedSurface& s, DoctorReport& report)
     if (turns.count > 0)
         report.add(
             Fault::flipped_face, Severity::repaired, turns,
-            fmt::format("{} turned against the others (first: face {}); turned over, the larger area kept its side",
+            fmt::format("{} oriented against the others (first: face {}); flipped, the larger area kept its side",
                         counted(turns.count, "triangle was", "triangles were"), turns.first),
             "");
 }

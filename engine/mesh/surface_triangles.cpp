@@ -40,7 +40,7 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
         if (found.same_as[size_t(v)] != v)
             joined.add(v);
     if (joined.count > 0 && options.weld) {
-        std::string text = fmt::format("{} joined with an earlier one at the same place (first: vertex {})",
+        std::string text = fmt::format("{} welded to an earlier one at the same place (first: vertex {})",
                                        counted(joined.count, "vertex was", "vertices were"), joined.first);
         if (found.near > 0)
             text += fmt::format(", {} of them across gaps of up to {:.3g} mm", found.near, found.widest);
@@ -52,7 +52,7 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                    fmt::format("{} at the place of another (first: vertex {}) and {} left there",
                                counted(joined.count, "vertex lies", "vertices lie"), joined.first,
                                joined.count == 1 ? "was" : "were"),
-                   "if faces that should hang together do not, join vertices at one place (--weld)");
+                   "if faces that should be connected are not, weld vertices at the same place (--weld)");
     std::vector<int> themselves(size_t(soup.vertices()));
     std::iota(themselves.begin(), themselves.end(), 0);
     return themselves;
@@ -92,7 +92,7 @@ Polygons without_repeated_corners(const PolygonSoup& soup, const std::vector<int
         report.add(Fault::repeated_corner, Severity::fatal, twisted,
                    fmt::format("{} through one vertex twice (first: face {})",
                                counted(twisted.count, "face goes", "faces go"), twisted.first),
-                   "split such faces into simple ones where they were made");
+                   "split such faces into simple ones in the program that made them");
     return kept;
 }
 
@@ -170,7 +170,7 @@ SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector
                    fmt::format("{} or more than {} corners (first: face {})",
                                counted(crossing.count, "face crosses itself or has", "faces cross themselves or have"),
                                most_corners, crossing.first),
-                   "split such faces into triangles where they were made");
+                   "split such faces into triangles in the program that made them");
     return result;
 }
 

@@ -13,7 +13,10 @@ namespace spia {
 
 namespace {
 
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
@@ -93,29 +96,33 @@ FitShortfall find_shortfall(const NurbsSurface& surface, const TriMesh& mesh, co
         return vertex < int(options.file_number.size()) ? options.file_number[size_t(vertex)] : vertex;
     };
     const auto degrees = [](double angle) { return angle * 180 / M_PI; };
-    const std::string far = fmt::format("the surface stays {:.3g} mm away where {:.3g} mm are asked for, at ({:.1f}, {:.1f}, {:.1f})",
-                                        left, options.tolerance, where.x(), where.y(), where.z());
+    const std::string far =
+        fmt::format("the surface deviates by {:.3g} mm where {:.3g} mm are allowed, at ({:.1f}, {:.1f}, {:.1f})", left,
+                    options.tolerance, where.x(), where.y(), where.z());
     if (edge.angle >= notable && edge.angle >= 0.5 * corner.angle) {
         result.reason = FitShortfall::Reason::sharp_edge;
         result.a = edge.a;
         result.b = edge.b;
         result.angle = edge.angle;
-        result.text = fmt::format("{}: a smooth surface rounds the edge {}-{} of the part, a turn of {:.0f} degrees; refine the "
-                                  "part there, cut it into patches along the edge, or allow more",
-                                  far, number(edge.a), number(edge.b), degrees(edge.angle));
+        result.text =
+            fmt::format("{}: a smooth surface rounds the edge {}-{} of the part, a turn of {:.0f} degrees; refine the "
+                        "part there, cut it into patches along the edge, or allow more",
+                        far, number(edge.a), number(edge.b), degrees(edge.angle));
     } else if (corner.angle >= notable) {
         result.reason = FitShortfall::Reason::outline_corner;
         result.a = corner.a;
         result.angle = corner.angle;
-        result.text = fmt::format("{}: a smooth border rounds the outline at vertex {}, a turn of {:.0f} degrees; choose it as a "
-                                  "corner of the grid, cut the part into patches there, or allow more",
-                                  far, number(corner.a), degrees(corner.angle));
+        result.text =
+            fmt::format("{}: a smooth border rounds the outline at vertex {}, a turn of {:.0f} degrees; choose it as a "
+                        "corner of the grid, cut the part into patches there, or allow more",
+                        far, number(corner.a), degrees(corner.angle));
     } else {
         result.reason = otherwise;
-        result.text = otherwise == FitShortfall::Reason::data
-                          ? fmt::format("{}: the grid's nodes are too few for more knots; choose a finer grid", far)
-                          : fmt::format("{}: {} control points are not enough; allow more of them, or a larger tolerance", far,
-                                        options.max_control_points);
+        result.text =
+            otherwise == FitShortfall::Reason::data
+                ? fmt::format("{}: the grid's nodes are too few for more knots; choose a finer grid", far)
+                : fmt::format("{}: {} control points are not enough; allow more of them, or a larger tolerance", far,
+                              options.max_control_points);
     }
     return result;
 }

@@ -33,15 +33,16 @@ std::vector<std::string> unlikely_input(const FlattenOptions& options)
         gauge(piece.name, piece.thickness);
     for (const ContactRegion& region : options.process.contact)
         if (region.friction > 1)
-            list.push_back(fmt::format("the friction coefficient of {} is {:.3g}: tools rub by less than 1",
+            list.push_back(fmt::format("the friction coefficient of {} is {:.3g}: values above 1 are not usual",
                                        region.name, region.friction));
     for (const Drawbead& bead : options.process.drawbeads)
         if (const double lock = lock_force(options.material, options.thickness); bead.force_N_mm > lock)
-            list.push_back(
-                fmt::format("the drawbead {} holds by {:.4g} N/mm, more than the {:.4g} N/mm that tear the sheet",
-                            bead.name, bead.force_N_mm, lock));
+            list.push_back(fmt::format(
+                "the drawbead {} restrains with {:.4g} N/mm, more than the {:.4g} N/mm at which the sheet tears",
+                bead.name, bead.force_N_mm, lock));
         else if (bead.force_N_mm == 0)
-            list.push_back(fmt::format("the drawbead {} does nothing: it is too shallow to bend the sheet", bead.name));
+            list.push_back(
+                fmt::format("the drawbead {} has no effect: it is too shallow to bend the sheet", bead.name));
     return list;
 }
 
@@ -54,11 +55,10 @@ std::vector<std::string> idle_process(const Session& session)
     constexpr double much = 0.1;
     const AppliedProcess process = applied_process(session);
     if (process.held_mm == 0)
-        list.push_back("the edge restraint holds nothing: all of the outer edge is a seam");
+        list.push_back("the edge restraint has no effect: all of the outer edge is a seam");
     else if (process.upright_mm > much * process.held_mm)
         list.push_back(fmt::format(
-            "on {:.4g} of {:.4g} mm of the edge the sheet stands along the stamping direction: slip cannot be seen there, and the "
-            "restraint may push instead of pull; give another direction",
+            "on {:.4g} of {:.4g} mm of the edge the sheet is parallel to the stamping direction: its sliding cannot be determined there, and the restraint may push instead of pull; give another direction",
             process.upright_mm, process.held_mm));
     return list;
 }
@@ -71,30 +71,26 @@ std::vector<std::string> grid_shortcomings(const Session& session)
     const GridResult& grid = session.grid->result;
     if (grid.route == GridRoute::wound)
         list.push_back(fmt::format(
-            "between these corners the blank winds: a grid without a fold needs long, slanted cells, {} x {} of them; "
-            "corners at the ends of the winding strip give better ones",
+            "between these corners the blank winds: a grid without folds needs long, skewed cells, {} x {} of them; corners at the ends of the winding strip give better cells",
             grid.planar.columns, grid.planar.rows));
     const bool asked_for = session.options.grid.to_bends > 0 || session.options.grid.even_cells;
     if (asked_for && grid.quality.folded_cells > 0) {
-        list.push_back("no line of the grid went to bends and no cell was evened out, for it folds before that");
+        list.push_back("grid lines were not moved to bends and cells not improved, because the grid folds before that");
         return list;
     }
     if (grid.no_bends)
         list.push_back(
             grid.planar.columns < 2 && grid.planar.rows < 2
-                ? "the grid has no inner lines that could go to bends; choose more cells"
-                : "no line of the grid went to bends, for it sees none between its nodes; if the part has some, "
-                  "choose more cells");
+                ? "the grid has no inner lines to move to bends; choose more cells"
+                : "no grid lines were moved to bends, because none were found between its nodes; if the part has bends, choose more cells");
     else if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
-        list.push_back(
-            fmt::format("{:.3g} % of the lines of the grid went to bends, not {:.3g} %: with more of them cells "
-                        "would fold or leave the blank; choose more cells",
-                        100 * grid.to_bends, 100 * asked));
+        list.push_back(fmt::format(
+            "{:.3g} % of the grid lines were moved to bends, not {:.3g} %: with more, cells would fold or leave the blank; choose more cells",
+            100 * grid.to_bends, 100 * asked));
     if (session.options.grid.even_cells && !grid.evened)
         list.push_back(grid.planar.columns < 2 || grid.planar.rows < 2
-                           ? "the grid has no inner nodes that could be moved towards right angles; choose more cells"
-                           : "the inner nodes of the grid were not moved towards right angles: they would leave the "
-                             "blank; choose more cells");
+                           ? "the grid has no inner nodes to move; choose more cells to improve cell angles"
+                           : "cell angles were not improved: inner nodes would leave the blank; choose more cells");
     return list;
 }
 
@@ -121,7 +117,7 @@ std::vector<std::string> shortcomings(const Session& session)
                                                                              : " (other grades beyond their own)") +
                 (flat.report.trusted_strain < session.options.flatten.curve.trusted_strain
                      ? ": there the hardening curve is extrapolated, and in tension the sheet necks"
-                     : ": extrapolated, the sheet would neck or tear there"));
+                     : ", extrapolated: the sheet would neck or crack there"));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));
         if (const auto& crossing = flat.overlap.crossings; !crossing.empty()) {
@@ -139,7 +135,7 @@ std::vector<std::string> shortcomings(const Session& session)
     }
     if (session.blank && session.blank->skins && session.blank->skins->sharp_faces > 0)
         list.push_back(fmt::format(
-            "{} bent sharper than a radius of one thickness: the skin strains there are those of that radius",
+            "{} bent to a radius below one sheet thickness: the skin strains there are those for one thickness",
             session.blank->skins->sharp_faces == 1 ? "1 face is"
                                                    : fmt::format("{} faces are", session.blank->skins->sharp_faces)));
     if (session.grid && session.grid->result.quality.folded_cells > 0) {
@@ -165,14 +161,12 @@ std::vector<std::string> shortcomings(const Session& session)
     }
     if (session.surface)
         for (const HoleLeftFilled& hole : session.surface->trim.left_filled)
-            list.push_back(
-                fmt::format("the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other "
-                            "corners may part them",
-                            session.part->source_vertex[size_t(hole.vertex)], hole.why));
+            list.push_back(fmt::format(
+                "the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other corners may help",
+                session.part->source_vertex[size_t(hole.vertex)], hole.why));
     if (session.deformed && session.surface->certificate.suited() && !session.deformed->certificate.suited())
-        list.push_back(
-            fmt::format("the deformation spoils the surface, which had no fold before: {}; move its points less",
-                        unsuited(session.deformed->certificate).value_or("")));
+        list.push_back(fmt::format("the deformation makes the surface fold: {}; move its points less",
+                                   unsuited(session.deformed->certificate).value_or("")));
     return list;
 }
 

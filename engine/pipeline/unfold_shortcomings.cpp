@@ -17,37 +17,34 @@ std::vector<std::string> shortcomings(const UnfoldRun& run, double diagonal, con
         if (!state.converged)
             poorer.push_back(fmt::format("step \"{}\" did not converge: {}", state.name, state.reason));
         else if (state.friction_share < 1)
-            poorer.push_back(fmt::format("step \"{}\" has {:.2g} % of its friction: {}", state.name,
+            poorer.push_back(fmt::format("step \"{}\" reached {:.2g} % of its friction: {}", state.name,
                                          100 * state.friction_share, state.reason));
     for (const UnfoldState& state : run.states)
         if (state.on && creased(*state.on, diagonal))
-            poorer.push_back(
-                fmt::format("step \"{}\" bends the sheet at its hinge: the target is {:.3g} mm beside the fixed "
-                            "faces and turned by {:.1f} deg against them",
-                            state.name, state.on->distance_mm, state.on->angle * degrees));
+            poorer.push_back(fmt::format(
+                "step \"{}\" creases the sheet at its hinge: the target is offset by {:.3g} mm and {:.1f} deg from the fixed faces",
+                state.name, state.on->distance_mm, state.on->angle * degrees));
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
-            poorer.push_back(
-                fmt::format("step \"{}\": {} faces reach beyond the end of the target, up to {:.4g} mm from "
-                            "what carries it",
-                            state.name, state.reach.without_room, state.reach.farthest_mm));
+            poorer.push_back(fmt::format(
+                "step \"{}\": {} faces reach beyond the end of the target, up to {:.4g} mm from its fixed faces",
+                state.name, state.reach.without_room, state.reach.farthest_mm));
     if (!run.states.empty() && run.states.back().necking > 0)
-        poorer.push_back(
-            fmt::format("{} triangles are strained beyond what the hardening curve is trusted to: extrapolated, "
-                        "the sheet would neck or tear there",
-                        run.states.back().necking));
+        poorer.push_back(fmt::format(
+            "{} triangles are strained beyond the valid range of the hardening curve, extrapolated: the sheet would neck or crack there",
+            run.states.back().necking));
     for (size_t k = 0; k + 1 < run.states.size(); ++k)
         if (const LandedOverlap& over = run.states[k].overlap; over.landed > 0)
-            poorer.push_back(fmt::format("step \"{}\" lays the sheet on itself at {} places, where there may be no way "
-                                         "for it; the first is near {:.6g}, {:.6g}, {:.6g}",
-                                         run.states[k].name, over.landed, over.first[0], over.first[1], over.first[2]));
+            poorer.push_back(fmt::format(
+                "step \"{}\" makes the sheet overlap itself at {} places, so that it may be impossible; the first is near {:.6g}, {:.6g}, {:.6g}",
+                run.states[k].name, over.landed, over.first[0], over.first[1], over.first[2]));
     if (!run.states.empty() && run.states.back().overlap.places > 0)
-        poorer.push_back(fmt::format("{} lies on itself at {} places", run.blank ? "the blank" : "the last state",
+        poorer.push_back(fmt::format("{} overlaps itself at {} places", run.blank ? "the blank" : "the last state",
                                      run.states.back().overlap.places));
     if (run.flipped > 0)
         poorer.push_back(fmt::format("{} triangles of the blank are flipped", run.flipped));
     if (!run.blank && run.failure.empty())
-        poorer.push_back("after the last step the part does not lie in a plane");
+        poorer.push_back("after the last step the part is not flat");
     return poorer;
 }
 

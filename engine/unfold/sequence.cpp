@@ -99,11 +99,11 @@ private:
     void lay(const std::vector<int>& cluster, int depth, bool unite)
     {
         const auto cannot = [&](const std::string& why) {
-            result_.notes.push_back(fmt::format("{} cannot be laid flat on its own: {}", names(map_, cluster), why));
+            result_.notes.push_back(fmt::format("{} cannot be unfolded separately: {}", names(map_, cluster), why));
         };
         const int carrier = carrier_of(cluster, depth);
         if (carrier < 0)
-            return cannot("it touches its inner neighbours in bends or points only");
+            return cannot("it touches its inner neighbours at bends or points only");
         const BinderFit* fit = carriers_.of(carrier);
         if (!fit)
             return cannot(carriers_.why_not(carrier));
@@ -123,7 +123,7 @@ private:
                 return cannot(fmt::format("it is joined to more than {}", map_.name(carrier)));
         }
         if (wraps(fit->face, part_, held))
-            return cannot(fmt::format("it goes all around {}", map_.name(carrier)));
+            return cannot(fmt::format("it surrounds {}", map_.name(carrier)));
         add(cluster, carrier, held, unite);
     }
 

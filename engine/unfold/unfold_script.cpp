@@ -60,8 +60,7 @@ std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
     std::optional<BinderFace> target = step.pick.target;
     if (!target && step.carrying_lost)
         throw InputError(
-            "the faces that carried its target are not on the part any more; pick others that stay, or give "
-            "it a target");
+            "the fixed faces of its target are not on the part any more; pick others that stay, or give it a target");
     if (!target && (step.within_mm > 0 || step.offset_mm != 0 || step.kind == UnfoldKind::unroll)) {
         const std::vector<int>& faces = carrying_faces(step);
         if (faces.empty())

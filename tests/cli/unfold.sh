@@ -114,7 +114,7 @@ expect_exit 2 "$spia" unfold "$part" --script "$out/torn.json"
 grep -q "tear off face" "$out.log" || fail "the tear is not told"
 echo '{"steps": [{"freed": {"regions": ["region 6", "bend 1"]}, "fixed": {"regions": ["region 4"]}}]}' > "$out/one.json"
 expect_exit 1 "$spia" unfold "$part" --script "$out/one.json" --strict
-grep -q "does not lie in a plane" "$out.log" || fail "the shortcoming is not told"
+grep -q "is not flat" "$out.log" || fail "the shortcoming is not told"
 # what names must not do
 expect_exit 2 "$spia" unfold "$part" --auto --out "$out/named" --name ../esc
 grep -q "\"../esc\" is no name of a file" "$out.log" || fail "a name that leads out of the folder is not refused in words"

@@ -174,7 +174,7 @@ TEST_F(Scripts, WriteFilesPicturesAndAReportAsWanted)
     EXPECT_NE(html.find("Leg &lt;1&gt; &amp; more"), std::string::npos);
     EXPECT_EQ(html.find("Leg <1>"), std::string::npos);
     EXPECT_NE(html.find("second"), std::string::npos);
-    EXPECT_EQ(html.find("How the solver got there"), std::string::npos);
+    EXPECT_EQ(html.find("Convergence of the solver"), std::string::npos);
     size_t pictures = 0;
     for (size_t at = 0; (at = html.find("data:image/png", at)) != std::string::npos; ++at)
         ++pictures;

@@ -382,6 +382,9 @@ struct ShowFault {
     int finding = 0, entry = 0;
 };
 struct HideFault {}; ///< "hide_fault": its mark goes, the views stay
+/// "show_refused": the view of the part shows the mesh of the file that was refused while the part was open.
+struct ShowRefused {};
+struct CloseRefused {}; ///< "close_refused": back to the part, and no more of the refused file
 
 /// "keep_reference": the blank that there is, for later ones to be compared with; name may be empty. Not kept in projects.
 struct KeepReference {
@@ -439,8 +442,8 @@ using Action =
                  ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
                  SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
                  SetViewSettings, SetPreferences, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
-                 KeepReference, DropReference, Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport,
-                 Screenshot, SaveAnimation, DismissMessages, Quit>;
+                 ShowRefused, CloseRefused, KeepReference, DropReference, Undo, Redo, OpenProject, SaveProject,
+                 ExportFiles, WriteReport, Screenshot, SaveAnimation, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -13,26 +13,24 @@ struct ViewerModel::Apply {
     Document& document = state.document;
     Session& session = document.session;
 
-    /// Before every change that undo brings back.
-    void change(std::string name, bool merge = false)
-    {
-        state.history.remember(std::move(name), document, merge);
-        state.unsaved = true;
-    }
+    /// Before every change that undo brings back. @throws InputError while another file is being read, which takes the place of
+    /// what would be changed
+    void change(std::string name, bool merge = false);
     const PartFile& part() const
     {
         if (!session.part)
             throw InputError(
                 state.refused
-                    ? "The part was refused: choose which of its parts to take, or mend its faults, in the step "
-                      "Part first."
+                    ? "The part was refused: choose what to read of it or repair its faults in the step Part first."
                     : "Open a part first.");
         return *session.part;
     }
 
     // --- the chain
-    /// Ends what runs, whatever it is about, and begins with another document.
-    void begin_with(Document fresh);
+    /// Ends what runs, whatever it is about.
+    void end_runs();
+    /// Begins to read another part. One that is open stays until that is there.
+    void begin_with(Opening opening);
     void require_no_export() const;
     void operator()(const ListFile& action);
     void operator()(const CloseList&);
@@ -161,6 +159,8 @@ struct ViewerModel::Apply {
     void look_at(const std::vector<int>& vertices);
     void operator()(const ShowFault& action);
     void operator()(const HideFault&) { state.fault.reset(); }
+    void operator()(const ShowRefused&);
+    void operator()(const CloseRefused&);
     void operator()(const KeepReference& action);
     void operator()(const DropReference&) { state.reference = nullptr; }
 

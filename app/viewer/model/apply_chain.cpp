@@ -8,97 +8,12 @@
 
 namespace spia::viewer {
 
-void ViewerModel::Apply::begin_with(Document fresh)
-{
-    if (model.chain_job_) {
-        model.chain_job_->cancel();
-        model.ending_.push_back(std::move(model.chain_job_));
-    }
-    if (model.steps_job_) {
-        model.steps_job_->cancel();
-        model.ending_steps_.push_back(std::move(model.steps_job_));
-    }
-    model.steps_next_ = model.keep_step_ = false;
-    state.view.unfolded = 0;
-    state.view.step.reset();
-    model.next_.reset();
-    model.next_in_one_step_ = false;
-    model.blank_next_.reset();
-    model.unsaved_before_.reset();
-    model.project_.reset();
-    state.job = JobView{};
-    document = std::move(fresh);
-    state.history = History{};
-    for (Message& message : state.messages)
-        message.dismissed = true;
-    state.refused.reset();
-    state.fault.reset();
-    model.dragging_ = false;
-    model.keep_cameras_ = false;
-    model.opening_ = true;
-    ++model.openings_;
-    model.start(Stage::read, Stage::read, "Opening " + document.session.file.filename().string());
-}
-
-void ViewerModel::Apply::require_no_export() const
-{
-    if (model.export_job_)
-        throw InputError("Wait for the export to end.");
-}
-
-void ViewerModel::Apply::operator()(const ListFile& action)
-{
-    if (action.again && action.file != session.file)
-        throw InputError("Only the file of the part can be read again.");
-    (*this)(CloseList{});
-    state.listing = FileListing{action.file, action.again};
-    model.list_job_ = std::make_unique<Job<ListedFile>>(
-        [file = action.file](const Progress& progress) { return look_into(file, progress); }, model.wake_);
-}
-
-void ViewerModel::Apply::operator()(const CloseList&)
-{
-    if (model.list_job_) {
-        model.list_job_->cancel();
-        model.ending_lists_.push_back(std::move(model.list_job_));
-    }
-    state.listing.reset();
-}
-
-void ViewerModel::Apply::operator()(const OpenPart& action)
-{
-    require_no_export();
-    Document fresh;
-    fresh.display = document.display;
-    fresh.display.range.reset();
-    fresh.material = document.material;
-    fresh.material_from = document.material_from;
-    fresh.thickness_from = document.thickness_from == SheetSource::assumed ? SheetSource::assumed : SheetSource::before;
-    fresh.limits = document.limits;
-    fresh.session.options.limits = session.options.limits;
-    fresh.session.options.flatten.material = session.options.flatten.material;
-    fresh.session.options.flatten.thickness = session.options.flatten.thickness;
-    fresh.session.options.interpolate = session.options.interpolate;
-    set_fit(fresh.session.options, fit_choice(session.options));
-    begin_as_preferred(fresh);
-    if (!action.unit.empty())
-        fresh.session.options.read.unit = length_unit(action.unit);
-    set_reading(fresh.session.options.read, action.reading);
-    fresh.session.file = action.file;
-    if (!std::filesystem::exists(action.file))
-        throw InputError(fmt::format("There is no file {}.", action.file.string()));
-    (*this)(CloseList{});
-    state.project.clear();
-    state.unsaved = false;
-    begin_with(std::move(fresh));
-}
-
 template <class Edit> void ViewerModel::Apply::read_again(std::string name, const Edit& edit)
 {
     if (session.file.empty())
         throw InputError("Open a part first.");
     if (model.busy())
-        throw InputError("Cancel the running job first; then read the part otherwise.");
+        throw InputError("Cancel the running job first; then read the part with other options.");
     change(std::move(name));
     (*this)(DismissMessages{}); // of the part as it was read before
     edit(session.options.read);
@@ -110,7 +25,7 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
 {
     const LengthUnit unit = length_unit(action.unit);
     if (part().cad && part().cad->unit_stated)
-        throw InputError("The file says itself what its lengths are in.");
+        throw InputError("The length unit is stated in the file and cannot be changed.");
     if (part().unit != unit)
         read_again("Change unit", [&](ReadOptions& read) { read.unit = unit; });
 }
@@ -118,7 +33,7 @@ void ViewerModel::Apply::operator()(const SetUnit& action)
 void ViewerModel::Apply::operator()(const SetReading& action)
 {
     if (reading_of(session.options.read) != action.reading)
-        read_again("Read the part otherwise", [&](ReadOptions& read) { set_reading(read, action.reading); });
+        read_again("Change reading options", [&](ReadOptions& read) { set_reading(read, action.reading); });
 }
 
 void ViewerModel::Apply::operator()(const ReadAgain& action)
@@ -130,7 +45,7 @@ void ViewerModel::Apply::operator()(const ReadAgain& action)
     const bool same =
         reading_of(wanted) == reading_of(session.options.read) && wanted.unit == session.options.read.unit;
     if (!same)
-        read_again("Read the part otherwise", [&](ReadOptions& read) { read = wanted; });
+        read_again("Change reading options", [&](ReadOptions& read) { read = wanted; });
     (*this)(CloseList{});
 }
 
@@ -147,7 +62,7 @@ void ViewerModel::Apply::operator()(const SetRemeshing& action)
 {
     const ReadOptions& now = session.options.read;
     if (now.remesh != action.remesh || now.cad.keep_triangles != !action.remesh)
-        read_again(action.remesh ? "Remesh" : "Take the triangles of the file", [&](ReadOptions& read) {
+        read_again(action.remesh ? "Remesh" : "Use the triangles of the file", [&](ReadOptions& read) {
             read.remesh = action.remesh;
             read.cad.keep_triangles = !action.remesh;
         });
@@ -156,7 +71,7 @@ void ViewerModel::Apply::operator()(const SetRemeshing& action)
 void ViewerModel::Apply::operator()(const RunTo& action)
 {
     if (state.refused && !session.part && !model.opening_)
-        throw InputError("The part was refused: mend its faults in the step Part first, or open another one.");
+        throw InputError("The part was refused: repair its faults in the step Part first, or open another one.");
     if (model.opening_) { // as soon as the part is there
         model.next_ = action.stage;
         return;
@@ -164,10 +79,11 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     // Asked for by name, the one-step solve takes the place of the blank of the steps; else only where that does not hold.
     const bool instead = session.options.steps && action.stage == Stage::solve;
     if (!instead && (!first_stale(document) || *first_stale(document) > action.stage)) {
-        model.say(Severity::hint, session.options.steps
-                                      ? "Everything is up to date, from the blank of the steps. Unfold (F6) solves the "
-                                        "part in one step instead."
-                                      : "Everything is up to date.");
+        model.say(
+            Severity::hint,
+            session.options.steps
+                ? "Everything is up to date, with the blank of the steps. Unfold (F6) unfolds the part in one step instead."
+                : "Everything is up to date.");
         return;
     }
     part();
@@ -182,14 +98,12 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         return;
     }
     const bool unsaved = state.unsaved;
-    change(action.stage == Stage::solve ? "Unfold" : "Run the chain");
+    change(action.stage == Stage::solve ? "Unfold" : "Update all");
     if (instead) {
         session.options.steps.reset();
-        model.say(Severity::hint,
-                  "The blank is that of one step again. That of the steps is kept with them, to be used "
-                  "once more.");
+        model.say(Severity::hint, "The one-step blank is used again. The blank of the steps is kept with them.");
     }
-    model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Running the chain");
+    model.run_to(action.stage, action.stage == Stage::solve ? "Unfolding" : "Updating all");
     if (model.chain_job_)
         model.unsaved_before_ = unsaved;
 }
@@ -258,7 +172,7 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
         throw InputError(fmt::format("The part has no vertex {}.", action.vertex));
     const std::vector<int>& outline = model.pickers_.outline(session);
     if (std::find(outline.begin(), outline.end(), action.vertex) == outline.end())
-        throw InputError(fmt::format("Vertex {} is not on the outer outline of the blank, where corners have to be.",
+        throw InputError(fmt::format("Vertex {} is not on the outer outline of the blank; corners must lie there.",
                                      part().source_vertex[size_t(action.vertex)]));
     std::array<int, 4> corners = corners_now();
     const int in_file = number_of(part(), action.vertex);

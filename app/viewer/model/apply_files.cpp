@@ -15,6 +15,8 @@ void ViewerModel::Apply::go(void (History::*way)(Document&))
         return;
     (state.history.*way)(document);
     state.unsaved = true;
+    if (state.refused_file)
+        return;
     state.refused.reset(); // of another way to read the part
     state.fault.reset();
 }
@@ -24,10 +26,9 @@ void ViewerModel::Apply::operator()(const OpenProject& action)
     require_no_export();
     Project project = open_project(action.file, model.assets() / "materials");
     const bool left_behind = is_autosave(action.file); // of a part without a project `recovers` is empty
-    state.project = left_behind ? project.recovers : action.file;
-    state.unsaved = left_behind;
-    begin_with(project.document);
-    model.project_ = std::move(project);
+    Opening opening{project.document, {}, left_behind ? project.recovers : action.file, left_behind};
+    opening.project = std::move(project);
+    begin_with(std::move(opening));
 }
 
 void ViewerModel::Apply::operator()(const SaveProject& action)
@@ -35,7 +36,7 @@ void ViewerModel::Apply::operator()(const SaveProject& action)
     const std::filesystem::path file = action.file.empty() ? state.project : action.file;
     if (file.empty())
         throw InputError("Give the project a name: Save project as.");
-    save_project(file, document, state.view);
+    save_project(file, document, kept_view(state));
     state.project = file;
     state.unsaved = false;
     model.say(Severity::done, fmt::format("Saved {}", file.string()));
@@ -46,7 +47,7 @@ void ViewerModel::Apply::operator()(const ExportFiles& action)
     if (model.busy())
         throw InputError("Wait for the running job to end, then export.");
     if (!session.blank)
-        throw InputError("There is nothing to export yet: run the chain first.");
+        throw InputError("There is nothing to export yet: unfold the part first.");
     state.exported.reset();
     state.job = JobView{};
     state.job.running = true;

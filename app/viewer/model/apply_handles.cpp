@@ -14,7 +14,7 @@ void ViewerModel::Apply::deform(std::string name, std::optional<Deformation> def
     if (!session.surface)
         throw InputError("Make the surface first; then it can be deformed.");
     if (model.chain_job_)
-        throw InputError("Wait for the surface that is being made.");
+        throw InputError("Wait until the surface is finished.");
     Session changed = session;
     changed.options.deformation = std::move(deformation);
     changed = deform_surface(std::move(changed), !dragging);
@@ -31,7 +31,7 @@ void ViewerModel::Apply::operator()(const SetLattice& action)
     std::optional<Deformation> wanted = session.options.deformation;
     if (action.lattice) {
         if (!session.surface)
-            throw InputError("Make the surface first; then a lattice can be laid around it.");
+            throw InputError("Make the surface first; then a lattice can be added.");
         if (!wanted)
             wanted.emplace();
         wanted->lattice =
@@ -41,7 +41,7 @@ void ViewerModel::Apply::operator()(const SetLattice& action)
         if (wanted->moves.empty())
             wanted.reset();
     }
-    deform(action.lattice ? "Lay a lattice" : "Take the lattice away", std::move(wanted));
+    deform(action.lattice ? "Add lattice" : "Remove lattice", std::move(wanted));
     document.lattice_points.clear();
     state.view.handles = action.lattice ? HandleKind::lattice : HandleKind::control;
 }
@@ -94,7 +94,7 @@ void ViewerModel::Apply::operator()(const MoveHandles& action)
 
 void ViewerModel::Apply::operator()(const ResetHandles& action)
 {
-    deform("Take the deformation back", reset(session.options.deformation, action.kind));
+    deform("Reset deformation", reset(session.options.deformation, action.kind));
 }
 
 void ViewerModel::Apply::operator()(const OpenDeformation& action)

@@ -11,7 +11,9 @@ namespace spia::viewer {
 
 void ViewerModel::Apply::operator()(const SetDisplay& action)
 {
-    change("Change display", true);
+    state.history.remember("Change display", document,
+                           true); // also while another file is being read, which takes it over
+    state.unsaved = true;
     document.display = action.display;
     document.display.per_face |= action.display.field == Field::zone; // nothing lies between two zones
 }
@@ -90,7 +92,7 @@ void ViewerModel::Apply::operator()(const ShowFault& action)
     const double size = 0.15 * bounding_diagonal(part->mesh);
     for (const View view : all_views) {
         Camera& camera = state.view.camera[size_t(view)];
-        if (view == View::part || (state.view.linked && view != View::blank)) {
+        if (view == View::part || (state.view.linked && view != View::blank && !shows_refused(state))) {
             camera.target = glm::dvec3(at[0], at[1], at[2]);
             camera.turn = clear_sight(part->mesh, at, camera.turn);
             if (size > 0)

@@ -22,9 +22,12 @@ void ViewerModel::Apply::select(std::vector<int> faces, PickMode mode, const cha
 const RayPicker& ViewerModel::Apply::picker(View view)
 {
     model.pickers_.follow_steps(state);
+    if (view == View::part && shows_refused(state))
+        throw InputError(
+            "The view shows the file that was refused; go back to the part in the step Part to pick on it.");
     if (view == View::part && model.pickers_.on_the_way())
-        throw InputError("The part is on the way from one step to the next; move the slider of the steps to a whole "
-                         "step to pick on it.");
+        throw InputError(
+            "The part is shown between two steps; move the slider of the steps to a whole step to pick on it.");
     if (const RayPicker* found = model.pickers_.picker(session, view))
         return *found;
     throw InputError(view == View::blank ? "Unfold the part first." : "Open a part first.");
@@ -184,7 +187,7 @@ void ViewerModel::Apply::operator()(const ClearProbes&)
 void ViewerModel::Apply::operator()(const DrawSection& action)
 {
     if (action.view == View::part && step_position(state) > 0)
-        throw InputError("A section cuts the part as it is formed; move the slider of the steps back to the part.");
+        throw InputError("Sections are cut through the formed part; move the slider of the steps back to the part.");
     const RayPicker& on = picker(action.view);
     const Camera& from = camera(action.view);
     const Ray a = ray_through(from, on.box(), action.from, action.size),
@@ -200,7 +203,7 @@ void ViewerModel::Apply::operator()(const DrawSection& action)
             found = ray.origin + there.distance * ray.direction;
     }
     if (!found)
-        throw InputError("Draw the section line over the sheet: it does not meet it anywhere.");
+        throw InputError("The section line does not cross the sheet; draw it across the sheet.");
     const Eigen::Vector3d hit = *found;
     const Eigen::Vector3d sight = ray_through(from, on.box(), action.size / 2., action.size).direction;
     const auto at_depth = [&](const Ray& ray) -> Eigen::Vector3d {

@@ -72,23 +72,23 @@ void ViewerModel::Apply::operator()(const RunSteps&)
     }
     model.run_missing_steps();
     if (has_tools(session.options.flatten.process))
-        model.say(Severity::hint, "Tools, drawbeads, pilots and the held edge act on the part as a whole; the steps "
-                                  "leave them out.");
+        model.say(Severity::hint,
+                  "Tools, drawbeads, pilots and edge restraint act on the whole part; the steps ignore them.");
 }
 
 void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
 {
     require_idle();
     if (first_stale(document) == Stage::read)
-        throw InputError("The part is to be read again first; then run the steps on it.");
+        throw InputError("The part must be read again first; then run the steps.");
     if (!all_steps_done(document))
         throw InputError(document.steps.empty() ? "There are no steps yet: propose some, or add one."
-                                                : "Run the steps first: their blank is that of all of them.");
+                                                : "Run all steps first; then their blank can be used.");
     const std::shared_ptr<const StepsRun>& last = document.unfolding;
     if (!last->run.blank)
-        throw InputError("After the last step the part does not lie in a plane yet; add a step.");
+        throw InputError("After the last step the part is not flat yet; add a step.");
     if (last->run.flipped > 0)
-        throw InputError("Triangles of the blank of the steps are flipped; unfold there in smaller steps.");
+        throw InputError("Triangles of the blank of the steps are flipped; unfold in smaller steps there.");
     const BlankOfSteps wanted{{last, &last->run}, action.polish};
     if (session.options.steps == wanted && !first_stale(document)) {
         model.say(Severity::hint, "The blank of the steps is in use already, and everything is up to date.");
@@ -130,22 +130,21 @@ void ViewerModel::Apply::operator()(const AddStep& action)
         throw InputError("Select the faces to unfold first, or make a region of them.");
     if (action.freed == action.fixed)
         throw InputError(
-            fmt::format("The region \"{}\" cannot both stay and be unfolded; choose another one.", fixed.name));
+            fmt::format("The region \"{}\" cannot be both fixed and unfolded; choose another one.", fixed.name));
     if (action.plane_of && !action.target.fitted())
         throw InputError("A step has one target: numbers of its own, or the plane of a region.");
     const std::vector<int>& picked = action.freed ? document.regions[region(*action.freed)].faces : document.selected;
     const std::vector<int> freed = whole_faces(part(), picked);
     if (freed.size() > picked.size())
         model.say(Severity::hint,
-                  fmt::format("{} more of the triangles, so that no face of the file is unfolded by half.",
+                  fmt::format("{} more of the triangles, so that each face of the file is unfolded as a whole.",
                               freed.size() - picked.size()));
     std::vector<int> both;
     std::set_intersection(fixed.faces.begin(), fixed.faces.end(), freed.begin(), freed.end(), std::back_inserter(both));
     if (!both.empty())
-        throw InputError(fmt::format("{} {} to unfold also belong{} to the region \"{}\", which stays; take them out "
-                                     "of one of the two.",
-                                     both.size(), both.size() == 1 ? "face" : "faces", both.size() == 1 ? "s" : "",
-                                     fixed.name));
+        throw InputError(
+            fmt::format("{} {} to unfold also belong{} to the fixed region \"{}\"; remove them from one of the two.",
+                        both.size(), both.size() == 1 ? "face" : "faces", both.size() == 1 ? "s" : "", fixed.name));
     PlannedStep made;
     made.name = !action.name.empty() ? action.name
                                      : fmt::format("{} onto {}",
@@ -171,16 +170,16 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
     if (action.name.empty())
         throw InputError("A step needs a name.");
     if (!std::isfinite(action.offset_mm) || !(action.within_mm >= 0))
-        throw InputError("The offset of a step is a length, and the distance from its face one from 0 on.");
+        throw InputError("The offset of a step must be a length, the distance from its target 0 or more.");
     if (action.tolerance && !(*action.tolerance >= least_step_tolerance && *action.tolerance <= most_step_tolerance))
         throw InputError(
             fmt::format("The tolerance of a step must be from {} to {}.", least_step_tolerance, most_step_tolerance));
     const PlannedStep& before = *document.steps[number];
     if (action.extent_mm &&
         (!(*action.extent_mm > 0) || before.kind != UnfoldKind::lay || carrying_faces(before).empty()))
-        throw InputError("How far a target goes on is a length above 0, from the faces that carry it.");
+        throw InputError("The extent of a target must be a length above 0, measured from its fixed faces.");
     if (before.kind != UnfoldKind::lay && action.offset_mm != before.offset_mm)
-        throw InputError("Only a step that lays faces on a face can have it moved.");
+        throw InputError("Only a step with a target can have an offset.");
     PlannedStep changed = before;
     changed.name = action.name;
     changed.offset_mm = action.offset_mm;
@@ -190,11 +189,11 @@ void ViewerModel::Apply::operator()(const ChangeStep& action)
     if (action.target && *action.target != numbers_of(before)) {
         changed.pick.target = face_of(*action.target, part().mesh, before.pick);
         if (changed.pick.target && before.kind != UnfoldKind::lay)
-            throw InputError("Only a step that lays faces on a face can have a target of its own.");
+            throw InputError("Only a step that lays faces on a target can have another target.");
     }
     if (action.friction != numbers_of(before.pick.friction)) {
         if (action.friction && before.kind != UnfoldKind::lay)
-            throw InputError("Only a step that lays faces on a face can have friction on it.");
+            throw InputError("Only a step that lays faces on a target can have friction.");
         const std::vector<int> faces = before.pick.friction ? before.pick.friction->faces : std::vector<int>();
         changed.pick.friction = action.friction ? std::optional(friction_of(*action.friction, faces)) : std::nullopt;
     }
@@ -220,7 +219,7 @@ const PlannedStep& ViewerModel::Apply::laying_step(int number) const
 {
     const PlannedStep& wanted = *document.steps[step(number)];
     if (wanted.kind != UnfoldKind::lay)
-        throw InputError("Only a step that lays faces on a face can have a target of its own.");
+        throw InputError("Only a step that lays faces on a target can have another target.");
     return wanted;
 }
 
@@ -231,9 +230,9 @@ TargetPlane ViewerModel::Apply::plane_before(size_t step, const std::vector<int>
         const std::vector<int>& moved = document.steps[k]->pick.freed;
         if (std::any_of(faces.begin(), faces.end(),
                         [&](int f) { return std::binary_search(moved.begin(), moved.end(), f); }))
-            throw InputError(fmt::format("Step {} moves some of these faces; run the steps before this one first, then "
-                                         "their plane is known.",
-                                         k + 1));
+            throw InputError(fmt::format(
+                "Step {} moves some of these faces; run the earlier steps first, so that their plane is known.",
+                k + 1));
     }
     const TriMesh now{unfolded_places(document, double(known)), part().mesh.triangle};
     const PlaneThrough through = plane_through(now, faces);
@@ -246,7 +245,7 @@ TargetPlane ViewerModel::Apply::plane_before(size_t step, const std::vector<int>
 void ViewerModel::Apply::operator()(const SetTargetPlane& action)
 {
     PlannedStep changed = laying_step(action.step);
-    const std::vector<int>& faces = faces_or_selected(action.region, "through which the plane shall go");
+    const std::vector<int>& faces = faces_or_selected(action.region, "for the plane");
     const StepTarget target{.plane = plane_before(size_t(action.step), faces)};
     changed.pick.target = face_of(target, part().mesh, changed.pick);
     replace_step("Set target plane", size_t(action.step), std::move(changed));
@@ -255,14 +254,14 @@ void ViewerModel::Apply::operator()(const SetTargetPlane& action)
 void ViewerModel::Apply::operator()(const SetCarrying& action)
 {
     PlannedStep changed = laying_step(action.step);
-    const std::vector<int>& faces = faces_or_selected(action.region, "to which the target shall be fitted");
+    const std::vector<int>& faces = faces_or_selected(action.region, "for the target");
     const std::vector<int>& freed = changed.pick.freed;
     const auto moves = std::count_if(faces.begin(), faces.end(),
                                      [&](int f) { return std::binary_search(freed.begin(), freed.end(), f); });
     if (moves > 0)
-        throw InputError(fmt::format("{} of these faces {} moved by the step and cannot carry its target; choose faces "
-                                     "that stay.",
-                                     moves, moves == 1 ? "is" : "are"));
+        throw InputError(
+            fmt::format("{} of these faces {} moved by the step and cannot define its target; choose fixed faces.",
+                        moves, moves == 1 ? "is" : "are"));
     std::vector<int> fixed;
     std::set_union(changed.pick.fixed.begin(), changed.pick.fixed.end(), faces.begin(), faces.end(),
                    std::back_inserter(fixed));
@@ -270,7 +269,7 @@ void ViewerModel::Apply::operator()(const SetCarrying& action)
     changed.pick.carrying = faces;
     changed.pick.target.reset();
     changed.carrying_lost = false;
-    replace_step("Set carrying faces", size_t(action.step), std::move(changed));
+    replace_step("Set fixed faces", size_t(action.step), std::move(changed));
 }
 
 void ViewerModel::Apply::operator()(const RemoveStep& action)

@@ -128,8 +128,7 @@ std::string out_of_date(const Document& document)
                                  : *stale == Stage::fit   ? session.surface != nullptr
                                                           : session.grid != nullptr);
     return there ? fmt::format(
-                       "Out of date: options were changed after these results were made, from the step \"{}\" on; "
-                       "the figures are those of the options before.",
+                       "Out of date from the step \"{}\" on: options have changed since these results were computed.",
                        name(*stale))
                  : "";
 }
@@ -179,12 +178,13 @@ std::string advice(Stage failed, const SessionOptions& options)
     if (options.steps && failed == Stage::solve)
         return "Use the blank of the steps as it is, without polishing.";
     switch (failed) {
-    case Stage::read: return "Look at the faults in the step Part, where some can be mended, or choose another file.";
-    case Stage::solve: return "Look at the part's faces named above; a coarser or cleaner mesh often helps.";
-    case Stage::grid: return "Drag the corners to the sharp turns of the blank, or choose the harmonic method.";
+    case Stage::read: return "See the faults in the step Part, where some can be repaired, or choose another file.";
+    case Stage::solve: return "Check the faces named above; a coarser or cleaner mesh often helps.";
+    case Stage::grid: return "Drag the corners to sharp corners of the blank, or choose the harmonic method.";
     case Stage::lift: return "Choose the automatic grid method.";
     case Stage::fit:
-        return options.patches ? "Cut there, or take one patch in the step NURBS surface." : "Choose a finer grid.";
+        return options.patches ? "Add a cut there, or choose one patch in the step NURBS surface."
+                               : "Choose a finer grid.";
     }
     return "";
 }
@@ -192,18 +192,15 @@ std::string advice(Stage failed, const SessionOptions& options)
 std::string advice(const SolveReport& report)
 {
     if (report.process_share < 1)
-        return "Lower the forces of the tools, or take a stronger sheet or a finer mesh.";
+        return "Reduce the tool forces, or use a stronger sheet or a finer mesh.";
     switch (report.system) {
     case SolvedSystem::strict: return "";
     case SolvedSystem::continued:
-        return "The outline can be used; strains above that value are extrapolated: a softer grade, a shallower part or less "
-               "restraint by the tools is needed there.";
+        return "The outline can be used; strains above that value are extrapolated. A softer grade, a shallower part or less tool restraint is needed there.";
     case SolvedSystem::relaxed:
-        return "The outline can be used; strains around those vertices are estimates: look at the worst spots, and "
-               "mesh folds and sharp edges there finer or rounder.";
+        return "The outline can be used; strains around those vertices are estimates. Check the worst spots; refine the mesh or round sharp edges there.";
     case SolvedSystem::energy:
-        return "Take outline and strains as a first guess: try another stamping direction or an evener mesh, or cut "
-               "the part where its worst spots are.";
+        return "Outline and strains are a first guess only. Try another stamping direction or a more even mesh, or split the part at its worst spots.";
     }
     return "";
 }

@@ -83,7 +83,7 @@ Reference reference_of(const Document& document, std::string name, LengthUnit le
 {
     const Session& session = document.session;
     if (!session.part || !session.blank)
-        throw InputError("There is no result to be kept as reference: unfold the part first.");
+        throw InputError("There is no result to keep as reference: unfold the part first.");
     const FlattenOptions& made = document.made_with.flatten;
     if (name.empty())
         name = fmt::format("{}, {}, {}", made.material.name, thickness_text(made.thickness, lengths), time_of_day());
@@ -107,8 +107,7 @@ Differences differences_of(const std::shared_ptr<const Reference>& reference, co
     if (before.vertices() != mesh.vertices() || before.triangle.cols() != mesh.triangle.cols() ||
         before.triangle != mesh.triangle) {
         result.none_because = fmt::format(
-            "The part has other triangles now ({} instead of {}): only the figures can be compared, not the "
-            "faces.",
+            "The mesh of the part has changed ({} triangles instead of {}): only the key figures can be compared.",
             mesh.triangles(), before.triangles());
         return result;
     }
@@ -142,7 +141,7 @@ Session session_of_field(const ViewerState& state)
 std::string label_of_field(const ViewerState& state)
 {
     const FieldDisplay& display = state.document.display;
-    return std::string(info(display.field).label) + (display.difference ? ", now minus reference" : "");
+    return std::string(info(display.field).label) + (display.difference ? ", difference from reference" : "");
 }
 
 std::vector<ComparedFigure> compared_figures(const Reference& reference, const Session& now)
@@ -152,9 +151,9 @@ std::vector<ComparedFigure> compared_figures(const Reference& reference, const S
             {"Blank, shorter side", "mm", a.size.minCoeff(), b.size.minCoeff(), 2},
             {"Area of the blank", "mm\u00b2", flat_area(*reference.part, *reference.blank),
              flat_area(*now.part, *now.blank), 0},
-            {"Greatest thinning", "%", 100 * a.thinning[1], 100 * b.thinning[1], 2},
-            {"Least thinning (thicker below 0)", "%", 100 * a.thinning[0], 100 * b.thinning[0], 2},
-            {"Greatest equivalent strain", "", a.strain_equivalent, b.strain_equivalent, 4},
+            {"Maximum thinning", "%", 100 * a.thinning[1], 100 * b.thinning[1], 2},
+            {"Minimum thinning (negative: thicker)", "%", 100 * a.thinning[0], 100 * b.thinning[0], 2},
+            {"Maximum equivalent strain", "", a.strain_equivalent, b.strain_equivalent, 4},
             {"Faces cracked or at risk", "", at_risk(reference.limits), at_risk(now.limits), 0},
             {"Time to solve", "s", reference.blank->report.seconds, now.blank->report.seconds, 2}};
 }

@@ -42,11 +42,11 @@ std::string text(const FitVerdict& verdict, double tolerance, LengthUnit lengths
                            length(verdict.p95));
     const std::string share = verdict.share < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100 * verdict.share);
     if (verdict.fit == Fit::beyond)
-        return fmt::format("The surface leaves the part by up to {}: {} of the part is farther away than {}. "
-                           "A finer grid brings it closer.",
+        return fmt::format("The surface deviates from the part by up to {}; {} of the part deviates by more than {}. "
+                           "Use a finer grid or fit within a tolerance.",
                            length(verdict.greatest), share, length(tolerance));
-    return fmt::format("The surface leaves the part by up to {}, {:.0f} times the tolerance: {} of the part is "
-                       "farther away than {}. Look at the corners, the grid and the deviation before you export it.",
+    return fmt::format("The surface deviates from the part by up to {}, {:.0f} times the tolerance; {} of the part "
+                       "deviates by more than {}. Check corners, grid and deviation before exporting.",
                        length(verdict.greatest), verdict.greatest / tolerance, share, length(tolerance));
 }
 

@@ -13,7 +13,7 @@ FitChoice fit_choice(const SessionOptions& options)
 void set_fit(SessionOptions& options, const FitChoice& choice)
 {
     if (choice.ends == CurveEnds::natural && (choice.degree_u != 3 || choice.degree_v != 3))
-        throw InputError("Natural ends are those of cubic surfaces: choose degree 3, or other ends.");
+        throw InputError("Natural ends need degree 3: choose degree 3 or other ends.");
     options.tolerance = choice.tolerance;
     options.interpolate.degree_u = choice.degree_u;
     options.interpolate.degree_v = choice.degree_v;

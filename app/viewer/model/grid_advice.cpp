@@ -92,7 +92,7 @@ std::string grid_advice(const Session& session)
     const std::string other_way = session.options.grid.method == GridMethod::coons
                                       ? "choose the automatic or the harmonic method in the step Corners and grid"
                                       : "choose more cells in the step Corners and grid";
-    const std::string all = "Drag the corners to the sharp turns of the blank, or " + other_way + ".";
+    const std::string all = "Drag the corners to sharp corners of the blank, or " + other_way + ".";
     if (!session.part || !session.blank)
         return all;
     std::array<int, 4> proposed, corners;
@@ -105,7 +105,7 @@ std::string grid_advice(const Session& session)
         for (size_t k = 0; k < 4; ++k) {
             const std::vector<int> found = vertices_called(*session.part, (*session.options.corners)[k]);
             if (found.empty())
-                return "Press \"Propose corners\": those chosen are of another part.";
+                return "Press \"Propose corners\": the chosen ones belong to another part.";
             corners[k] = found[0];
         }
     const auto widest = widest_corner(session, corners);
@@ -118,9 +118,9 @@ std::string grid_advice(const Session& session)
         fmt::format("Corner {} (vertex {}) lies where the outline {} ({:.0f} degrees): ", widest->number, number,
                     widest->angle_deg > 200 ? "turns inwards" : "runs straight on", widest->angle_deg);
     if (!session.options.corners)
-        return why + "drag it to a sharp turn of the blank, or " + other_way + ".";
+        return why + "drag it to a sharp corner of the blank, or " + other_way + ".";
     const int turn = free_turn(session.blank->blank.position, proposed, corners);
-    return why + fmt::format("drag it to a sharp turn, such as the one at vertex {}, or press \"Propose corners\".",
+    return why + fmt::format("drag it to a sharp corner, e.g. at vertex {}, or press \"Propose corners\".",
                              in_file.empty() ? turn : in_file[size_t(turn)]);
 }
 

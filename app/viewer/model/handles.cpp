@@ -95,7 +95,7 @@ Deformation moved(const Session& session, HandleKind kind, const std::vector<int
         return deformation;
     }
     if (!deformation.lattice)
-        throw InputError("Lay a lattice around the surface first, in the step NURBS surface.");
+        throw InputError("Add a lattice to the surface first, in the step NURBS surface.");
     for (const int handle : handles) {
         if (handle < 0 || handle >= deformation.lattice->points())
             throw InputError(fmt::format("There is no lattice point {}; it has {}, counted from 0.", handle,

@@ -5,6 +5,7 @@
 #include "app/viewer/model/html_text.h"
 #include "app/viewer/model/report_limits.h"
 #include "app/viewer/model/report_tables.h"
+#include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
@@ -32,13 +33,11 @@ std::string remarks_html(const std::string& remarks)
     return remarks.empty() ? "" : fmt::format("<p class=\"remarks\">{}</p>\n", escaped(remarks));
 }
 
-std::string all_notes(const Session& session, const std::vector<std::string>& notes)
+std::string all_doubts(const Session& session, const std::vector<std::string>& doubts)
 {
     std::string text;
-    for (const std::string& shortcoming : shortcomings(session))
-        text += fmt::format("<p class=\"note\"><b>Mind:</b> {}</p>\n", escaped(shortcoming));
-    for (const std::string& note : notes)
-        text += fmt::format("<p class=\"note plain\">{}</p>\n", escaped(note));
+    for (const std::string& each : doubts.empty() ? shortcomings(session) : doubts)
+        text += fmt::format("<p class=\"note\"><b>Caution:</b> {}</p>\n", escaped(sentence(in_viewer_words(each))));
     return text.empty() ? "" : fmt::format("<section class=\"notes\">\n{}</section>\n", text);
 }
 
@@ -60,7 +59,7 @@ std::string pictures_html(const std::vector<ReportPicture>& pictures)
 
 void write_html_report(const std::filesystem::path& file, const Session& session,
                        const std::vector<ReportPicture>& pictures, const ReportOptions& options,
-                       const std::vector<std::string>& notes)
+                       const std::vector<std::string>& doubts)
 {
     if (!session.part || !session.blank)
         throw InputError("a report needs a solved part; unfold the part first");
@@ -68,7 +67,7 @@ void write_html_report(const std::filesystem::path& file, const Session& session
     const std::string name = session.file.filename().string();
     const ReportTables& wanted = options.tables;
     std::string html = header(session, options.title) + remarks_html(options.remarks) +
-                       tiles(session, figures, options.lengths) + all_notes(session, notes);
+                       tiles(session, figures, options.lengths) + all_doubts(session, doubts);
     if (wanted.key_figures)
         html += key_figures(session, figures, options.lengths);
     if (wanted.worst_spots)

@@ -86,38 +86,36 @@ Eventually<bool> KeptWork::write(const Document& document, const ViewSettings& v
 void KeptWork::open(ViewerModel& model, const Action& action)
 {
     const ViewerState& state = model.state();
-    const bool leaves_work = state.unsaved && state.document.session.part;
+    const bool had_part = state.document.session.part != nullptr, leaves_work = state.unsaved && had_part;
     const Document document = state.document;
-    const ViewSettings view = state.view;
+    const ViewSettings view = kept_view(state);
     const std::filesystem::path project = state.project;
-    const int openings = model.openings();
+    const int openings = model.openings(), documents = model.documents();
     model.apply(action);
-    if (model.openings() == openings) // it did not even begin, and what was open still is
+    if (model.openings() == openings) // it did not even begin
         return;
-    if (leaves_work) {
-        Eventually<bool> written = write(document, view, project);
-        aside_ = Aside{std::exchange(autosave_, std::make_shared<Autosave>()), std::move(written),
-                       std::exchange(recovered_, std::nullopt)};
-        writing_ = {};
-    }
-    recovered_.reset();
+    if (leaves_work)
+        writing_ = write(document, view, project);
+    coming_ = Coming{documents, had_part, {}};
     const auto* opened = std::get_if<OpenProject>(&action);
     if (opened && recovering_ && opened->file == recovering_->file())
-        recovered_ = std::move(recovering_);
+        coming_->recovers = std::move(recovering_);
     recovering_.reset();
 }
 
 void KeptWork::follow(ViewerModel& model, bool now_and_then)
 {
     const ViewerState& state = model.state();
-    if (aside_ && state.document.session.part) { // what was to be opened is there
-        finish(aside_->written);
-        aside_->autosave->clear();
-        discard_of(aside_->recovered);
-        aside_.reset();
-    } else if (aside_ && !model.busy()) {
-        offer_aside(model);
-    }
+    if (coming_ && model.documents() != coming_->documents) { // it has taken the place of what was open
+        if (coming_->takes_place) {
+            finish(writing_);
+            autosave_->clear();
+            discard_of(recovered_);
+        }
+        recovered_ = std::move(coming_->recovers);
+        coming_.reset();
+    } else if (coming_ && !model.opening_beside()) // it could not be opened: what was open still is
+        coming_.reset();
     if (writing_.ready()) {
         try {
             std::exchange(writing_, {}).get();
@@ -130,30 +128,13 @@ void KeptWork::follow(ViewerModel& model, bool now_and_then)
         Clock::now() - last_ < interval_)
         return;
     last_ = Clock::now();
-    writing_ = write(state.document, state.view, state.project);
-}
-
-void KeptWork::offer_aside(ViewerModel& model)
-{
-    Aside left = std::move(*std::exchange(aside_, std::nullopt));
-    try {
-        left.written.get();
-        discard_of(left.recovered); // it lives on in the new one
-        offered_ = left.autosave->leave_behind();
-    } catch (const std::exception& error) {
-        model.say(Severity::warning, fmt::format("The unsaved work could not be kept: {}", error.what()));
-        offered_ = std::move(left.recovered);
-    }
-    if (offered_)
-        offer_ = {fmt::format("{} could not be opened. Your unsaved work on {} is kept.",
-                              model.state().document.session.file.filename().string(), name_of(*offered_)),
-                  in_words(offered_->time())};
+    writing_ = write(state.document, kept_view(state), state.project);
 }
 
 void KeptWork::keep(const ViewerState& state)
 {
     finish(writing_);
-    autosave_->save(state.document, state.view, state.project);
+    autosave_->save(state.document, kept_view(state), state.project);
     discard_of(recovered_);
 }
 
@@ -166,8 +147,6 @@ void KeptWork::forget()
 
 void KeptWork::end()
 {
-    if (aside_ && finish(aside_->written))
-        discard_of(aside_->recovered);
     finish(writing_);
     autosave_->clear();
 }

@@ -11,8 +11,8 @@
 
 namespace spia::viewer {
 
-/// What becomes of work that is not saved in a project: it is kept now and then, and when something else is opened instead; it
-/// is forgotten once it is saved or the other part is really there, and offered to the user if that fails, or after a crash.
+/// What becomes of work that is not saved in a project: it is kept now and then, and before something else is opened; it is
+/// forgotten once it is saved or another part has taken its place, and offered to the user after a crash.
 /// Files are written on a thread of their own.
 class KeptWork {
 public:
@@ -31,27 +31,26 @@ public:
     void discard();        ///< for good; there may be older work, which is offered next
     void later();          ///< at the next start
 
-    /// Applies OpenPart or OpenProject. The work that is open and not saved is kept until the new part is there.
+    /// Applies OpenPart or OpenProject. The work that is open and not saved is kept, for reading a file may end the program.
     void open(ViewerModel& model, const Action& action);
-    /// Once a frame: forgets or offers what was left for another part; keeps unsaved work every 30 s.
+    /// Once a frame: forgets the work whose place another part has taken; keeps unsaved work every 30 s.
     /// @param now_and_then  whether it does the latter
     void follow(ViewerModel& model, bool now_and_then);
     /// Waits until the work is kept. @throws ExchangeError if it cannot be written
     void keep(const ViewerState& state);
     /// The work is saved in a project, or it is thrown away on purpose: nothing of it need be kept.
     void forget();
-    /// A clean end. What was left for a part that has not been opened yet stays for the next start.
+    /// A clean end: the user was asked about what is not saved.
     void end();
 
 private:
-    /// Left for another part that is not there yet.
-    struct Aside {
-        std::shared_ptr<Autosave> autosave;
-        Eventually<bool> written;
-        std::optional<UnfinishedSession> recovered;
+    /// What is being opened and is not there yet.
+    struct Coming {
+        int documents;                             ///< of the model, before
+        bool takes_place;                          ///< of a part that is open
+        std::optional<UnfinishedSession> recovers; ///< the kept work that it is, if it is
     };
     Eventually<bool> write(const Document& document, const ViewSettings& view, const std::filesystem::path& project);
-    void offer_aside(ViewerModel& model);
 
     static constexpr std::chrono::seconds interval_{30};
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
@@ -61,7 +60,7 @@ private:
     std::optional<UnfinishedSession> recovering_;                       ///< being opened
     std::optional<UnfinishedSession> offered_;
     std::optional<Offer> offer_;
-    std::optional<Aside> aside_;
+    std::optional<Coming> coming_;
     Worker worker_; ///< last: it ends first
 };
 

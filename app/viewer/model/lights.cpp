@@ -16,15 +16,6 @@
 namespace spia::viewer {
 namespace {
 
-/// As it stands on the screen: with a capital letter, in the viewer's words, and a full stop.
-std::string sentence(std::string text)
-{
-    text = as_sentence(in_viewer_words(std::move(text)));
-    if (!text.empty() && std::string_view(".!?)").find(text.back()) == std::string_view::npos)
-        text += '.';
-    return text;
-}
-
 std::string grade(const Document& document)
 {
     const std::filesystem::path named(document.material);
@@ -42,18 +33,18 @@ void judge_sheet(const Document& document, LengthUnit lengths, std::vector<Doubt
     Doubt doubt{ChainStep::sheet, {}};
     if (!is_given(document.thickness_from)) {
         doubt.text = document.thickness_from == SheetSource::before
-                         ? fmt::format("{} is the thickness of the part before; this file gives none.", thick)
-                         : fmt::format("{} thickness is assumed: the file gives none.", thick);
+                         ? fmt::format("The thickness {} is that of the previous part; this file gives none.", thick)
+                         : fmt::format("The thickness {} is assumed; the file gives none.", thick);
     }
     if (!is_given(document.material_from)) {
         doubt.text +=
-            fmt::format("{}{} is assumed as the grade.{}", doubt.text.empty() ? "" : " ", grade(document), file_says);
+            fmt::format("{}The grade {} is assumed.{}", doubt.text.empty() ? "" : " ", grade(document), file_says);
     }
     doubt.next = "Choose them here, or confirm.";
     const bool neither = !is_given(document.thickness_from) && !is_given(document.material_from);
-    doubt.button = neither                            ? fmt::format("{} of {} is right", thick, grade(document))
-                   : is_given(document.material_from) ? thick + " is right"
-                                                      : grade(document) + " is right";
+    doubt.button = neither                            ? fmt::format("Confirm {} of {}", thick, grade(document))
+                   : is_given(document.material_from) ? "Confirm " + thick
+                                                      : "Confirm " + grade(document);
     doubt.remedy = Remedy::confirm_sheet;
     doubts.push_back(std::move(doubt));
 }
@@ -63,13 +54,13 @@ Doubt with_click(ChainStep step, const std::string& text, const Document& docume
 {
     const Session& session = document.session;
     const auto about = [&](std::string_view words) { return text.find(words) != std::string::npos; };
-    Doubt doubt{step, sentence(text)};
+    Doubt doubt{step, sentence(in_viewer_words(text))};
     if (about("yields at") || about("mm thick: is that in mm"))
         doubt.step = ChainStep::sheet;
     else if (step == ChainStep::unfold && text == session.blank->report.reason) {
         const auto& steps = document.made_with.steps;
-        doubt.next = steps && !steps->polish ? "Look at the steps below that have not converged."
-                                             : advice(session.blank->report);
+        doubt.next =
+            steps && !steps->polish ? "See the steps below that have not converged." : advice(session.blank->report);
     } else if (about("strained beyond")) {
         doubt.button = "Show where";
         doubt.remedy = Remedy::show_necking;
@@ -104,7 +95,7 @@ void judge_size(const Document& document, LengthUnit lengths, std::vector<Doubt>
         doubts.push_back(
             {ChainStep::part,
              fmt::format("The part is {} across, which is unlikely for a sheet part.", plain_length(diagonal, lengths)),
-             "Is the unit of the file another one?", fmt::format("Read it in {}", name(*unit)),
+             "Check the length unit of the file.", fmt::format("Read it in {}", name(*unit)),
              Remedy::read_in_other_unit});
 }
 
@@ -114,13 +105,15 @@ void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
         return;
     const LimitsResult& limits = *document.session.limits;
     const auto faces = [&](Zone zone) { return limits.zones.share[size_t(zone)].faces; };
-    const auto are = [](int count) { return count == 1 ? "1 face is" : fmt::format("{} faces are", count); };
+    const auto counted = [](int count, const char* one, const char* more) {
+        return count == 1 ? fmt::format("1 face {}", one) : fmt::format("{} faces {}", count, more);
+    };
     std::string text;
     if (const int count = faces(Zone::crack); count > 0)
-        text = fmt::format("{} beyond the forming limit curve: the sheet cracks there.", are(count));
+        text = fmt::format("{} above the forming limit curve: the sheet cracks there.", counted(count, "is", "are"));
     if (const int count = faces(Zone::excessive_thinning); count > 0)
-        text += fmt::format("{}{} thinner by more than the allowed {:.4g} %.", text.empty() ? "" : " ", are(count),
-                            100 * limits.settings.max_thinning);
+        text += fmt::format("{}{} the allowed thinning of {:.4g} %.", text.empty() ? "" : " ",
+                            counted(count, "exceeds", "exceed"), 100 * limits.settings.max_thinning);
     if (text.empty())
         return;
     Doubt doubt{ChainStep::unfold, text};
@@ -135,11 +128,12 @@ void judge_cells(const Document& document, std::vector<Doubt>& doubts)
     const double worst = scaled_jacobians(grid.planar).minCoeff();
     if (grid.quality.folded_cells > 0 || worst >= least_scaled_jacobian)
         return;
-    Doubt doubt{ChainStep::grid,
-                fmt::format("A cell is nearly folded (scaled Jacobian {:.3f}): analysis will suffer there.", worst),
-                "Drag the corners to sharp turns of the blank, or choose more cells."};
+    Doubt doubt{
+        ChainStep::grid,
+        fmt::format("A cell is nearly folded (scaled Jacobian {:.3f}); analysis will be inaccurate there.", worst),
+        "Drag the corners to sharp corners of the blank, or choose more cells."};
     if (grid.route < GridRoute::harmonic) {
-        doubt.next = "Drag the corners to sharp turns of the blank, or:";
+        doubt.next = "Drag the corners to sharp corners of the blank, or:";
         doubt.button = "Use the harmonic method";
         doubt.remedy = Remedy::harmonic_grid;
     }
@@ -155,8 +149,8 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
     if (off <= usual_tolerance)
         return;
     doubts.push_back({ChainStep::surface,
-                      fmt::format("The surface leaves the part by up to {}; {} is usual.", plain_length(off, lengths),
-                                  length_text(usual_tolerance, lengths, 3)),
+                      fmt::format("The surface deviates from the part by up to {}; a usual tolerance is {}.",
+                                  plain_length(off, lengths), length_text(usual_tolerance, lengths, 3)),
                       "", fmt::format("Fit it within {}", length_text(usual_tolerance, lengths, 3)),
                       Remedy::fit_within_tolerance});
 }
@@ -178,17 +172,17 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
                     [](const PatchCertificate& each) { return each.refusal && !at_a_corner(*each.refusal); });
     std::string text;
     if (refused)
-        text = fmt::format("The surface is not proved to be without fold: {}.", unsuited(certificate).value_or(""));
+        text = fmt::format("The surface may have a fold: {}.", unsuited(certificate).value_or(""));
     else if (const double turned = surface.deviation.normal.turned; turned > 0)
-        text = fmt::format("The surface folds: on {} of it its normal looks the other way than the part.",
+        text = fmt::format("The surface folds: on {} of its area the normal is opposite to that of the part.",
                            turned < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100 * turned));
     else
         return;
     if (document.session.options.patches) {
-        doubts.push_back({ChainStep::surface, text, "Cut there with the tool Vertex, or choose \"one patch\"."});
+        doubts.push_back({ChainStep::surface, text, "Add a cut there with the tool Vertex, or choose \"one patch\"."});
         return;
     }
-    doubts.push_back({ChainStep::surface, text, "Drag the corners to sharp turns of the blank, or:",
+    doubts.push_back({ChainStep::surface, text, "Drag the corners to sharp corners of the blank, or:",
                       fmt::format("Make the grid of {} cells", finer_cells(document.session.options.grid)),
                       Remedy::finer_grid});
 }
@@ -212,7 +206,7 @@ std::string poor_step(const Document& document)
         switch (step_status(document, k)) {
         case StepStatus::poor: return fmt::format("Step {} of the unfolding has not converged", k + 1);
         case StepStatus::failed: return fmt::format("Step {} of the unfolding has no result", k + 1);
-        case StepStatus::needs_pick: return fmt::format("Step {} of the unfolding has lost what carries it", k + 1);
+        case StepStatus::needs_pick: return fmt::format("Step {} of the unfolding has lost its fixed faces", k + 1);
         default: break;
         }
     return "";
@@ -299,8 +293,10 @@ Readiness readiness(const ViewerState& state)
 {
     const Document& document = state.document;
     if (!document.session.part)
-        return state.refused ? Readiness{false, "The part was refused: its faults are in the step Part"}
+        return state.refused ? Readiness{false, "The part was refused; see its faults in the step Part"}
                              : Readiness{true, "Open a part, or drop one on the window"};
+    if (shows_refused(state))
+        return {false, fmt::format("Showing {}, which was refused", state.refused_file->file.filename().string())};
     if (!out_of_date(document).empty())
         return {false,
                 fmt::format("Out of date from the step {} on: Update all (F5)", heading(*first_stale(document)))};

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/state.h"
+#include "app/viewer/model/viewer_words.h"
 
 namespace spia::viewer {
 namespace {
@@ -63,13 +64,13 @@ void dismiss_before_run(std::vector<Message>& messages)
     }
 }
 
-Message opened_message(const std::string& name, std::vector<std::string> done)
+std::vector<std::string> notes_on_reading(const PartFile& part)
 {
-    if (done.size() == 1)
-        return {Severity::hint, fmt::format("Opened {}. {}", name, done.front())};
-    Message message{Severity::hint, fmt::format("Opened {}: {} things were done for you.", name, done.size())};
-    message.details = std::move(done);
-    return message;
+    std::vector<std::string> notes;
+    for (const std::string& note : part.notes)
+        if (std::find(part.doubts.begin(), part.doubts.end(), note) == part.doubts.end())
+            notes.push_back(sentence(in_viewer_words(note)));
+    return notes;
 }
 
 } // namespace spia::viewer

@@ -4,6 +4,10 @@
 #include <utility>
 #include <vector>
 
+namespace spia {
+struct PartFile;
+}
+
 namespace spia::viewer {
 
 struct ViewerState;
@@ -40,9 +44,8 @@ bool same(const Subject& a, const Subject& b);
 struct Message {
     Severity severity;
     std::string text;
-    int number = 0;                        ///< counts all that was ever said
-    bool dismissed = false;                ///< read; kept for the list of messages
-    std::vector<std::string> details = {}; ///< sentences that the text is the heading of; the user unfolds them
+    int number = 0;         ///< counts all that was ever said
+    bool dismissed = false; ///< read; kept for the list of messages
     Subject subject = {};
     bool gone = false; ///< what it speaks of is so no longer
 
@@ -52,8 +55,8 @@ struct Message {
 /// Before a run those go that are neither wrong nor about results, which go with what they are about; so do errors of the run before.
 void dismiss_before_run(std::vector<Message>& messages);
 
-/// What was done for the user when a part was opened, in one line: of several things the number, and each of them as a detail.
-/// @param name of the file; @param done sentences
-Message opened_message(const std::string& name, std::vector<std::string> done);
+/// What was noted on reading a part: what was done for the user, what is said of the file. Sentences. Those that make the light of
+/// the step amber are said there.
+std::vector<std::string> notes_on_reading(const PartFile& part);
 
 } // namespace spia::viewer

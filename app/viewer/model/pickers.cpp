@@ -20,7 +20,7 @@ void Pickers::follow(const Session& session)
             longest_ = worker_.later([part = part_] {
                 const auto loops = boundary_loops(part->mesh);
                 if (loops.empty())
-                    throw InputError("The part is closed all around and has no outline.");
+                    throw InputError("The part is closed and has no outline.");
                 return loops.front();
             });
             regions_ = worker_.later([part = part_] { return RegionSearch(part->mesh); });

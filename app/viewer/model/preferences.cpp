@@ -43,7 +43,7 @@ KeptPreferences read_preferences()
         std::error_code ignored;
         if (!fs::exists(file, ignored))
             return kept;
-        const std::string name = file.string();
+        const std::string name = file.filename().string(); // where it lies is no news
         const Json json = read_json(file);
         if (!json.is_object() || json.value("schema", Json()) != schema)
             throw InputError(fmt::format("{} does not begin with {{\"schema\": \"{}\"", name, schema));

@@ -289,7 +289,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     try {
         session.options.flatten.material = find_material(document.material, materials);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: its material is not to be had: {}", file.string(), error.what()));
+        throw InputError(fmt::format("{}: its material cannot be read: {}", file.string(), error.what()));
     }
     session.options.flatten.thickness = stored.thickness;
     document.material_from = stored.material_from;
@@ -311,7 +311,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     try {
         session.options.limits = limits_options(document.limits);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: its forming limit curve is not to be had: {}", file.string(), error.what()));
+        throw InputError(fmt::format("{}: its forming limit curve cannot be read: {}", file.string(), error.what()));
     }
     document.display = stored.display;
     document.section = stored.section;

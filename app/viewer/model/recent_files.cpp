@@ -151,13 +151,6 @@ void Autosave::save(const Document& document, const ViewSettings& view, const fs
     save_project(file_, document, view, project.empty() ? project : fs::absolute(project));
 }
 
-std::optional<UnfinishedSession> Autosave::leave_behind()
-{
-    if (lock_ < 0)
-        return {};
-    return UnfinishedSession(std::exchange(file_, {}), std::exchange(lock_, -1));
-}
-
 UnfinishedSession::UnfinishedSession(UnfinishedSession&& other) noexcept
     : file_(std::exchange(other.file_, {})), lock_(std::exchange(other.lock_, -1))
 {

@@ -23,8 +23,6 @@ std::vector<std::filesystem::path> recent_files();
 /// Puts a file in front. @throws ExchangeError if the list cannot be written
 void remember_recent(const std::filesystem::path& file);
 
-class UnfinishedSession;
-
 /// The work of this program, saved beside what the user saves. The kernel holds a lock for it as long as this lives, however
 /// the program ends; only clear() removes the work, not the destructor: that runs after an error, too.
 class Autosave {
@@ -39,8 +37,6 @@ public:
     void save(const Document& document, const ViewSettings& view, const std::filesystem::path& project);
     /// A clean end: all is saved, or thrown away on purpose, and there is nothing to recover.
     void clear() noexcept;
-    /// Gives the work away as if another program had left it behind; nothing if none was saved.
-    std::optional<UnfinishedSession> leave_behind();
 
 private:
     std::filesystem::path file_; ///< empty until the first save

@@ -127,7 +127,7 @@ std::string hardening_chart(const Session& session)
                 false,
                 true,
                 {law},
-                {{until.trusted_strain, "trusted up to here"}, {greatest, "greatest strain found"}}});
+                {{until.trusted_strain, "end of valid range"}, {greatest, "maximum strain"}}});
 }
 
 std::string residual_chart(const SolveReport& report)
@@ -152,15 +152,15 @@ std::string tiles(const Session& session, const Json& figures, LengthUnit length
     std::string text = "<section class=\"tiles\">\n";
     text += tile("Blank", fmt::format("{} \u00d7 {}", in.round(size[0]), in.round(size[1])), unit,
                  "area " + in.area(figures["blank"]["area_mm2"].get<double>()));
-    text += tile("Greatest thinning", fixed(100 * flat.face.thinning.maxCoeff(), 1), "%",
+    text += tile("Maximum thinning", fixed(100 * flat.face.thinning.maxCoeff(), 1), "%",
                  fmt::format("least {} %", fixed(100 * flat.face.thinning.minCoeff(), 1)));
     text += tile("Thickness",
                  fmt::format("{} \u2013 {}", in.fine(flat.face.thickness.minCoeff(), 2),
                              in.fine(flat.face.thickness.maxCoeff(), 2)),
                  unit, "sheet " + in.text(session.options.flatten.thickness));
-    text += session.surface ? tile("Largest deviation", in.figure(session.surface->deviation.max()), unit,
+    text += session.surface ? tile("Maximum deviation", in.figure(session.surface->deviation.max()), unit,
                                    "RMS " + in.text(figures["surface"]["deviation_rms_mm"].get<double>()))
-                            : tile("Largest deviation", "\u2013", "", "no surface was made");
+                            : tile("Maximum deviation", "\u2013", "", "no surface was made");
     return text + "</section>\n";
 }
 
@@ -178,7 +178,7 @@ std::string fitness(const Certificate& certificate)
         angle = std::max(angle, joint.greatest_angle);
     const auto why_not = unsuited(certificate);
     return fmt::format("{}; scaled Jacobian at least {} (patch {}); angle at joints up to {}\u00b0",
-                       why_not ? "not proved: " + *why_not : "proved to have no fold and no gap", significant(least),
+                       why_not ? "not proved: " + *why_not : "no folds and no gaps (proved)", significant(least),
                        at + 1, significant(angle * 180 / std::numbers::pi));
 }
 
@@ -236,7 +236,7 @@ std::string key_figures(const Session& session, const Json& figures, LengthUnit 
                 rows += row("Fitness for analysis",
                             fmt::format("{}; scaled Jacobian at least {}, mean {}",
                                         patch["refused"].is_null()
-                                            ? "proved to have no fold"
+                                            ? "no folds (proved)"
                                             : "not proved: " + patch["refused"]["why"].get<std::string>(),
                                         significant(patch["scaled_jacobian_min"].get<double>()),
                                         significant(patch["scaled_jacobian_mean"].get<double>())));
@@ -275,7 +275,7 @@ std::string thinnest_places(const Session& session, LengthUnit lengths)
     if (rows.empty())
         return "";
     return fmt::format(
-        "<section class=\"whole\"><h2>Where the sheet thins most</h2>\n<table class=\"spots\"><tr><th>Spot</th><th>Thinning, %</th>"
+        "<section class=\"whole\"><h2>Largest thinning</h2>\n<table class=\"spots\"><tr><th>Spot</th><th>Thinning, %</th>"
         "<th>Thickness, {1}</th><th>Major strain</th><th>Minor strain</th><th>At x, y, z, {1}</th>"
         "<th>Face of the file</th></tr>\n{0}</table></section>\n",
         rows, in.word);
@@ -325,12 +325,12 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     rows += row("Sheet thickness", in.text(options.thickness));
     rows += row("Stamping direction",
                 vector(session.blank->stamping.direction) + (session.options.steps && !session.options.steps->polish
-                                                                 ? ", square to the plane of the blank"
+                                                                 ? ", perpendicular to the plane of the blank"
                                                              : options.direction ? ", as given"
                                                                                  : ", found automatically"));
     rows += process_rows(options.process, in);
-    rows += row("Trusted up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
-                                             fixed(session.blank->report.trusted_strain, 2)));
+    rows += row("Valid up to", fmt::format("equivalent strain {}; the hardening curve is an extrapolation beyond it",
+                                           fixed(session.blank->report.trusted_strain, 2)));
     if (const auto& steps = session.options.steps)
         rows +=
             row("Blank", fmt::format("made step by step, in {} steps{}", steps->run->states.size(),
@@ -354,7 +354,7 @@ static std::string solver_iterations(const Session& session)
 {
     const SolveReport& report = session.blank->report;
     return fmt::format(
-        "<h2>How the solver got there</h2>\n<div class=\"pair\"><div><h3>Iterations</h3>{}</div>"
+        "<h2>Convergence of the solver</h2>\n<div class=\"pair\"><div><h3>Iterations</h3>{}</div>"
         "<div><h3>Hardening curve</h3>{}</div></div>\n<p>{} energy and {} Newton steps in {} s; {}; residual "
         "{} of the nodal forces at yield.</p>\n",
         residual_chart(report), hardening_chart(session), report.energy.size(), report.newton.size(),

@@ -96,9 +96,8 @@ public:
                             "one near {}; they were removed",
                             lost.size(), stored.size(), near(lost.front())));
         if (const size_t merged = stored.size() - lost.size() - found.size(); merged > 0)
-            missing.push_back(
-                fmt::format("{} of the {} picked vertices have become one with another on the changed part", merged,
-                            stored.size()));
+            missing.push_back(fmt::format("{} of the {} picked vertices coincide with another one on the changed part",
+                                          merged, stored.size()));
         return {found.begin(), found.end()};
     }
 
@@ -168,21 +167,21 @@ public:
             if (each.friction) {
                 std::vector<int> faces = all_of(each.rubbing, each.name);
                 if (lost(each.rubbing, faces)) // without faces it would rub on all
-                    missing.push_back(
-                        fmt::format("the faces on which the target of the step \"{}\" rubs are not on the "
-                                    "changed part any more; its friction was removed",
-                                    each.name));
+                    missing.push_back(fmt::format(
+                        "the friction faces of the step \"{}\" are not on the changed part any more; its friction was removed",
+                        each.name));
                 else
                     step.pick.friction = friction_of(*each.friction, std::move(faces));
             }
             if (step.pick.freed.empty())
                 missing.push_back(fmt::format(
-                    "the step \"{}\" has nothing to move on the changed part any more; it was removed", each.name));
+                    "the moving faces of the step \"{}\" are not on the changed part any more; it was removed",
+                    each.name));
             else {
                 if (needs_pick(step) && !each.carrying_lost)
-                    missing.push_back(fmt::format("the faces that carry the target of the step \"{}\" are not on the "
-                                                  "changed part any more; pick others for it before it is run",
-                                                  each.name));
+                    missing.push_back(fmt::format(
+                        "the fixed faces of the step \"{}\" are not on the changed part any more; pick others before running it",
+                        each.name));
                 result.push_back(std::make_shared<PlannedStep>(std::move(step)));
             }
         }
@@ -199,17 +198,16 @@ public:
             }
             const int vertex = changed().find_corner(stored[k].at);
             if (vertex < 0) {
-                missing.push_back(
-                    fmt::format("corner {} of the grid, near {}, is not on the outline of the changed part "
-                                "any more; all four are chosen automatically, drag them if need be",
-                                k + 1, near(stored[k].at)));
+                missing.push_back(fmt::format(
+                    "corner {} of the grid, near {}, is not on the outline of the changed part any more; all four are chosen automatically, drag them if necessary",
+                    k + 1, near(stored[k].at)));
                 return {};
             }
             result[k] = number_of(part_, vertex);
         }
         if (std::set(result.begin(), result.end()).size() < 4) {
-            missing.push_back("two corners of the grid have become one on the changed part; all four are chosen "
-                              "automatically, drag them if need be");
+            missing.push_back(
+                "two corners of the grid coincide on the changed part; all four are chosen automatically, drag them if necessary");
             return {};
         }
         return result;

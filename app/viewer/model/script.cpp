@@ -189,6 +189,8 @@ constexpr std::tuple forms{
     form<ShowFault>("show_fault", required("finding", &ShowFault::finding, any_index),
                     member("entry", &ShowFault::entry, any_index)),
     form<HideFault>("hide_fault"),
+    form<ShowRefused>("show_refused"),
+    form<CloseRefused>("close_refused"),
     form<KeepReference>("keep_reference", member("name", &KeepReference::name)),
     form<DropReference>("drop_reference"),
     form<Undo>("undo"),

@@ -26,7 +26,21 @@ Tool tool_by_name(std::string_view name) { return value_by_name<Tool>(name); }
 
 const PartFile* examined(const ViewerState& state)
 {
-    return state.refused ? state.refused.get() : state.document.session.part.get();
+    const bool of_other = state.refused_file && !state.refused_file->shown;
+    return state.refused && !of_other ? state.refused.get() : state.document.session.part.get();
+}
+
+bool shows_refused(const ViewerState& state)
+{
+    return state.refused && state.refused_file && state.refused_file->shown;
+}
+
+ViewSettings kept_view(const ViewerState& state)
+{
+    ViewSettings view = state.view;
+    if (shows_refused(state))
+        view.camera = state.refused_file->camera;
+    return view;
 }
 
 static LaterResults shown(const ViewerState& state, bool there)

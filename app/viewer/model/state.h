@@ -113,9 +113,19 @@ struct Grade;
 struct Reference;
 struct Differences;
 
+/// A file that was refused while a part was open, which stays.
+struct RefusedFile {
+    std::filesystem::path file;
+    ReadOptions read;                  ///< how it was read
+    bool shown = false;                ///< in the view of the part, in its place
+    std::array<Camera, 4> camera = {}; ///< of the views before it was shown
+};
+
 struct ViewerState;
 /// What the mesh doctor's panel is about: the part that was refused, else the one that is there. Null: none.
 const PartFile* examined(const ViewerState& state);
+/// Whether the view of the part shows a refused file in the place of the part that is open.
+bool shows_refused(const ViewerState& state);
 
 /// All the window shows. Only a ViewerModel changes it: by actions, with the news of its jobs, and what follows the mouse and the
 /// size of the views.
@@ -135,6 +145,7 @@ struct ViewerState {
     bool shape_dragged = false;              ///< handles of the surface follow the mouse
     std::optional<int> hovered;              ///< face under the mouse
     std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
+    std::optional<RefusedFile> refused_file; ///< whose mesh that is; null: the file of the document
     std::optional<ShownFault> fault;         ///< the one that is looked at
     std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
     std::optional<FileListing> listing;      ///< the file that is looked into
@@ -161,5 +172,7 @@ const char* title(View view);
 /// Of the project, else of the part that is there, never of a file that is being read or was refused; with a star where something
 /// is not saved.
 std::string window_title(const ViewerState& state);
+/// The view settings as they are once no refused file is shown: what is kept.
+ViewSettings kept_view(const ViewerState& state);
 
 } // namespace spia::viewer

@@ -253,11 +253,8 @@ Json messages_json(const std::vector<Message>& messages)
 {
     Json list = Json::array();
     for (const Message& message : messages)
-        if (message.shown()) {
+        if (message.shown())
             list.push_back({{"severity", name_in_table(message.severity)}, {"text", message.text}});
-            if (!message.details.empty())
-                list.back()["details"] = message.details;
-        }
     return list;
 }
 
@@ -281,7 +278,9 @@ Json doctor_json(const ViewerState& state)
     Json findings = Json::array();
     for (const Finding& finding : part->doctor.findings)
         findings.push_back({{"fault", name(finding.fault)}, {"count", finding.count}, {"text", finding.text}});
-    Json json = {{"refused", state.refused != nullptr}, {"findings", findings}};
+    Json json = {{"refused", part == state.refused.get()}, {"findings", findings}};
+    if (state.refused_file)
+        json["refused_file"] = {{"file", state.refused_file->file.string()}, {"shown", state.refused_file->shown}};
     if (state.fault)
         json["shown"] = vector_json(state.fault->place);
     return json;

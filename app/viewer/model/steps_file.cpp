@@ -20,8 +20,8 @@ StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
         ReadScript read = read_unfold_script(file, *part, outcome.bends->map);
         progress.checkpoint(1, "reading the steps");
         if (read.steps.empty())
-            throw InputError(fmt::format("No step of {} makes sense on this part: {}", file.filename().string(),
-                                         read.findings.front()));
+            throw InputError(
+                fmt::format("No step of {} fits this part: {}", file.filename().string(), read.findings.front()));
         outcome.opened = file;
         outcome.notes = std::move(read.findings);
         std::stable_partition(outcome.notes.begin(), outcome.notes.end(), // what became of the steps counts most
@@ -42,7 +42,7 @@ StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
     try {
         for (size_t k = 0; k < steps.size(); ++k)
             if (needs_pick(*steps[k])) // in a file it would mean all that stays
-                throw InputError(fmt::format("Step {} \"{}\" needs faces that carry its target before it can be saved.",
+                throw InputError(fmt::format("Step {} \"{}\" needs fixed faces for its target before it can be saved.",
                                              k + 1, steps[k]->name));
         progress.checkpoint(0, "finding the bends");
         outcome.bends = bends_of(part, std::move(bends));

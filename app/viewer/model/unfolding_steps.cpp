@@ -143,7 +143,7 @@ std::string_view name(StepStatus status)
     case StepStatus::poor: return "poor";
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "failed";
-    case StepStatus::needs_pick: return "needs a pick";
+    case StepStatus::needs_pick: return "needs fixed faces";
     }
     return "";
 }
@@ -192,9 +192,8 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
         if (keep) {
             options.root = bends->map.label[*keep];
             if (options.root < 0 || size_t(options.root) >= bends->map.regions.size())
-                throw InputError(fmt::format("Face {} lies on a bend; pick a face of the flat or gently curved region "
-                                             "that shall stay.",
-                                             *keep));
+                throw InputError(fmt::format(
+                    "Face {} lies on a bend; pick a face of the flat or gently curved region to be fixed.", *keep));
         }
         UnfoldSequence sequence = propose_sequence(part->mesh, bends->map, options);
         progress.checkpoint(1, "ordering the steps");

@@ -184,9 +184,9 @@ std::array<int, 4> corners_of(const std::vector<int>& vertices, const std::vecto
     for (size_t k = 0; k < 4; ++k) {
         const auto found = std::find(outline.begin(), outline.end(), vertices[k]);
         if (found == outline.end())
-            throw InputError(fmt::format("Vertex {} is not on the outer outline, where the corners of a grid are; "
-                                         "pick another one in its place.",
-                                         file_number[size_t(vertices[k])]));
+            throw InputError(fmt::format(
+                "Vertex {} is not on the outer outline; corners of the grid must lie there, pick another vertex.",
+                file_number[size_t(vertices[k])]));
         along[k] = {found - outline.begin(), vertices[k]};
     }
     std::sort(along.begin(), along.end());

@@ -30,6 +30,15 @@ Eigen::Matrix3Xd places_in_space(const ViewerState& state, const PartFile& part)
 void ViewFitter::fit(ViewerState& state, std::optional<View> only)
 {
     const Session& session = state.document.session;
+    if (shows_refused(state) && only.value_or(View::part) == View::part) { // the others show the part that is open
+        Camera& camera = state.view.camera[size_t(View::part)];
+        camera =
+            viewer::fit(camera, state.refused->mesh.position, size_[size_t(View::part)], margins(state, View::part));
+        fitted_[size_t(View::part)] = camera;
+        if (!only)
+            fit_blank(state);
+        return;
+    }
     const PartFile* part = session.part ? session.part.get() : state.refused.get();
     if (!part)
         return;
@@ -102,8 +111,9 @@ Margins ViewFitter::margins(const ViewerState& state, View view) const
                           : view == View::quads                             ? 92  // its title is long
                                                                             : 72;
     const bool stepwise = view == View::part && (step_shown(state) || step_position(state) > 0);
-    const bool coloured = view == View::quads     ? state.view.quad_quality
-                          : view == View::surface ? has_scale(state.view.surface_look)
+    const bool coloured = view == View::part && shows_refused(state) ? false
+                          : view == View::quads                      ? state.view.quad_quality
+                          : view == View::surface                    ? has_scale(state.view.surface_look)
                           : stepwise ? state.view.field_on_steps && available_in_steps(document.display.field)
                                      : document.display.field != Field::none;
     return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};

@@ -61,9 +61,7 @@ void ViewerModel::say(Severity severity, std::string text, Subject subject)
 
 void ViewerModel::say(Message message)
 {
-    message.text = in_viewer_words(std::move(message.text));
-    for (std::string& detail : message.details)
-        detail = in_viewer_words(std::move(detail));
+    message.text = sentence(in_viewer_words(std::move(message.text)));
     message.number = ++said_;
     constexpr size_t most = 50;
     std::erase_if(state_.messages, [&](const Message& before) { // said again, it is the newest once more
@@ -94,12 +92,12 @@ void ViewerModel::follow_doubts()
         std::make_shared<const std::vector<Doubt>>(find_doubts(state_.document, state_.preferences.lengths));
 }
 
-void ViewerModel::start(Stage from, Stage to, std::string title)
+void ViewerModel::start(Stage from, Stage to, std::string title, const Document& document)
 {
     live_ = std::make_shared<Live>();
     cancelled_at_.reset();
     depth_at_start_ = state_.history.depth();
-    Session session = state_.document.session;
+    Session session = document.session;
     if (session.options.steps) { // the tools are not in them
         const bool skins = session.options.flatten.skins;
         session.options.flatten = sheet_of_steps(session.options.flatten);
@@ -117,7 +115,7 @@ void ViewerModel::start(Stage from, Stage to, std::string title)
     state_.job.running = true;
     state_.job.title = std::move(title);
     chain_job_ = std::make_unique<Job<ChainResult>>(
-        [session = std::move(session), made_with = state_.document.made_with, from, to,
+        [session = std::move(session), made_with = document.made_with, from, to,
          live = live_](const Progress& progress) {
             return run_chain(session, made_with, from, to, progress,
                              [&](const ChainResult& result) { live->so_far.post(result); });
@@ -149,11 +147,10 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         (*from == Stage::read || !holds(state_.document, *steps))) { // what is read may be another part
         steps.reset();
         say(Severity::hint,
-            "The steps, the part or its sheet have changed since their blank was taken: the part is unfolded in "
-            "one step again.");
+            "The steps, the part or its sheet have changed since the blank of the steps was computed; the part is unfolded in one step again.");
     }
     if (from && *from <= to)
-        start(*from, to, title);
+        start(*from, to, title, state_.document);
 }
 
 bool ViewerModel::poll()
@@ -245,8 +242,9 @@ ChainResult ViewerModel::leave_chain()
     if (auto so_far = live_->so_far.fetch()) {
         result = std::move(*so_far);
     } else {
-        result.session = state_.document.session;
-        result.made_with = state_.document.made_with;
+        const Document& document = opening_beside_ ? opening_beside_->document : state_.document;
+        result.session = document.session;
+        result.made_with = document.made_with;
     }
     result.cancelled = true;
     ending_.push_back(std::move(chain_job_));
@@ -261,9 +259,12 @@ void ViewerModel::take_chain_result()
     try {
         result = chain_job_->finished() ? std::exchange(chain_job_, nullptr)->take() : leave_chain();
     } catch (const std::exception& error) { // no memory for a copy of the session
+        opening_beside_.reset();
         say(Severity::error, error.what());
         return;
     }
+    if (opening_beside_ && !take_opening(result))
+        return;
     Document& document = state_.document;
     const bool had_blank = document.session.blank != nullptr;
     result.made_with.flatten.watch = nullptr;
@@ -278,6 +279,7 @@ void ViewerModel::take_chain_result()
     opening_ = false;
     if (document.session.part != before.part) {
         state_.refused.reset();
+        state_.refused_file.reset();
         state_.fault.reset();
         part_opened();
     }
@@ -288,18 +290,17 @@ void ViewerModel::take_chain_result()
     if (document.session.blank)
         keep_cameras_ = false;
     if (result.cancelled)
-        say(Severity::hint, fmt::format("{}: cancelled. What had been finished is kept.", title),
-            about_refusal(state_));
+        say(Severity::hint, fmt::format("{}: cancelled. Finished results are kept.", title), about_refusal(state_));
     else if (result.failed)
         say_failed(result);
     else
         for (const std::string& text : shortcomings(document.session))
-            say(Severity::warning, as_sentence(text), about_results(state_));
+            say(Severity::warning, text, about_results(state_));
     const bool in_one_step = std::exchange(next_in_one_step_, false);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
         if (in_one_step)
             document.session.options.steps.reset();
-        run_to(*next, *next == Stage::solve ? "Unfolding" : "Running the chain");
+        run_to(*next, *next == Stage::solve ? "Unfolding" : "Updating all");
     }
     if (!chain_job_ && std::exchange(steps_next_, false) && !result.cancelled)
         run_missing_steps();
@@ -347,7 +348,7 @@ static std::vector<std::string> deform_again(Document& document, const std::shar
         document.controls.clear();
         if (deformation && !deformation->moves.empty()) {
             deformation = reset(deformation, HandleKind::control);
-            lost.push_back("The moves of single control points were taken back: the surface has others now.");
+            lost.push_back("The moved control points were reset: the surface has new control points.");
         }
     }
     if (deformation && session.surface)
@@ -355,7 +356,7 @@ static std::vector<std::string> deform_again(Document& document, const std::shar
             session = deform_surface(std::move(session));
         } catch (const InputError& error) {
             deformation.reset();
-            lost.push_back(fmt::format("The deformation of the surface was left out: {}.", error.what()));
+            lost.push_back(fmt::format("The deformation of the surface was dropped: {}.", error.what()));
         }
     document.made_with.deformation = deformation;
     return lost;
@@ -411,18 +412,92 @@ std::vector<std::string> ViewerModel::restore(Document& document, const StoredPi
     return lost;
 }
 
-/// With a full stop at its end.
-static std::string sentence(std::string text)
+static std::string worst_fault(const PartFile& refused)
 {
-    if (!text.empty() && std::string_view(".!?)").find(text.back()) == std::string_view::npos)
-        text += '.';
-    return text;
+    const auto& findings = refused.doctor.findings;
+    return std::find_if(findings.begin(), findings.end(),
+                        [](const Finding& f) { return f.severity == spia::Severity::fatal; })
+        ->text;
+}
+
+/// The new part is not there: the one before stays, with all that was made of it.
+void ViewerModel::say_not_opened(const Opening& opening, const ChainResult& result)
+{
+    const std::string name = opening.document.session.file.filename().string(),
+                      open = state_.document.session.file.filename().string();
+    if (result.cancelled) {
+        say(Severity::hint, fmt::format("Opening {}: cancelled. {} is still open.", name, open), about_refusal(state_));
+        return;
+    }
+    if (shows_refused(state_)) // of an earlier file
+        state_.view.camera = state_.refused_file->camera;
+    state_.refused = result.refused;
+    state_.refused_file.reset();
+    state_.fault.reset();
+    if (state_.refused) {
+        state_.refused_file = RefusedFile{opening.document.session.file, opening.document.session.options.read};
+        say(Severity::error,
+            fmt::format("{} was refused: {}. {} is still open; the step Part shows the faults of the other file.", name,
+                        worst_fault(*state_.refused), open),
+            about_refused_part(state_));
+        return;
+    }
+    std::string why = result.message;
+    const std::string path = opening.document.session.file.string();
+    if (const size_t at = why.find(path); at != std::string::npos)
+        why.replace(at, path.size(), name);
+    if (why.find(name) == std::string::npos)
+        why = name + " cannot be opened: " + why;
+    say(Severity::error, fmt::format("{} {} is still open.", sentence(why), open));
+}
+
+/// What was read while another part was open takes its place, if it is there. @returns whether it is
+bool ViewerModel::take_opening(const ChainResult& result)
+{
+    Opening opening = std::move(*std::exchange(opening_beside_, std::nullopt));
+    if (result.session.part) {
+        replace_document(std::move(opening));
+        depth_at_start_ = state_.history.depth();
+        return true;
+    }
+    opening_ = false;
+    next_.reset(); // was for the new part
+    next_in_one_step_ = false;
+    say_not_opened(opening, result);
+    return false;
+}
+
+void ViewerModel::replace_document(Opening opening)
+{
+    if (!opening.project) { // a field stays chosen from part to part
+        opening.document.display = state_.document.display;
+        opening.document.display.range.reset();
+    }
+    state_.document = std::move(opening.document);
+    project_ = std::move(opening.project);
+    state_.project = std::move(opening.project_file);
+    state_.unsaved = opening.unsaved;
+    state_.view.unfolded = 0;
+    state_.view.step.reset();
+    state_.history = History{};
+    for (Message& message : state_.messages)
+        message.dismissed = true;
+    if (shows_refused(state_))
+        state_.view.camera = state_.refused_file->camera;
+    state_.refused.reset();
+    state_.refused_file.reset();
+    state_.fault.reset();
+    keep_cameras_ = false;
+    ++documents_;
 }
 
 void ViewerModel::say_failed(const ChainResult& result)
 {
     const bool reading = *result.failed == Stage::read;
-    state_.refused = result.refused;
+    if (reading) {
+        state_.refused = result.refused;
+        state_.refused_file.reset();
+    }
     if (!state_.refused || !reading) {
         say(Severity::error,
             fmt::format("{} {}", sentence(result.message),
@@ -432,12 +507,9 @@ void ViewerModel::say_failed(const ChainResult& result)
             about_change(state_));
         return;
     }
-    const auto& findings = state_.refused->doctor.findings;
-    const auto worst = std::find_if(findings.begin(), findings.end(),
-                                    [](const Finding& f) { return f.severity == spia::Severity::fatal; });
     say(Severity::error,
-        fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(), worst->text,
-                    advice(*result.failed, result.session.options)),
+        fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(),
+                    worst_fault(*state_.refused), advice(*result.failed, result.session.options)),
         about_refused_part(state_));
     fitter_.fit(state_, View::part);
 }
@@ -468,25 +540,16 @@ void ViewerModel::part_opened()
     fitter_.fit(state_);
     const PartFile& part = *document.session.part;
     double& thickness = document.session.options.flatten.thickness;
-    std::vector<std::string> done;
     if (const auto found = part.thickness_mm; found && !project_) {
-        if (*found != thickness)
-            done.push_back(fmt::format("The sheet is taken {} thick as in the file; another thickness can be "
-                                       "given in the step Sheet.",
-                                       thickness_text(*found, state_.preferences.lengths)));
         thickness = *found;
         document.thickness_from = SheetSource::file;
     }
-    for (const std::string& note : part.notes)
-        if (std::find(part.doubts.begin(), part.doubts.end(), note) == part.doubts.end()) // those are warnings
-            done.push_back(sentence(as_sentence(note)));
-    for (const Finding& finding : part.doctor.findings)
-        done.push_back(sentence(as_sentence(finding.text) + (finding.advice.empty() ? "" : "; " + finding.advice)));
-    if (done.empty())
-        return;
-    Message message = opened_message(document.session.file.filename().string(), std::move(done));
-    message.subject = about_part(state_);
-    say(std::move(message));
+    const size_t notes = notes_on_reading(part).size() + part.doctor.findings.size();
+    if (notes > 0)
+        say(Severity::hint,
+            fmt::format("Opened {}: {}, see the step Part.", document.session.file.filename().string(),
+                        notes == 1 ? "1 note" : fmt::format("{} notes", notes)),
+            about_part(state_));
 }
 
 /// The picks of a project on its part, which may have changed since; then the stages it had.
@@ -508,8 +571,7 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
     else if (keep_cameras_) {
         if (project.blank_of_steps)
             say(Severity::warning,
-                "The blank was that of steps that have changed since: the part is unfolded in one step. Run "
-                "the steps and use their blank again.");
+                "The steps have changed since their blank was computed; the part is unfolded in one step. Run the steps and use their blank again.");
         next_ = std::max(next_.value_or(*project.ran), *project.ran);
     }
 }
@@ -517,6 +579,8 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
 void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double reach)
 {
     hover_nothing();
+    if (view == View::part && shows_refused(state_))
+        return;
     pickers_.follow_steps(state_);
     const RayPicker* picker = pickers_.ready_picker(state_.document.session, view);
     if (!picker)

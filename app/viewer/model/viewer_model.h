@@ -56,6 +56,11 @@ public:
     bool busy() const { return chain_job_ || export_job_ || steps_job_ || list_job_; }
     /// How many times a part or project was begun to be opened: an action for that either counts here or leaves all as it was.
     int openings() const { return openings_; }
+    /// How many times another document took the place of the one before: at once where no part was open, else when the new
+    /// part is there.
+    int documents() const { return documents_; }
+    /// Whether a part or project is being read while the one before is still open.
+    bool opening_beside() const { return opening_beside_.has_value(); }
     /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
     /// has not been moved since it was fitted is so again.
     void resized(View view, glm::dvec2 size, double scale = 1) { fitter_.resized(state_, view, size, scale); }
@@ -64,8 +69,18 @@ private:
     struct Live; ///< what the solver tells while it runs
     struct Apply;
     friend struct Apply;
+    /// A part or project to be read.
+    struct Opening {
+        Document document;
+        std::optional<Project> project = {};     ///< null: it is a part
+        std::filesystem::path project_file = {}; ///< to be saved to; empty: none
+        bool unsaved = false;
+    };
 
-    void start(Stage from, Stage to, std::string title);
+    void start(Stage from, Stage to, std::string title, const Document& document);
+    void replace_document(Opening opening);
+    bool take_opening(const ChainResult& result);
+    void say_not_opened(const Opening& opening, const ChainResult& result);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
     ChainResult leave_chain();
@@ -120,10 +135,11 @@ private:
     bool next_in_one_step_ = false;      ///< and not from the blank of the steps
     int said_ = 0;                       ///< messages so far
     DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
-    int openings_ = 0;
+    int openings_ = 0, documents_ = 0;
     std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job
-    bool opening_ = false; ///< the running job reads a new part
-    std::optional<Project> project_; ///< waits for its part
+    bool opening_ = false;                  ///< the running job reads a new part
+    std::optional<Opening> opening_beside_; ///< while the part before is still open
+    std::optional<Project> project_;        ///< waits for its part
     Pickers pickers_;
     std::optional<Probe> under_mouse_;
 };

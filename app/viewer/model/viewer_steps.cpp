@@ -9,13 +9,6 @@
 namespace spia::viewer {
 namespace {
 
-std::string sentence(std::string text)
-{
-    if (!text.empty() && std::string_view(".!?").find(text.back()) == std::string_view::npos)
-        text += '.';
-    return as_sentence(std::move(text));
-}
-
 std::string counted(size_t count, const char* what)
 {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -95,12 +88,12 @@ void ViewerModel::take_steps_result()
         if (outcome.notes.size() > most_notes)
             say(Severity::hint,
                 outcome.opened.empty()
-                    ? fmt::format("Likewise {} elsewhere.", counted(outcome.notes.size() - most_notes, "place"))
+                    ? fmt::format("The same at {}.", counted(outcome.notes.size() - most_notes, "other place"))
                     : fmt::format("And {} more.", outcome.notes.size() - most_notes));
         if (!outcome.opened.empty())
             say(Severity::done,
                 fmt::format("Opened {} from {}{}", counted(document.steps.size(), "step"), outcome.opened.string(),
-                            outcome.notes.empty() ? "" : "; not all of it makes sense on this part"));
+                            outcome.notes.empty() ? "" : "; some of them do not fit this part"));
         else
             say(Severity::done,
                 fmt::format("The part has {} and {}; proposed {}.",
@@ -149,12 +142,12 @@ void ViewerModel::take_blank_of_project(const BlankNext& next)
     Document& document = state_.document;
     const auto& last = document.unfolding;
     if (!all_steps_done(document) || !last->run.blank || last->run.flipped > 0) {
-        say(Severity::warning, "The blank of the steps, which the project went on with, could not be made again; mend "
-                               "the steps, or unfold the part in one step.");
+        say(Severity::warning,
+            "The blank of the steps used in the project could not be computed again; correct the steps, or unfold the part in one step.");
         return;
     }
     document.session.options.steps = {{last, &last->run}, next.polish};
-    run_to(next.to, "Running the chain");
+    run_to(next.to, "Updating all");
 }
 
 void ViewerModel::say_steps_run(const StepsOutcome& outcome)
@@ -173,11 +166,11 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
                             "faces may help.",
                             state.name, state.reason));
         else if (state.friction_share < 1)
-            warn(fmt::format("The step \"{}\" has {:.2g} % of its friction: {}.", state.name,
+            warn(fmt::format("The step \"{}\" reached {:.2g} % of its friction: {}.", state.name,
                              100 * state.friction_share, state.reason));
     for (const UnfoldState& state : run.states)
         if (state.reach.without_room > 0)
-            warn(fmt::format("In the step \"{}\" {} reach beyond the end of the target, up to {} from what carries it.",
+            warn(fmt::format("In the step \"{}\" {} reach beyond the end of the target, up to {} from its fixed faces.",
                              state.name, counted(size_t(state.reach.without_room), "face"),
                              length_text(state.reach.farthest_mm, state_.preferences.lengths)));
     if (const size_t count = last.given_up.size(); count > 0)
@@ -195,20 +188,19 @@ void ViewerModel::say_steps_run(const StepsOutcome& outcome)
         return;
     }
     if (!run.blank) {
-        warn("After the last step the part does not lie in a plane yet; add a step.");
+        warn("After the last step the part is not flat yet; add a step.");
         return;
     }
     if (run.flipped > 0)
-        warn(fmt::format("{} of the blank are flipped; unfold there in smaller steps.",
+        warn(fmt::format("{} of the blank are flipped; unfold in smaller steps there.",
                          counted(size_t(run.flipped), "triangle")));
     const UnfoldState& end = run.states.back();
     if (end.necking > 0)
-        warn(fmt::format("{} strained beyond what the hardening curve is trusted to: the sheet would "
-                         "neck or tear there.",
-                         end.necking == 1 ? "1 triangle is"
-                                          : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
+        warn(fmt::format(
+            "{} strained beyond the valid range of the hardening curve: the sheet would neck or crack there.",
+            end.necking == 1 ? "1 triangle is" : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
     if (end.overlap.places > 0)
-        warn(fmt::format("The blank lies on itself at {}.", counted(size_t(end.overlap.places), "place")));
+        warn(fmt::format("The blank overlaps itself at {}.", counted(size_t(end.overlap.places), "place")));
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
         fmt::format("Unfolded in {}: a blank of {}.", counted(run.states.size(), "step"),

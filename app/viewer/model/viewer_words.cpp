@@ -10,11 +10,11 @@ namespace spia::viewer {
 std::string in_viewer_words(std::string text)
 {
     constexpr std::string_view words[][2] = {
-        {"--weld", "\"Join them\" in the step Part"},
+        {"--weld", "\"Weld vertices\" in the step Part"},
         {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
         {"--unit", "in the step Part"},
         {"--skin", "\"Skin\" in the step Part"},
-        {"--skip-bad-faces", "\"Leave out faces that cannot be meshed\" in \"Choose in the file...\""},
+        {"--skip-bad-faces", "\"Leave out faces that cannot be meshed\" in \"Import options...\""},
         {"--remesh-size or --remesh-tolerance", "the fields of \"Remesh\" in the step Part"},
         {"--no-remesh", "\"Remesh\" in the step Part"},
         {"--remesh", "\"Remesh\" in the step Part"},
@@ -25,17 +25,16 @@ std::string in_viewer_words(std::string text)
         {" (--max-control-points)", ""},
         {"--max-control-points", "the greatest number of control points"},
         {"--patches", "\"Made of\" in the step NURBS surface"},
-        {"--part", "\"Choose in the file...\" in the step Part"},
+        {"--part", "\"Import options...\" in the step Part"},
         {"--young", "in the field above"},
         {"--data engineering or --data true", "above"},
         {"--data", "above"},
         {"give a target that goes through their common edge",
-         "take away its offset, or choose a region to stay whose face goes "
-         "through their common edge"},
+         "remove its offset, or choose a fixed region whose surface goes through their common edge"},
         {"pick others, allow more or give a target", "pick others, or allow more with \"Within\""},
         {"pick others that stay, or give it a target",
-         "select some that stay and press \"Fit to selection\", or choose a target"},
-        {"pick those that carry the target, or give one", "choose another region to stay"}};
+         "select fixed faces and press \"Fit to selection\", or choose a target"},
+        {"pick those that carry the target, or give one", "choose another fixed region"}};
     for (const auto& [flag, button] : words)
         for (size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + button.size()))
             text.replace(at, flag.size(), button);
@@ -59,9 +58,19 @@ std::string load_words(const FaceRegion& region, LengthUnit lengths)
 
 std::string as_sentence(std::string text)
 {
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    const std::string_view first = std::string_view(text).substr(0, text.find_first_of(" :,;"));
+    const bool file = first.find('/') != first.npos || first.substr(0, first.size() - 1).find('.') != first.npos;
+    if (!first.empty() && !file && text[0] >= 'a' && text[0] <= 'z')
         text[0] = char(text[0] - 'a' + 'A');
     return text;
+}
+
+std::string sentence(std::string text)
+{
+    constexpr std::string_view ends = ".!?)";
+    if (!text.empty() && ends.find(text.back()) == ends.npos)
+        text += '.';
+    return as_sentence(std::move(text));
 }
 
 } // namespace spia::viewer

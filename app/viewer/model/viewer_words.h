@@ -8,8 +8,10 @@ namespace spia::viewer {
 /// What the engine advises, with the viewer's buttons in place of the flags of the command line.
 std::string in_viewer_words(std::string text);
 
-/// With a capital letter at its beginning.
+/// With a capital letter at its beginning, unless that is the name of a file.
 std::string as_sentence(std::string text);
+/// The same with a full stop at its end.
+std::string sentence(std::string text);
 
 /// What a region's tool or sheet is, with units: "120 kN, friction 0.12 on both sides"; empty: nothing.
 /// @param lengths  in which its thickness is told

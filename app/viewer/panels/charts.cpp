@@ -13,8 +13,9 @@ const PartFigures& part_figures(Frame& frame)
 const PartFigures& examined_figures(Frame& frame)
 {
     const auto& refused = frame.state.refused;
-    return refused ? frame.ui.charts.refused.of({refused}, [&] { return part_figures(*refused); })
-                   : part_figures(frame);
+    return refused && examined(frame.state) == refused.get()
+               ? frame.ui.charts.refused.of({refused}, [&] { return part_figures(*refused); })
+               : part_figures(frame);
 }
 
 const SheetFigures& sheet_figures(Frame& frame)

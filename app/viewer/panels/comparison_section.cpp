@@ -66,7 +66,7 @@ void field_switch(Frame& frame)
     FieldDisplay display = state.document.display;
     const bool possible = state.differences->fields && has_difference(display.field);
     ImGui::BeginDisabled(!possible);
-    const bool changed = ImGui::Checkbox("Show the field as now minus reference", &display.difference);
+    const bool changed = ImGui::Checkbox("Show the difference from the reference", &display.difference);
     ImGui::EndDisabled();
     tooltip(possible                    ? "Positive where the value is greater now than in the reference"
             : state.differences->fields ? "For thickness, thinning, strains and stresses"
@@ -97,25 +97,25 @@ void comparison_section(Frame& frame)
     }
     muted(frame, "Reference: " + state.reference->name);
     if (state.document.session.blank == state.reference->blank)
-        muted(frame, "This is the reference itself: change material, thickness or tools and run again.");
+        muted(frame, "This result is the reference. Change material, thickness or tools and run again to compare.");
     else if (state.differences) {
         table(frame);
         if (state.differences->none_because.empty())
-            figure(frame, "Outlines apart by at most",
+            figure(frame, "Outlines differ by up to",
                    fixed_length(state.differences->outline_distance, frame.lengths(), 2));
         else
             muted(frame, state.differences->none_because);
         field_switch(frame);
     }
     ImGui::BeginDisabled(!state.document.session.blank);
-    if (small_button(frame, "Keep this one instead"))
+    if (small_button(frame, "Replace by this result"))
         frame.actions.push(KeepReference{});
     ImGui::EndDisabled();
     tooltip(keep_help);
     ImGui::SameLine();
-    if (small_button(frame, "Forget it"))
+    if (small_button(frame, "Remove reference"))
         frame.actions.push(DropReference{});
-    tooltip("The result that there is now stays");
+    tooltip("The present result is kept");
 }
 
 } // namespace spia::viewer

@@ -62,8 +62,7 @@ void unsaved_dialog(Frame& frame)
     if (!frame.ui.held || !begin_dialog(frame, "Unsaved changes", true, 420, true))
         return;
     ImGui::PushTextWrapPos(0);
-    ImGui::Text("What you changed on %s is not saved in a project.",
-                frame.state.document.session.file.filename().c_str());
+    ImGui::Text("Your changes to %s are not saved in a project.", frame.state.document.session.file.filename().c_str());
     ImGui::PopTextWrapPos();
     const auto go_on = [&] {
         frame.ui.confirmed = true;
@@ -81,7 +80,7 @@ void unsaved_dialog(Frame& frame)
             ImGui::CloseCurrentPopup();
         }
     }
-    if (ImGui::Button("Go on without saving", {-1, 0}))
+    if (ImGui::Button("Continue without saving", {-1, 0}))
         go_on();
     if (ImGui::Button("Cancel", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE)) {
         frame.ui.held.reset();
@@ -101,10 +100,10 @@ void recovery_dialog(Frame& frame)
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(left->text.c_str());
     ImGui::PopTextWrapPos();
-    figure(frame, "Last kept", left->saved);
+    figure(frame, "Autosaved", left->saved);
     const std::filesystem::path& now = frame.state.document.session.file;
     if (frame.state.document.session.part && !frame.ui.sample)
-        muted(frame, fmt::format("To recover it closes {}.", now.filename().string()));
+        muted(frame, fmt::format("Recovering it closes {}.", now.filename().string()));
     ImGui::Dummy({0, 2 * frame.ui.scale});
     const auto answer = [&](LeftWork::Answer given) {
         left->answer = given;
@@ -117,7 +116,7 @@ void recovery_dialog(Frame& frame)
     tooltip("Asks again at the next start");
     if (ImGui::Button("Discard", {-1, 0}))
         answer(LeftWork::Answer::discard);
-    tooltip("Removes this work for good");
+    tooltip("Deletes this work permanently");
     end_dialog();
 }
 

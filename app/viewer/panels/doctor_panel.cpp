@@ -9,12 +9,23 @@
 namespace spia::viewer {
 namespace {
 
-/// Reads the part again, one thing otherwise.
+/// How the file was read that the panel is about.
+const ReadOptions& read_options(const Frame& frame)
+{
+    return shows_refused(frame.state) ? frame.state.refused_file->read : frame.state.document.session.options.read;
+}
+
+/// Reads the file again, one thing otherwise.
 template <class Edit> void read_with(Frame& frame, const Edit& edit)
 {
-    Reading reading = reading_of(frame.state.document.session.options.read);
+    const ReadOptions& read = read_options(frame);
+    Reading reading = reading_of(read);
     edit(reading);
-    frame.actions.push(SetReading{reading});
+    if (shows_refused(frame.state))
+        frame.actions.push(
+            OpenPart{frame.state.refused_file->file, read.unit ? std::string(name(*read.unit)) : "", reading});
+    else
+        frame.actions.push(SetReading{reading});
 }
 
 /// Each place of a fault with what is known of it; a click shows it.
@@ -58,7 +69,7 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
     ImGui::PopStyleVar();
     if (here)
         ImGui::PopStyleColor();
-    tooltip(here ? "Takes the mark away" : "The views go there and mark it");
+    tooltip(here ? "Removes the marker" : "Zooms to the place and marks it");
     if (!here || places == 1)
         return;
     ImGui::SameLine(0, 8 * frame.ui.scale);
@@ -78,7 +89,7 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
 /// What this program can do about a fault itself.
 void fix_button(Frame& frame, const Finding& finding)
 {
-    const ReadOptions& read = frame.state.document.session.options.read;
+    const ReadOptions& read = read_options(frame);
     const bool cut = (finding.fault == Fault::several_components || finding.fault == Fault::crowded_edge) &&
                      !read.doctor.keep_largest;
     const bool apart = finding.fault == Fault::coincident_vertex && finding.severity == spia::Severity::note;
@@ -89,12 +100,12 @@ void fix_button(Frame& frame, const Finding& finding)
     ImGui::BeginDisabled(frame.model.busy());
     if (cut && small_button(frame, "Keep the largest piece"))
         read_with(frame, [](Reading& reading) { reading.keep_largest = true; });
-    if (apart && small_button(frame, "Join them"))
+    if (apart && small_button(frame, "Weld vertices"))
         read_with(frame, [](Reading& reading) { reading.weld = true; });
     ImGui::EndDisabled();
-    tooltip(cut ? "Reads the part again and leaves out all but the largest piece of sheet, also what hangs on edges of "
-                  "three faces. Undo brings it back."
-                : "Reads the part again and joins vertices at one place. Undo brings it back.");
+    tooltip(
+        cut ? "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them."
+            : "Reads the part again and welds vertices at the same place. Undo separates them again.");
 }
 
 /// Which faces of a CAD file are read: of a solid those of one skin.
@@ -102,7 +113,7 @@ void cad_faces(Frame& frame, const PartFile& part)
 {
     if (!part.cad)
         return;
-    const ReadOptions& read = frame.state.document.session.options.read;
+    const ReadOptions& read = read_options(frame);
     std::string text;
     for (const std::string& each : read.parts)
         text += (text.empty() ? "" : ", ") + each;
@@ -119,7 +130,7 @@ void cad_faces(Frame& frame, const PartFile& part)
                 one += c;
         read_with(frame, [&](Reading& reading) { reading.parts = parts; });
     }
-    tooltip("Faces of the CAD file by their numbers, from 0: for instance 3, 10-19");
+    tooltip("Numbers of the CAD faces to read, counted from 0, e.g. 3, 10-19");
     if (!read.parts.empty() && small_button(frame, "All faces"))
         read_with(frame, [](Reading& reading) { reading.parts.clear(); });
     ImGui::EndDisabled();
@@ -128,31 +139,33 @@ void cad_faces(Frame& frame, const PartFile& part)
 /// What of the file is read, and the dialog of import once more.
 void choose_again(Frame& frame, const PartFile& part)
 {
-    const Session& session = frame.state.document.session;
-    if (!has_choices(session.file))
+    const bool other = shows_refused(frame.state);
+    const std::filesystem::path& file = other ? frame.state.refused_file->file : frame.state.document.session.file;
+    if (!has_choices(file))
         return;
-    if (part.deck && !session.options.read.parts.empty()) {
+    const std::vector<std::string>& chosen = read_options(frame).parts;
+    if (part.deck && !chosen.empty()) {
         std::string all;
-        for (const std::string& each : session.options.read.parts) {
+        for (const std::string& each : chosen) {
             const auto named = std::find_if(part.deck->parts.begin(), part.deck->parts.end(), [&](const DeckPart& p) {
                 return p.id && std::to_string(*p.id) == each && !p.name.empty();
             });
             all += (all.empty() ? "" : ", ") + each + (named == part.deck->parts.end() ? "" : " " + named->name);
         }
-        figure(frame, session.options.read.parts.size() == 1 ? "Part" : "Parts", all);
+        figure(frame, chosen.size() == 1 ? "Part" : "Parts", all);
     }
     ImGui::BeginDisabled(frame.model.busy());
-    if (small_button(frame, "Choose in the file..."))
-        frame.actions.push(ListFile{session.file, true});
+    if (small_button(frame, "Import options..."))
+        frame.actions.push(ListFile{file, !other});
     note_place(frame, "choose in the file");
     ImGui::EndDisabled();
-    tooltip("Shows what the file holds, and reads it again otherwise");
+    tooltip("Shows the contents of the file, to read it again with other options");
 }
 
 /// Which surface stands for a solid of sheet.
 void solid_skin(Frame& frame, const PartFile& part)
 {
-    const ReadOptions& read = frame.state.document.session.options.read;
+    const ReadOptions& read = read_options(frame);
     if (!part.solid && !read.skin)
         return;
     const Skin now = part.solid ? part.solid->skin : *read.skin;
@@ -164,7 +177,7 @@ void solid_skin(Frame& frame, const PartFile& part)
                 read_with(frame, [&](Reading& reading) { reading.skin = skin; });
         ImGui::EndCombo();
     } else
-        tooltip("The surface that stands for the solid: one of its skins, or the middle between them.");
+        tooltip("Surface used for the solid: its outer or inner skin, or the middle surface");
     ImGui::EndDisabled();
 }
 
@@ -177,8 +190,8 @@ void remeshing(Frame& frame, const PartFile* part)
     bool wanted = now || done;
     if (ImGui::Checkbox("Remesh", &wanted))
         frame.actions.push(SetRemeshing{wanted ? std::optional(RemeshOptions{}) : std::nullopt});
-    tooltip("Puts even triangles in the place of slivers, coarse or over-fine ones. The surface stays within the "
-            "tolerance, and deviations are still those from the triangles of the file.");
+    tooltip(
+        "Replaces slivers and triangles that are too coarse or too fine by even ones, within the tolerance. Deviations are still measured from the triangles of the file.");
     if (wanted && (now || done)) { // also where it was refused: other sizes may do
         const RemeshOptions before = now.value_or(RemeshOptions{});
         RemeshOptions edited = before;
@@ -201,28 +214,23 @@ void deck_gauge(Frame& frame, const PartFile& part)
 {
     if (!part.thickness_mm)
         return;
-    muted(frame, fmt::format("The {} {}{}", part.solid ? "solid is" : "deck says",
+    muted(frame, fmt::format("Thickness {} {}{}", part.solid ? "of the solid:" : "in the file:",
                              thickness_text(*part.thickness_mm, frame.lengths()),
-                             part.material.empty() ? "" : fmt::format(" of \"{}\"", part.material)));
+                             part.material.empty() ? "" : fmt::format(", material \"{}\"", part.material)));
     if (*part.thickness_mm == frame.state.document.session.options.flatten.thickness || frame.model.busy())
         return;
     if (small_button(frame, ("Use " + thickness_text(*part.thickness_mm, frame.lengths())).c_str()))
         frame.actions.push(SetThickness{*part.thickness_mm});
 }
 
-/// What reading the file left to say; in amber where the unit looks wrong, which the light of the step says.
-void file_notes(Frame& frame, const PartFile& part)
+/// One line each.
+void reading_notes(Frame& frame, const std::vector<std::string>& notes)
 {
-    const auto unit = likelier_unit(part, examined_figures(frame).diagonal);
-    for (const std::string& note : part.notes) {
-        const std::string text = as_sentence(in_viewer_words(note));
+    for (const std::string& text : notes) {
         constexpr size_t most = 300; // letters: a deck can have many keywords that are not read
         const size_t end = text.size() > most ? text.rfind(' ', most) : text.npos;
         const std::string shown = end == text.npos ? text : text.substr(0, end) + " ...";
-        if (unit)
-            coloured(palette_of(frame.state.view.dark).warning, shown);
-        else
-            muted(frame, shown);
+        muted(frame, "-  " + shown);
         if (shown != text)
             tooltip(text);
     }
@@ -230,11 +238,33 @@ void file_notes(Frame& frame, const PartFile& part)
 
 } // namespace
 
+void refused_notice(Frame& frame)
+{
+    const ViewerState& state = frame.state;
+    if (!state.refused || !state.refused_file)
+        return;
+    const std::string open = state.document.session.file.filename().string();
+    coloured(palette_of(state.view.dark).error, state.refused_file->file.filename().string() + " was refused.");
+    if (state.refused_file->shown) {
+        if (small_button(frame, ("Back to " + open).c_str()))
+            frame.actions.push(CloseRefused{});
+        tooltip("Closes the refused file");
+        return;
+    }
+    if (small_button(frame, "Show its faults"))
+        frame.actions.push(ShowRefused{});
+    tooltip("In the view of the part, until you go back to " + open);
+    ImGui::SameLine();
+    if (small_button(frame, "Close"))
+        frame.actions.push(CloseRefused{});
+    tooltip("Forgets the refused file");
+}
+
 void doctor_panel(Frame& frame)
 {
     const ViewerState& state = frame.state;
-    const bool refused = state.refused != nullptr;
     const PartFile* part = examined(state);
+    const bool refused = part && part == state.refused.get();
     if (!part) {
         if (!state.document.session.file.empty() && state.document.session.options.read.remesh)
             remeshing(frame, nullptr);
@@ -245,20 +275,21 @@ void doctor_panel(Frame& frame)
     solid_skin(frame, *part);
     if (!refused)
         remeshing(frame, part);
-    deck_gauge(frame, *part);
-    file_notes(frame, *part);
-    if (part->doctor.findings.empty())
+    if (!shows_refused(state))
+        deck_gauge(frame, *part);
+    const std::vector<std::string> notes = notes_on_reading(*part);
+    const auto& findings = part->doctor.findings;
+    if (findings.empty() && notes.empty())
         return;
     const Palette p = palette_of(state.view.dark);
-    const auto& findings = part->doctor.findings;
     const auto fatal = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& f) { return f.severity == spia::Severity::fatal; });
-    const std::string title = refused
-                                  ? fmt::format("Refused: {}", fatal == 1 ? "1 fault of the mesh"
-                                                                          : fmt::format("{} faults of the mesh", fatal))
-                              : findings.size() == 1 ? "1 note on the mesh"
-                                                     : fmt::format("{} notes on the mesh", findings.size());
-    ImGui::PushStyleColor(ImGuiCol_Text, refused ? p.error : p.warning);
+    const size_t count = notes.size() + findings.size();
+    const std::string title =
+        refused      ? fmt::format("Refused: {}", fatal == 1 ? "1 mesh fault" : fmt::format("{} mesh faults", fatal))
+             : count == 1 ? "1 note on the file"
+                     : fmt::format("{} notes on the file", count);
+    ImGui::PushStyleColor(ImGuiCol_Text, refused ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
     const bool open =
         ImGui::TreeNodeEx(refused ? "refused" : "doctor",
                           refused ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None, "%s", title.c_str());
@@ -286,6 +317,7 @@ void doctor_panel(Frame& frame)
             ImGui::Dummy({0, 2 * frame.ui.scale});
             ImGui::PopID();
         }
+        reading_notes(frame, notes);
         ImGui::TreePop();
     }
 }

@@ -49,11 +49,12 @@ void deviation_banner(const Frame& frame, const FitVerdict& verdict, double tole
     const bool loud = verdict.fit == Fit::far_off;
     const std::string besides = verdict.fit == Fit::within ? surface_doubts(frame) : "";
     const ImVec4 colour = verdict.fit == Fit::within && besides.empty() ? p.good : loud ? p.error : p.warning;
-    const char* headline = verdict.fit == Fit::none                         ? "No surface"
-                           : verdict.fit == Fit::within && !besides.empty() ? "The surface is near, but not sound"
-                           : verdict.fit == Fit::within                     ? "The surface fits"
-                           : loud                                           ? "The surface is far from the part"
-                                                                            : "The surface leaves the tolerance";
+    const char* headline = verdict.fit == Fit::none ? "No surface"
+                           : verdict.fit == Fit::within && !besides.empty()
+                               ? "The surface is within tolerance but has faults"
+                           : verdict.fit == Fit::within ? "The surface is within tolerance"
+                           : loud                       ? "The surface is far from the part"
+                                                        : "The surface is out of tolerance";
     const std::string words = text(verdict, tolerance, frame.lengths()) + besides;
     const float s = frame.ui.scale, pad = (loud ? 14 : verdict.fit == Fit::beyond ? 11 : 8) * s, bar = 5 * s;
     const float large = loud ? 1.35f : verdict.fit == Fit::beyond ? 1.15f : 1.f;
@@ -110,11 +111,9 @@ void iga_formats_boxes(const Frame& frame, std::vector<std::string>& formats)
           "Three files with the same basis: the patches with their interfaces and boundary, the thickness, the plastic strain."},
          {"mfem", "MFEM NURBS mesh  thickness, plastic strain",
           "A NURBS mesh v1.0 with the surface in space, and a grid function each for thickness and plastic strain."},
-         {"geopdes", "GeoPDEs text  the surface",
-          "NURBS text v2.1, as octave-nurbs reads it too. It has no place for fields."},
+         {"geopdes", "GeoPDEs text  the surface", "NURBS text v2.1, also read by octave-nurbs. Without fields."},
          {"iga-k", "LS-DYNA *IGA_SHELL  mean thickness",
-          "*IGA_2D_NURBS_XYZ, *IGA_FACE_XYZ, *IGA_SHELL with section, part and an elastic material. A section has one thickness, "
-          "the mean of the surface; it has no place for plastic strain."}}};
+          "*IGA_2D_NURBS_XYZ, *IGA_FACE_XYZ, *IGA_SHELL with section, part and an elastic material. The section has the mean thickness of the surface; without plastic strain."}}};
     for (const auto& [format, label, explanation] : each) {
         format_box(formats, format, label);
         tooltip(explanation);
@@ -139,7 +138,7 @@ void solver_formats(const Frame& frame, std::vector<std::string>& formats)
           "Bulk data with the thickness at the corners of CQUAD4 and CTRIA3 (T1 to T4), to be included, and a CSV table of the "
           "elements' strains."},
          {"mapping", "CSV  mapping tables by id",
-          "Of each element thickness, thinning, plastic strain, major and minor strain; of each node its place in the blank."},
+          "Per element: thickness, thinning, plastic strain, major and minor strain. Per node: position in the blank."},
          {"blank-k", "Blank as a mesh, LS-DYNA .k", "The blank with the elements of the part; quads stay quads."},
          {"blank-bdf", "Blank as a mesh, Nastran .bdf", "The blank with the elements of the part; quads stay quads."},
          {"blank-inp", "Blank as a mesh, Abaqus .inp", "The blank with the elements of the part; quads stay quads."},
@@ -181,7 +180,7 @@ void formats_column(Frame& frame, ExportChoices& choices)
                                 std::pair{"Zones per face", &csv.faces}});
         ImGui::Unindent(indent);
     }
-    format_box(formats, "png", "PNG  one picture of the whole chain");
+    format_box(formats, "png", "PNG  one picture of part, blank, grid and surface");
     ImGui::BeginDisabled(!surface);
     iga_formats_boxes(frame, formats);
     ImGui::EndDisabled();
@@ -201,8 +200,7 @@ void unit_input(const Frame& frame, LengthUnit& unit)
         ImGui::EndCombo();
     }
     tooltip(
-        "Of IGES, STEP, isogeometric files, DXF, CSV and VTU; the file names the unit. A GLB file has metres, as its specification wants; what goes "
-        "back to the solver has the unit of its deck.");
+        "For IGES, STEP, isogeometric files, DXF, CSV and VTU; the file states the unit. GLB files are in metres as their specification requires, results for the solver in the unit of its deck.");
 }
 
 void files_list(const Frame& frame, const ExportChoices::Planned& planned)
@@ -218,7 +216,7 @@ void files_list(const Frame& frame, const ExportChoices::Planned& planned)
     ImGui::PopFont();
     if (replaced > 0) {
         ImGui::SameLine();
-        ImGui::TextColored(p.warning, "%d of them there already, to be replaced", int(replaced));
+        ImGui::TextColored(p.warning, "%d will be replaced", int(replaced));
     }
     ImGui::PushFont(frame.ui.fonts.small);
     for (size_t k = 0; k < planned.files.size(); ++k) {
@@ -294,7 +292,7 @@ void export_dialog(Frame& frame)
         const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
         if (length_inputs(frame, unit.c_str(), &choices.tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"}))
             choices.tolerance = std::clamp(choices.tolerance, 1e-6, 1e6);
-        tooltip("How far the surface may be from the part. What you set here only changes this warning.");
+        tooltip("Allowed distance between surface and part; affects this warning only");
     }
     ImGui::Separator();
 
@@ -352,11 +350,10 @@ void export_dialog(Frame& frame)
     choices.asked &= doubtful;
     const bool busy = frame.model.busy();
     if (busy)
-        muted(frame, "A job is running; export when it has ended.");
+        muted(frame, "A job is running; export is possible when it has finished.");
     if (choices.asked)
-        coloured(
-            palette_of(frame.state.view.dark).error,
-            "CAD and isogeometric files will hold a surface that is not the part. Click once more if you want that.");
+        coloured(palette_of(frame.state.view.dark).error,
+                 "The exported surface does not represent the part. Click once more to export it anyway.");
     const bool ready = planned.problem.empty() && !planned.files.empty() && !choices.folder.empty() && !busy;
     const Palette p = palette_of(frame.state.view.dark);
     const Answer answer =

@@ -23,9 +23,8 @@ void fit_editor(Frame& frame, FitChoice fit)
     }
     tooltip(
         patches
-            ? "Else within 1/1000 of the part's diagonal"
-            : "Least squares, with knots only where the surface is too far from the part; else it runs through the nodes of "
-              "the grid");
+            ? "Otherwise within 1/1000 of the part's diagonal"
+            : "Least-squares fit with knots added only where needed. Otherwise the surface interpolates the nodes of the grid");
     if (fit.tolerance) {
         ImGui::SetNextItemWidth(width);
         const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
@@ -51,7 +50,7 @@ void fit_editor(Frame& frame, FitChoice fit)
             frame.actions.push(SetFit{fit});
         return;
     }
-    static constexpr const char* names[] = {"averaged knots", "clamped", "natural (paper)"};
+    static constexpr const char* names[] = {"averaged knots", "clamped", "natural"};
     int ends = int(fit.ends);
     ImGui::SetNextItemWidth(width);
     if (ImGui::Combo("Ends", &ends, names, 3)) {
@@ -61,15 +60,15 @@ void fit_editor(Frame& frame, FitChoice fit)
         changed = true;
     }
     tooltip(
-        "Averaged knots and clamped ends (by estimated tangents) keep the full order up to the border; natural ends, as in "
-        "the paper, are cubic and lose two orders there");
+        "Averaged knots and clamped ends (with estimated tangents) stay accurate up to the border; natural ends (cubic only) are less accurate there");
     if (fit.tolerance) {
         bool corrected = fit.parameters == FitParameters::corrected;
         if (ImGui::Checkbox("Correct parameters", &corrected)) {
             fit.parameters = corrected ? FitParameters::corrected : FitParameters::blank;
             changed = true;
         }
-        tooltip("Follows the part with fewer knots, but the surface's parameters no longer are places of the blank");
+        tooltip(
+            "Fits the part with fewer knots, but surface parameters no longer correspond to positions on the blank");
     }
     if (changed)
         frame.actions.push(SetFit{fit});

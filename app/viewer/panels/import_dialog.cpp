@@ -94,7 +94,7 @@ void summary_line(const Frame& frame, const ListedFile& listed)
 {
     const FileItems& items = listed.items;
     std::string text =
-        items.format + (items.unit.empty() ? ", names no unit of length" : ", lengths in " + unit_words(items.unit));
+        items.format + (items.unit.empty() ? ", no length unit given" : ", lengths in " + unit_words(items.unit));
     if (const std::string size = size_words(listed, frame.lengths()); !size.empty())
         text += ", " + size;
     muted(frame, text);
@@ -189,7 +189,7 @@ void item_list(Frame& frame, const ListedFile& listed, ImVec2 size)
             if (ImGui::IsItemHovered()) {
                 hovered = i;
                 tooltip(item_words(items, item) + "\n" + item_figures(items, item, frame.lengths()) +
-                        (item.choice.empty() ? "" : "\nClick for this one, Ctrl and click for more"));
+                        (item.choice.empty() ? "" : "\nClick to choose it, Ctrl + click to add it"));
             }
             ImDrawList* draw = ImGui::GetWindowDrawList();
             draw->PushClipRect(at, {at.x + room, at.y + 2 * line}, true);
@@ -235,7 +235,7 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
     note_place(frame, "import preview");
     const glm::dvec2 view(size.x, size.y), pixel(io.MousePos.x - at.x, io.MousePos.y - at.y);
     if (listed.mesh.triangles() == 0) {
-        draw->AddText({at.x + 12, at.y + 12}, ImGui::GetColorU32(ImGuiCol_TextDisabled), "No faces to be seen");
+        draw->AddText({at.x + 12, at.y + 12}, ImGui::GetColorU32(ImGuiCol_TextDisabled), "No faces to show");
         draw->AddRect(at, to, ImGui::GetColorU32(ImGuiCol_Border));
         return;
     }
@@ -303,8 +303,8 @@ void unit_choice(Frame& frame, const FileItems& items)
     }
     ImGui::EndDisabled();
     if (!ImGui::IsPopupOpen("##Combo", ImGuiPopupFlags_AnyPopupId))
-        tooltip(stated ? "The file says its unit itself; lengths are converted to mm"
-                       : "What one unit of the file's coordinates is");
+        tooltip(stated ? "The length unit is stated in the file; lengths are converted to mm"
+                       : "Length unit of the coordinates in the file");
 }
 
 void skin_choice(ImportChoices& choices)
@@ -318,8 +318,7 @@ void skin_choice(ImportChoices& choices)
         ImGui::EndCombo();
     } else
         tooltip(
-            "Of a solid: the side of the sheet that is read, or the surface in the middle between both. Automatic: the "
-            "outer side of what is a solid of sheet");
+            "For solids: the skin to read, or the middle surface. Automatic: the outer skin where the solid is a sheet");
 }
 
 void length_field(const Frame& frame, const char* label, std::string& text, bool sound, const char* help)
@@ -355,7 +354,7 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
             ImGui::SetNextItemWidth(width);
             length_field(
                 frame, in_unit("Gaps up to", frame.lengths()).c_str(), choices.sewing, sewing,
-                "Gaps between faces up to this width are closed. Empty: found from the gaps themselves; 0: none.");
+                "Gaps between faces up to this width are closed. Empty: chosen from the gaps found; 0: none are closed.");
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
             length_field(frame, in_unit("Chord height", frame.lengths()).c_str(), choices.deflection, deflection,
@@ -363,11 +362,11 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
         }
         ImGui::EndTable();
     }
-    ImGui::Checkbox("Keep only the largest piece of sheet", &choices.keep_largest);
-    tooltip("Of what was chosen. Without it several pieces are refused, and the step Part shows them.");
+    ImGui::Checkbox("Keep only the largest connected piece", &choices.keep_largest);
+    tooltip("Of the chosen items. Otherwise a part in several pieces is refused, and the step Part lists them.");
     if (is_cad_file(items)) {
         ImGui::Checkbox("Leave out faces that cannot be meshed", &choices.leave_out_bad_faces);
-        tooltip("They are named, and the rest is read. Without it the part is refused for them.");
+        tooltip("They are listed and the rest is read. Otherwise the part is refused.");
         reading.leave_out_bad_faces = choices.leave_out_bad_faces;
         reading.keep_triangles = choices.keep_triangles;
     }
@@ -385,10 +384,11 @@ void choice_line(const Frame& frame, const FileItems& items)
     for (size_t i = 0; i < choices.chosen.size(); ++i)
         if (choices.chosen[i] != 0 && ++chosen <= 3)
             names += (names.empty() ? "" : ", ") + item_words(items, items.item[i]);
-    muted(frame, chosen == 0 ? fmt::format("All {} of the file will be read. Click an item, or the picture, to choose",
-                                           is_cad_file(items) ? "faces" : "shells")
-                             : fmt::format("{} chosen{}{}{}. Ctrl and click for more", chosen,
-                                           names.empty() ? "" : ": ", names, chosen > 3 ? ", ..." : ""));
+    muted(frame, chosen == 0
+                     ? fmt::format("All {} of the file will be read. Click items in the list or the picture to choose",
+                                   is_cad_file(items) ? "faces" : "shells")
+                     : fmt::format("{} chosen{}{}{}. Ctrl + click to add", chosen, names.empty() ? "" : ": ", names,
+                                   chosen > 3 ? ", ..." : ""));
 }
 
 /// What the file left to say, in one line; all of it under the mouse.
@@ -420,7 +420,7 @@ void progress_or_failure(Frame& frame, const FileListing& listing)
         coloured(palette_of(frame.state.view.dark).error, as_sentence(in_viewer_words(listing.failure)));
         return;
     }
-    muted(frame, listing.step.empty() ? "Looking into the file" : as_sentence(listing.step));
+    muted(frame, listing.step.empty() ? "Reading the contents of the file" : as_sentence(listing.step));
     ImGui::ProgressBar(float(listing.fraction), {-1, 6 * s}, "");
 }
 

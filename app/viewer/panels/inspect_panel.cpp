@@ -71,12 +71,10 @@ void field_section(Frame& frame)
     int per_face = display.per_face;
     ImGui::BeginDisabled(display.field == Field::zone); // nothing lies between two zones
     changed |= ImGui::RadioButton("Smooth", &per_face, 0);
-    tooltip(
-        "Colours are means of the faces around each vertex. Labels, worst spots and the ends of the legend are values of "
-        "faces all the same.");
+    tooltip("Contours are averaged at the vertices. Labels, worst spots and the ends of the legend are face values.");
     ImGui::SameLine();
     changed |= ImGui::RadioButton("Per face", &per_face, 1);
-    tooltip("Colours are the values of the faces, which are held against limits");
+    tooltip("One colour per face: the values that are compared with limits");
     ImGui::EndDisabled();
     display.per_face = per_face == 1;
     static constexpr const char* maps[] = {"automatic colours", "viridis", "diverging", "grey"};
@@ -97,7 +95,7 @@ void field_section(Frame& frame)
             display.range = by_hand ? std::optional(range) : std::nullopt;
             changed = true;
         }
-        tooltip("Colours from one value to another instead of the whole range");
+        tooltip("Colours between two given values instead of the full range");
         if (by_hand) {
             ImGui::SameLine();
             ImGui::SetNextItemWidth(-1);
@@ -170,7 +168,7 @@ void worst_section(Frame& frame)
         const bool here = frame.state.document.selected == std::vector<int>{f};
         if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_here(frame, now.face.value[f]), f).c_str(), here))
             frame.actions.push(FlyTo{f});
-        tooltip("Click to look at it in every view");
+        tooltip("Click to zoom to it in all views");
         const Eigen::Vector3d there = at / millimetres(frame.lengths());
         const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} {}", there[0] + 0., there[1] + 0., there[2] + 0.,
                                               length_word(frame.lengths()));
@@ -217,7 +215,7 @@ void vertex_distance(Frame& frame)
     if (!distance->on_blank)
         return;
     figure(frame, "Distance on the blank", fixed_length(*distance->on_blank, frame.lengths(), 2));
-    figure(frame, "Part less blank",
+    figure(frame, "Part minus blank",
            fmt::format("{}  ({:+.2f} %)",
                        fixed_length(distance->on_part - *distance->on_blank, frame.lengths(), 2, true),
                        100 * (distance->on_part / *distance->on_blank - 1)));
@@ -244,7 +242,7 @@ void cut_through_vertices(Frame& frame)
     ImGui::EndDisabled();
     if (why.empty())
         tooltip(
-            "The surface becomes patches, two of which meet along the straight lines between these vertices on the blank");
+            "Splits the surface into patches that meet along the straight lines between these vertices on the blank");
     else
         muted(frame, why);
 }
@@ -261,7 +259,7 @@ void vertices_as_corners(Frame& frame)
         if (const std::vector<int>* outline = frame.model.pickers().ready_outline(session))
             corners_of(vertices, *outline, session.part->source_vertex);
         else
-            why = "The outline is being looked for.";
+            why = "Finding the outline...";
     } catch (const Error& error) {
         why = error.what();
     }
@@ -270,7 +268,7 @@ void vertices_as_corners(Frame& frame)
         frame.actions.push(UseVerticesAsCorners{});
     ImGui::EndDisabled();
     if (why.empty())
-        tooltip("They become the corners of the quad grid, in their order around the outline");
+        tooltip("Uses them as the corners of the grid, in their order along the outline");
     else
         muted(frame, why);
 }
@@ -310,7 +308,7 @@ void vertices_section(Frame& frame)
                 if (ImGui::Selectable(fmt::format("{}", part.source_vertex[size_t(v)]).c_str(), false,
                                       ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap))
                     frame.actions.push(FlyToVertex{v});
-                tooltip("Click to look at it in every view");
+                tooltip("Click to zoom to it in all views");
                 ImGui::TableNextColumn();
                 ImGui::TextUnformatted(
                     fmt::format("{1:.{0}f}, {2:.{0}f}, {3:.{0}f}", decimals, at[0] + 0., at[1] + 0., at[2] + 0.)
@@ -338,8 +336,8 @@ void old_figures_note(Frame& frame)
     if (!is_old(frame.state, View::part))
         return;
     coloured(palette_of(frame.state.view.dark).warning,
-             frame.state.job.running ? "These figures are of the blank before; a new one is being made."
-                                     : "These figures are of other options than are set now: Update all  (F5).");
+             frame.state.job.running ? "These values belong to the previous blank; a new one is being computed."
+                                     : "These values were computed with other options: Update all  (F5).");
     ImGui::Dummy({0, 2 * frame.ui.scale});
 }
 
@@ -348,10 +346,10 @@ void looks_section(Frame& frame)
     if (!ImGui::CollapsingHeader("Views"))
         return;
     ViewSettings view = frame.state.view;
-    bool changed = ImGui::Checkbox("Turn 3D views together", &view.linked);
+    bool changed = ImGui::Checkbox("Rotate 3D views together", &view.linked);
     changed |= ImGui::Checkbox("Triangle edges", &view.edges);
     changed |= ImGui::Checkbox("Feature lines", &view.features);
-    changed |= ImGui::Checkbox("Part under the quads", &view.part_under_quads);
+    changed |= ImGui::Checkbox("Show part below quads", &view.part_under_quads);
     changed |= ImGui::Checkbox("Colour quads by quality", &view.quad_quality);
     changed |= surface_look_combo(frame, view.surface_look);
     changed |= ImGui::Checkbox("Control net", &view.control_net);

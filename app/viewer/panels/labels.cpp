@@ -24,8 +24,10 @@ glm::dvec2 extent(ImFont* font, const std::string& text)
 /// Whether the sheet of a view lies in front of a place: by the first face on the line of sight.
 Hidden hidden_in(Frame& frame, View view, glm::dvec2 size)
 {
-    const RayPicker* picker =
-        view == View::blank ? nullptr : frame.model.pickers().ready_picker(frame.state.document.session, view);
+    const bool of_other = view == View::part && shows_refused(frame.state);
+    const RayPicker* picker = view == View::blank || of_other
+                                  ? nullptr
+                                  : frame.model.pickers().ready_picker(frame.state.document.session, view);
     if (!picker) // a flat sheet hides nothing
         return [](const glm::dvec3&) { return false; };
     const Camera& camera = frame.state.view.camera[size_t(view)];

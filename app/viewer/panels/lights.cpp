@@ -117,7 +117,7 @@ void ready_light(Frame& frame)
         ImGui::OpenPopup(list);
     ImGui::PopStyleColor();
     note_place(frame, list);
-    tooltip("Why not every light is green, and what can be done");
+    tooltip("Why a light is amber, and what to do");
     list_of_doubts(frame);
 }
 

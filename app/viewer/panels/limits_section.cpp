@@ -69,12 +69,12 @@ void settings(Frame& frame)
     double margin = choice.margin.value_or(limits ? limits->settings.margin : ZoneOptions{}.margin);
     if (percent_input(
             frame, "Required margin", margin,
-            "Points of engineering major strain below the curve that are marginal; the upper half of them is at risk"))
+            "Percentage points of engineering major strain below the curve that count as marginal; the upper half counts as at risk"))
         choice.margin = margin;
     percent_input(frame, "Allowed thinning", choice.max_thinning, "Of the initial thickness");
     percent_input(frame, "Allowed thickening", choice.max_thickening, "Of the initial thickness");
     percent_input(frame, "Low strain below", choice.low_strain,
-                  "Engineering; where both principal strains are smaller the sheet is hardly stretched");
+                  "Engineering strain; faces with both principal strains below it are hardly stretched");
     if (!(choice == document.limits))
         frame.actions.push(SetLimits{choice});
 }
@@ -98,7 +98,7 @@ void zone_rows(Frame& frame, const LimitsResult& limits)
             frame.actions.push(SelectFaces{std::move(faces), pick_mode()});
         }
         ImGui::PopID();
-        tooltip(fmt::format("{}: {}. Share of the area and number of faces; a click selects them.", zone_words(zone),
+        tooltip(fmt::format("{}: {}. Share of the area and number of faces; click to select them.", zone_words(zone),
                             definition(zone, limits.settings)));
         ImDrawList* draw = ImGui::GetWindowDrawList();
         draw->AddRectFilled({at.x, at.y + 1}, {at.x + side - 2, at.y + side - 1}, ink(zone_colour(zone)), 2);
@@ -141,7 +141,7 @@ void spots(Frame& frame, const LimitsResult& limits)
     tooltip("To the forming limit curve, in percentage points of engineering major strain; below 0 the sheet cracks");
     ImGui::TableNextColumn();
     right_aligned("thinning", true);
-    tooltip("Below 0 the sheet became thicker");
+    tooltip("Negative: thicker than before");
     for (size_t k = 0; k < std::min(most, limits.zones.spots.size()); ++k) {
         const WorstSpot& spot = limits.zones.spots[k];
         const auto margin = margin_of(limits, spot.face);
@@ -171,7 +171,7 @@ void limits_section(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     const bool open = ImGui::CollapsingHeader("Forming limits", ImGuiTreeNodeFlags_DefaultOpen);
-    tooltip("Where the sheet cracks, comes near to it, thins or thickens too much, may wrinkle or is hardly stretched");
+    tooltip("Zones of cracking, risk of cracking, excessive thinning or thickening, wrinkling tendency and low strain");
     if (!open)
         return;
     settings(frame);

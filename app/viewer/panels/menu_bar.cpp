@@ -121,7 +121,7 @@ void menu_bar(Frame& frame)
             open_material_editor(frame);
         if (ImGui::MenuItem("Keep result as reference", nullptr, false, state.document.session.blank != nullptr))
             frame.actions.push(KeepReference{});
-        if (ImGui::MenuItem("Forget the reference", nullptr, false, state.reference != nullptr))
+        if (ImGui::MenuItem("Remove reference", nullptr, false, state.reference != nullptr))
             frame.actions.push(DropReference{});
         ImGui::Separator();
         if (ImGui::MenuItem("Preferences...", "Ctrl+,"))
@@ -165,7 +165,7 @@ void menu_bar(Frame& frame)
             }
         ImGui::Separator();
         changed |= ImGui::MenuItem("Dark theme", "T", &view.dark);
-        changed |= ImGui::MenuItem("Turn 3D views together", nullptr, &view.linked);
+        changed |= ImGui::MenuItem("Rotate 3D views together", nullptr, &view.linked);
         changed |= ImGui::MenuItem("Triangle edges", "E", &view.edges);
         changed |= ImGui::MenuItem("Feature lines", nullptr, &view.features);
         ImGui::Separator();

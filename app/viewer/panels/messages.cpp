@@ -21,8 +21,7 @@ float buttons_width(const Frame& frame, size_t more)
     return width("Dismiss") + (more > 0 ? width(more_label(more)) : 0) + 4 * frame.ui.scale;
 }
 
-/// @param foldable  its details are behind a button; else all are shown
-void message_row(Frame& frame, const Message& message, bool foldable)
+void message_row(Frame& frame, const Message& message)
 {
     const Palette p = palette_of(frame.state.view.dark);
     const ImVec4 colour = message.severity == Severity::error     ? p.error
@@ -32,29 +31,10 @@ void message_row(Frame& frame, const Message& message, bool foldable)
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5 * frame.ui.scale, at.y + ImGui::GetTextLineHeight() / 2},
                                                 4 * frame.ui.scale, ink(colour));
-    const float left = ImGui::GetCursorPosX() + dot * frame.ui.scale;
-    ImGui::SetCursorPosX(left);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + dot * frame.ui.scale);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopTextWrapPos();
-    if (message.details.empty())
-        return;
-    int& unfolded = frame.ui.unfolded_message;
-    if (foldable) {
-        ImGui::SameLine();
-        ImGui::PushID(message.number);
-        if (ImGui::SmallButton(unfolded == message.number ? "Hide" : "Show"))
-            unfolded = unfolded == message.number ? 0 : message.number;
-        ImGui::PopID();
-        note_place(frame, "unfold message");
-        tooltip("One line for each of them");
-        if (unfolded != message.number)
-            return;
-    }
-    for (const std::string& detail : message.details) {
-        ImGui::SetCursorPosX(left);
-        muted(frame, "-  " + detail);
-    }
 }
 
 /// How long a message stays, seconds; what is wrong stays until it is dismissed.
@@ -130,12 +110,6 @@ MessageStrip message_strip(Frame& frame, float width)
     const float room = 3 * ImGui::GetTextLineHeight();
     strip.height = room + 2 * style.WindowPadding.y;
     std::vector<Message> all = current(frame);
-    for (const Message& message : all)
-        if (message.number == frame.ui.unfolded_message && !message.details.empty()) { // by the user's own click
-            constexpr float most_lines = 10;
-            const float lines = std::min(most_lines, float(message.details.size()) + 1);
-            strip.height += lines * ImGui::GetTextLineHeightWithSpacing();
-        }
     add_first_steps(frame, all);
     float left = room;
     for (Message& message : all) {
@@ -161,7 +135,7 @@ void draw_messages(Frame& frame, const MessageStrip& strip)
     const float buttons = buttons_width(frame, strip.more);
     ImGui::BeginChild("texts", {ImGui::GetContentRegionAvail().x - buttons, 0});
     for (const Message& message : strip.shown)
-        message_row(frame, message, true);
+        message_row(frame, message);
     ImGui::EndChild();
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ImGui::GetStyle().ItemSpacing.x);
     if (strip.more > 0) {
@@ -186,9 +160,9 @@ void messages_window(Frame& frame)
         ImGuiCond_Appearing);
     if (ImGui::Begin("Messages", &frame.ui.show_messages, ImGuiWindowFlags_NoCollapse)) {
         if (frame.state.messages.empty())
-            muted(frame, "Nothing has been said yet.");
+            muted(frame, "No messages yet.");
         for (auto message = frame.state.messages.rbegin(); message != frame.state.messages.rend(); ++message)
-            message_row(frame, *message, false);
+            message_row(frame, *message);
     }
     ImGui::End();
 }

@@ -16,7 +16,7 @@ void edge_input(Frame& frame)
     const FlattenOptions& sheet = document.session.options.flatten;
     float percent = float(100 * document.edge_restraint);
     ImGui::SetNextItemWidth(110 * frame.ui.scale);
-    if (ImGui::SliderFloat("Edge held", &percent, 0, 100, "%.0f %%"))
+    if (ImGui::SliderFloat("Edge restraint", &percent, 0, 100, "%.0f %%"))
         frame.actions.push(SetProcess{std::clamp(percent / 100., 0., 1.), document.rolling});
     tooltip(
         "Restraint of the outer edge, as a share of the lock force: the force per length at which the sheet would tear "
@@ -43,8 +43,7 @@ void rolling_input(Frame& frame)
                                                 : wanted == 4 ? std::optional(document.rolling.value_or(axes.col(0)))
                                                               : std::optional<Eigen::Vector3d>(axes.col(wanted - 1))});
     tooltip(
-        "Rolling direction of the sheet, seen along the stamping direction: each r-value (along, across, at 45\u00b0) then counts "
-        "in its own direction. Isotropic: their mean in all directions.");
+        "Rolling direction of the sheet, seen along the stamping direction: the r-values at 0, 45 and 90\u00b0 then apply in their own directions. Isotropic: their mean in all directions.");
     if (now != 4)
         return;
     Eigen::Vector3d edited = *document.rolling;
@@ -82,10 +81,12 @@ bool shape_inputs(Frame& frame, ProcessLine& bead)
         bead.shape = by_shape ? std::optional(BeadShape{}) : std::nullopt;
     if (!bead.shape)
         return changed;
-    changed |= bead_length(frame, "Bead radius", bead.shape->radius, 1e-3, 1e3, "Of the bead that presses");
-    changed |= bead_length(frame, "Shoulder radius", bead.shape->shoulder_radius, 1e-3, 1e3, "Of the groove's edges");
-    changed |= bead_length(frame, "Depth", bead.shape->depth, 0, 1e3, "How far it pushes the sheet out of its plane");
-    changed |= number_input(frame, "Friction", bead.shape->friction, 0, 10, "Coefficient in the bead");
+    changed |= bead_length(frame, "Bead radius", bead.shape->radius, 1e-3, 1e3, "Radius of the male bead");
+    changed |= bead_length(frame, "Shoulder radius", bead.shape->shoulder_radius, 1e-3, 1e3,
+                           "Radius of the edges of the groove");
+    changed |= bead_length(frame, "Depth", bead.shape->depth, 0, 1e3,
+                           "Height by which the bead presses the sheet into the groove");
+    changed |= number_input(frame, "Friction", bead.shape->friction, 0, 10, "Friction coefficient in the bead");
     return changed;
 }
 
@@ -98,7 +99,7 @@ void line_row(Frame& frame, int number, const ProcessLine& line)
     const float buttons = ImGui::CalcTextSize("x").x + 2 * ImGui::GetStyle().FramePadding.x;
     const bool open =
         ImGui::TreeNodeEx("line", ImGuiTreeNodeFlags_AllowItemOverlap, "%s   %s", line.name.c_str(), force.c_str());
-    tooltip(bead ? "Drawbead: restrains the sheet across its line" : "Pilot: the sheet does not move here");
+    tooltip(bead ? "Drawbead: restrains the sheet across its line" : "Pilot: the sheet is held here");
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons);
     if (ImGui::SmallButton("x"))
         frame.actions.push(RemoveLine{number});
@@ -126,8 +127,7 @@ void process_section(Frame& frame)
     if (!document.session.part)
         return;
     const bool open = ImGui::CollapsingHeader("Process");
-    tooltip(
-        "What the tools do: drawbeads, pilots, the held edge. Binder, pad and punch are regions with a force or pressure.");
+    tooltip("Drawbeads, pilots and edge restraint. Binder, pad and punch are regions with a force or pressure.");
     if (!open)
         return;
     edge_input(frame);

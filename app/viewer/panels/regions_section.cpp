@@ -46,10 +46,10 @@ void contact_inputs(Frame& frame, int number, const FaceRegion& region)
         ImGui::SameLine();
         ImGui::SetNextItemWidth(width);
         changed |= ImGui::Combo("##unit", &by_pressure, "kN\0MPa\0");
-        tooltip("kN: the whole force along the stamping direction. MPa: pressure on the faces.");
+        tooltip("kN: total force along the stamping direction. MPa: pressure on the faces.");
         ImGui::SetNextItemWidth(width);
         changed |= typed_number(frame, "Friction", contact->friction, "%.3g");
-        tooltip("Coefficient of Coulomb friction of each side");
+        tooltip("Coulomb friction coefficient per side");
         amount = std::clamp(amount, 1e-6, 1e5);
         contact->friction = std::clamp(contact->friction, 0., 10.);
         contact->force_N = by_pressure ? std::nullopt : std::optional(1000 * amount);
@@ -65,12 +65,12 @@ void sheet_inputs(Frame& frame, int number, const FaceRegion& region)
     const Document& document = frame.state.document;
     std::optional<OwnSheet> sheet = region.sheet;
     bool own = sheet.has_value(), changed = false;
-    if (ImGui::Checkbox("A sheet of its own", &own)) {
+    if (ImGui::Checkbox("Own sheet (tailored blank)", &own)) {
         sheet =
             own ? std::optional(OwnSheet{document.material, document.session.options.flatten.thickness}) : std::nullopt;
         changed = true;
     }
-    tooltip("Another gauge or grade here: a tailored blank");
+    tooltip("Another thickness or grade in this region, as in a tailored blank");
     if (sheet) {
         ImGui::SetNextItemWidth(-1);
         if (ImGui::BeginCombo("##grade", std::filesystem::path(sheet->material).filename().c_str())) {
@@ -147,7 +147,7 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
         if (!edit)
             frame.actions.push(SelectRegion{number, ImGui::GetIO().KeyShift ? PickMode::add : PickMode::replace});
     }
-    tooltip(fmt::format("{}: {} region of {} faces. A click selects them, a double click changes name and kind.",
+    tooltip(fmt::format("{}: {} region of {} faces. Click to select them, double-click to change name and kind.",
                         region.name, name(region.kind), region.faces.size()));
     ImGui::SameLine();
     edit |= ImGui::Button("edit");
@@ -157,7 +157,7 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
         frame.actions.push(RemoveRegion{number});
         frame.ui.edited_region.reset(); // the numbers of those after it change
     }
-    tooltip("Remove this region (its faces stay)");
+    tooltip("Remove this region; the faces are kept");
     if (edit)
         frame.ui.edited_region = edit_of(frame.state.document, number);
     if (const std::string load = load_words(region, frame.lengths()); !load.empty()) {
@@ -195,7 +195,7 @@ void regions_section(Frame& frame)
     }
     if (document.selected.empty()) {
         coloured(p.muted, document.regions.empty()
-                              ? "Select faces with a picking tool, then say here what they are: fixed, binder, pad."
+                              ? "Select faces with a picking tool, then make a region of them here: fixed, binder, pad."
                               : "Select faces to make another region.");
         return;
     }

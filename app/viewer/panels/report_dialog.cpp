@@ -34,9 +34,9 @@ void pictures_column(const Frame& frame, ReportOptions& options)
         ImGui::EndDisabled();
     }
     heading(frame, "How they look");
-    if (ImGui::RadioButton("Standard: light, whole, thinning", options.standard_look))
+    if (ImGui::RadioButton("Standard: light background, whole part, thinning", options.standard_look))
         options.standard_look = true;
-    if (ImGui::RadioButton("The views as they are now", !options.standard_look))
+    if (ImGui::RadioButton("Current views", !options.standard_look))
         options.standard_look = false;
 }
 
@@ -44,10 +44,10 @@ void tables_column(const Frame& frame, ReportTables& tables)
 {
     heading(frame, "Tables");
     ImGui::Checkbox("Key figures", &tables.key_figures);
-    ImGui::Checkbox("Where the sheet thins most", &tables.worst_spots);
+    ImGui::Checkbox("Largest thinning", &tables.worst_spots);
     ImGui::Checkbox("Assumptions", &tables.assumptions);
-    ImGui::Checkbox("How the solver got there", &tables.solver);
-    ImGui::Checkbox("The part as it was read", &tables.repairs);
+    ImGui::Checkbox("Convergence of the solver", &tables.solver);
+    ImGui::Checkbox("Input part", &tables.repairs);
     muted(frame, "Warnings about the result are always in the report.");
 }
 

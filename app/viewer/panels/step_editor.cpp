@@ -62,7 +62,7 @@ bool target_editor(Frame& frame, int number, ChangeStep& edited)
     const Document& document = frame.state.document;
     const PlannedStep& step = *document.steps[size_t(number)];
     StepTarget target = numbers_of(step);
-    static constexpr const char* names[] = {"fitted to what stays", "plane", "cylinder", "cone"};
+    static constexpr const char* names[] = {"fitted to the fixed faces", "plane", "cylinder", "cone"};
     const int now = int(kind_of(target));
     int wanted = now;
     bool changed = false;
@@ -74,7 +74,7 @@ bool target_editor(Frame& frame, int number, ChangeStep& edited)
         changed = true;
     }
     note_place(frame, "target");
-    tooltip("The face onto which it unfolds, translucent in the view");
+    tooltip("Target surface onto which the faces are unfolded, translucent in the view");
     changed |= target_numbers(frame, target);
     if (changed)
         edited.target = target;
@@ -83,15 +83,15 @@ bool target_editor(Frame& frame, int number, ChangeStep& edited)
     if (small_button(frame, "Plane of selection"))
         frame.actions.push(SetTargetPlane{number, {}});
     ImGui::EndDisabled();
-    tooltip(nothing ? "Select faces first: the target becomes the plane through them"
+    tooltip(nothing ? "Select faces first; the target becomes the plane through them"
                     : "The target becomes the plane through the selected faces");
     ImGui::SameLine();
     ImGui::BeginDisabled(nothing);
     if (small_button(frame, "Fit to selection"))
         frame.actions.push(SetCarrying{number, {}});
     ImGui::EndDisabled();
-    tooltip(nothing ? "Select faces that stay first: the target is fitted to them"
-                    : "The target is fitted to the selected faces, which stay");
+    tooltip(nothing ? "Select fixed faces first; the target is fitted to them"
+                    : "Fits the target to the selected faces, which stay fixed");
     return changed;
 }
 
@@ -103,7 +103,7 @@ bool friction_editor(Frame& frame, std::optional<StepFriction>& friction)
         friction = rubs ? std::optional(StepFriction{.pressure_MPa = 1}) : std::nullopt;
         changed = true;
     }
-    tooltip("The target holds back the sheet that slips on it when it is formed");
+    tooltip("Friction between sheet and target during forming");
     if (!friction)
         return changed;
     const float width = 86 * frame.ui.scale;
@@ -114,13 +114,13 @@ bool friction_editor(Frame& frame, std::optional<StepFriction>& friction)
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
     other_amount |= ImGui::Combo("##unit", &by_pressure, "kN\0MPa\0");
-    tooltip("kN: the whole force square to the target. MPa: pressure on the sheet.");
+    tooltip("kN: total force normal to the target. MPa: pressure on the sheet.");
     ImGui::SetNextItemWidth(width);
     changed |= typed_number(frame, "Coefficient", friction->friction, "%.3g");
-    tooltip("Of Coulomb friction of each side");
+    tooltip("Coulomb friction coefficient per side");
     bool both = friction->sides == 2;
     changed |= ImGui::Checkbox("On both sides", &both);
-    tooltip("A pad presses from above and rubs as well");
+    tooltip("A pad on the other side adds its friction");
     friction->sides = both ? 2 : 1;
     friction->friction = std::clamp(friction->friction, 0., 10.);
     if (other_amount) { // else it stays to the last digit: kN and back does not
@@ -161,8 +161,7 @@ bool extent_editor(Frame& frame, std::optional<double>& extent_mm, float width)
     if (changed)
         extent_mm = length > 0 ? std::optional(length) : std::nullopt;
     tooltip(
-        "How far the target goes on beyond the yellow faces. 0: as far as the sheet does. Faces that come to lie farther out "
-        "are told.");
+        "How far the target extends beyond the yellow faces. 0: as far as the sheet. Faces that end up beyond it are reported.");
     return changed;
 }
 
@@ -186,14 +185,13 @@ void step_editor(Frame& frame, int number)
         changed |= target_editor(frame, number, edited);
         ImGui::SetNextItemWidth(width);
         changed |= length_input(frame, "Offset", edited.offset_mm);
-        tooltip("Moves the target to its outer side");
+        tooltip("Shifts the target towards its outer side");
         if (!step.pick.target) {
             ImGui::SetNextItemWidth(width);
             changed |= length_input(frame, "Within", edited.within_mm);
             edited.within_mm = std::max(0., edited.within_mm);
             tooltip(
-                "How far the yellow faces may be from the plane, cylinder or cone that is looked for. 0: automatic; if there is "
-                "none, a smooth face through them.");
+                "Allowed distance of the yellow faces from the fitted plane, cylinder or cone. 0: automatic; if none fits, a smooth surface through them is used.");
         }
         if (!carrying_faces(step).empty())
             changed |= extent_editor(frame, edited.extent_mm, width);
@@ -206,7 +204,7 @@ void step_editor(Frame& frame, int number)
             edited.tolerance = std::clamp(tolerance, least_step_tolerance, most_step_tolerance);
             changed = true;
         }
-        tooltip("Of the solver: a larger one lets a step end that nearly converges");
+        tooltip("Convergence tolerance of the solver; a larger value accepts a step that nearly converges");
     }
     if (changed)
         frame.actions.push(edited);
@@ -227,7 +225,7 @@ void step_editor(Frame& frame, int number)
     ImGui::SameLine();
     if (small_button(frame, "Select faces"))
         frame.actions.push(SelectFaces{step.pick.freed});
-    tooltip("Selects the faces that it moves");
+    tooltip("Selects the moving faces of this step");
 }
 
 void new_step(Frame& frame)
@@ -236,16 +234,17 @@ void new_step(Frame& frame)
     if (!ImGui::TreeNodeEx("Add a step", ImGuiTreeNodeFlags_NoTreePushOnOpen))
         return;
     if (document.regions.empty())
-        return muted(frame, "Make a region of the faces that stay, below, and select those to unfold onto their face.");
+        return muted(frame,
+                     "Make a region of the fixed faces (below), then select the faces to unfold onto their surface.");
     Ui& ui = frame.ui;
     region_combo(frame, "stays", ui.step_fixed, "", own_name);
-    tooltip("The region on whose plane, cylinder, cone or smooth face the others are laid");
+    tooltip("Fixed region; its plane, cylinder, cone or smooth surface is the target");
     region_combo(frame, "unfolds", ui.step_freed, fmt::format("{} selected", document.selected.size()), own_name);
-    tooltip("What moves: with the bend between them");
-    region_combo(frame, "onto", ui.step_onto, "the face of what stays",
+    tooltip("Moving faces, including the bend between them");
+    region_combo(frame, "onto", ui.step_onto, "surface of the fixed region",
                  [](const std::string& name) { return fmt::format("plane of {}", name); });
     tooltip(
-        "Its target: fitted to what stays, or the plane through a region. Numbers can be given once it is in the list.");
+        "Target: fitted to the fixed region, or the plane through another region. Numbers can be given once the step is in the list.");
     const bool nothing = ui.step_freed < 0 && document.selected.empty();
     ImGui::BeginDisabled(nothing || ui.step_fixed == ui.step_freed);
     if (ImGui::Button("Add step", {-1, 0}))

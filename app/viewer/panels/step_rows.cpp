@@ -17,7 +17,7 @@ const char* status_words(StepStatus status)
     case StepStatus::stale: return "out of date";
     case StepStatus::failed: return "no result";
     case StepStatus::needs_pick:
-        return "What carried its target is gone. Select faces that stay and press \"Fit to selection\", or choose a target.";
+        return "The fixed faces of its target are gone. Select fixed faces and press \"Fit to selection\", or choose a target.";
     }
     return "";
 }
@@ -43,7 +43,7 @@ constexpr double no_distance_mm = 5e-4, no_angle_deg = 0.05, no_strain = 5e-4;
 /// How well the target goes on from what stays.
 std::string hinge_words(const StepFigures::Hinge& hinge, LengthUnit lengths)
 {
-    return fmt::format("hinge {} off, turned {:.1f}\u00b0",
+    return fmt::format("hinge offset {}, {:.1f}\u00b0",
                        length_text(hinge.distance_mm < no_distance_mm ? 0 : hinge.distance_mm, lengths, 2),
                        hinge.angle_deg);
 }
@@ -76,19 +76,17 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
         const bool bad = figures.hinge && figures.hinge->bad;
         muted(frame, figures_words(after.plain, figures, frame.lengths()));
         tooltip(
-            "What it was laid on; equivalent strain and thinning per face of the faces that it moves; where these hang on what "
-            "stays, how far the target lies beside it, and by how much it turns from it. What is nothing when rounded is left out.");
+            "Target; equivalent strain and thinning of the moving faces; offset and angle of the target at the hinge to the fixed faces. Values that round to 0 are left out.");
         if (bad) {
             coloured(p.warning, hinge_words(*figures.hinge, frame.lengths()));
             tooltip(
-                "Where what moves hangs on what stays the target lies beside it or turns from it: the sheet has a step or a "
-                "crease there. Fit the target to other faces, or give it other numbers.");
+                "At the hinge between moving and fixed faces the target is offset or at an angle: the sheet has a step or a crease there. Fit the target to other faces, or give other numbers.");
         }
         if (after.necking > 0) {
             coloured(p.warning,
-                     fmt::format("{} face{} beyond trusted strain", after.necking, after.necking == 1 ? "" : "s"));
+                     fmt::format("{} face{} beyond the hardening curve", after.necking, after.necking == 1 ? "" : "s"));
             tooltip(
-                "Strained beyond what the hardening curve is trusted to: extrapolated, the sheet would neck or tear there");
+                "Strain beyond the valid range of the hardening curve, extrapolated: the sheet would neck or crack there");
         }
         if (after.friction_share < 1)
             coloured(p.warning, fmt::format("{:.2g} % of its friction", 100 * after.friction_share));
@@ -179,8 +177,8 @@ void step_row(Frame& frame, int number)
         frame.actions.push(chosen ? ShowStep{} : ShowStep{number, {}});
     }
     note_place(frame, fmt::format("step {}", number + 1));
-    tooltip(fmt::format("{}: {} faces. A click shows it and lets change it, another one shows the part again.",
-                        step.name, step.pick.freed.size()));
+    tooltip(fmt::format("{}: {} faces. Click to show and edit the step, click again to return to the part.", step.name,
+                        step.pick.freed.size()));
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddCircleFilled({at.x + r, at.y + ImGui::GetTextLineHeight() / 2}, r, ink(status_colour(p, status)), 16);
     draw->AddText({at.x + text_from, at.y}, ImGui::GetColorU32(ImGuiCol_Text),

@@ -25,8 +25,8 @@ Status status(const Frame& frame, Stage stage, bool there)
 /// Where a part that is no sheet was cut open.
 void seam_rows(Frame& frame, const PartFile& part)
 {
-    figure(frame, "Cut open along", length_text(part.seam_length, frame.lengths()));
-    tooltip("To cut it elsewhere, draw a seam with the tool Line");
+    figure(frame, "Seam length", length_text(part.seam_length, frame.lengths()));
+    tooltip("To cut elsewhere, draw a seam with the tool Line");
     if (frame.state.document.session.options.read.seam.mode != SeamOptions::Mode::given)
         return;
     ImGui::BeginDisabled(frame.model.busy());
@@ -39,7 +39,7 @@ void part_step(Frame& frame)
 {
     const Session& session = frame.state.document.session;
     step_heading(frame, 1, "Part",
-                 frame.state.refused
+                 frame.state.refused && !frame.state.refused_file
                      ? Status::failed
                      : light(frame, ChainStep::part, status(frame, Stage::read, session.part != nullptr)));
     if (ImGui::Button("Open..."))
@@ -53,6 +53,11 @@ void part_step(Frame& frame)
         return;
     }
     const PartFile& part = *session.part;
+    if (shows_refused(frame.state)) {
+        refused_notice(frame);
+        doctor_panel(frame);
+        return;
+    }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(70 * frame.ui.scale);
     static constexpr const char* units[] = {"mm", "cm", "m", "inch"};
@@ -62,10 +67,11 @@ void part_step(Frame& frame)
     if (ImGui::Combo("##unit", &unit, units, 4))
         frame.actions.push(SetUnit{units[unit]});
     ImGui::EndDisabled();
-    tooltip(stated ? "The file says its length unit itself" : "Length unit of the file");
+    tooltip(stated ? "The length unit is stated in the file" : "Length unit of the file");
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(session.file.filename().string().c_str());
     ImGui::PopTextWrapPos();
+    refused_notice(frame);
     const Eigen::Vector3d size = part_figures(frame).size / millimetres(frame.lengths());
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
     figure(frame, "Size",
@@ -142,10 +148,9 @@ void direction_control(Frame& frame)
     tooltip(
         session.blank && !chosen
             ? fmt::format(
-                  "Stamping direction, found: {:.3f}, {:.3f}, {:.3f}. It gives the unfolding its start, the plane of the blank "
-                  "and its outer side.",
+                  "Stamping direction found: {:.3f}, {:.3f}, {:.3f}. It defines the start of the unfolding, the plane of the blank and the outer side.",
                   found[0], found[1], found[2])
-            : "Stamping direction, that of the press. It gives the unfolding its start, the plane of the blank and its outer side.");
+            : "Stamping direction of the press. It defines the start of the unfolding, the plane of the blank and the outer side.");
     if (now != 4)
         return;
     Eigen::Vector3d edited = *chosen;
@@ -162,7 +167,7 @@ void skins_control(Frame& frame)
     bool skins = session.options.flatten.skins;
     if (ImGui::Checkbox("Strains of both skins", &skins))
         frame.actions.push(SetSkins{skins});
-    tooltip("Adds bending over radii to the strain of the middle surface, as fields of their own");
+    tooltip("Adds the bending strain at radii to the strain of the middle surface, as separate fields");
 }
 
 void unfold_step(Frame& frame)
@@ -177,9 +182,8 @@ void unfold_step(Frame& frame)
     if (ImGui::Button("Unfold"))
         frame.actions.push(RunTo{Stage::solve});
     ImGui::EndDisabled();
-    tooltip(of_steps
-                ? "Finds the flat blank that one forming step turns into the part, in place of that of the steps  (F6)"
-                : "Finds the flat blank that one forming step turns into the part  (F6)");
+    tooltip(of_steps ? "Computes the flat blank of the part in one step and replaces the blank of the steps  (F6)"
+                     : "Computes the flat blank of the part in one step  (F6)");
     if (!session.blank) {
         direction_control(frame);
         skins_control(frame);
@@ -207,7 +211,7 @@ void unfold_step(Frame& frame)
     const SheetFigures& sheet = sheet_figures(frame);
     figure(frame, "Blank", size_text(sheet.size[0], sheet.size[1], frame.lengths()));
     figure(frame, "Thinning", percent_range(sheet.thinning));
-    tooltip("Least and greatest of all faces; below 0 the sheet became thicker");
+    tooltip("Smallest and largest value of all faces; negative: thicker than before");
     figure(frame, "Equivalent strain",
            sheet.strain_equivalent > 0 ? "up to " + figure_text(sheet.strain_equivalent, 3) : "0");
     if (!of_steps || steps->polish)
@@ -225,18 +229,18 @@ void grid_step(Frame& frame)
                  light(frame, ChainStep::grid, status(frame, Stage::grid, session.grid != nullptr)));
     doubt_rows(frame, ChainStep::grid);
     if (!session.blank) {
-        muted(frame, "Comes after the blank.");
+        muted(frame, "Unfold the part first.");
         return;
     }
     if (session.options.patches) {
-        muted(frame, "Not needed: the surface is made of patches, which have grids of their own.");
+        muted(frame, "Not needed: each patch of the surface has its own grid.");
         return;
     }
     ImGui::BeginDisabled(!session.options.corners);
     if (ImGui::Button("Propose corners"))
         frame.actions.push(ProposeCorners{});
     ImGui::EndDisabled();
-    tooltip("Chooses the four corners anew. Or drag them along the outline of the blank.");
+    tooltip("Chooses the four corners automatically. You can also drag them along the outline of the blank.");
     GridOptions grid = session.options.grid;
     bool changed = false;
     const float width = 110 * frame.ui.scale;
@@ -247,7 +251,7 @@ void grid_step(Frame& frame)
         grid.rows = square || !session.grid ? 0 : session.grid->result.planar.rows;
         changed = true;
     }
-    tooltip("Only the cells on the longer sides are chosen, the others follow");
+    tooltip("Give the number of cells along the longer sides; the other number follows");
     ImGui::SetNextItemWidth(width);
     if (automatic) {
         changed |= typed_integer(frame, "Cells", grid.cells, 5);
@@ -266,12 +270,12 @@ void grid_step(Frame& frame)
         changed = true;
     }
     tooltip(
-        "Coons is the paper's patch, smoothed if it folds; automatic falls back on the harmonic map, which folds no cell");
+        "Coons: Coons patch, smoothed where cells fold. Harmonic: harmonic map, without folded cells. Automatic: Coons, or harmonic where it folds");
     if (grid.method != GridMethod::harmonic) {
         ImGui::SetNextItemWidth(width);
         changed |= typed_integer(frame, "Smoothing", grid.smoothing, 10);
         grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
-        tooltip("The most Laplacian sweeps over a Coons patch that folds");
+        tooltip("Maximum number of Laplacian smoothing sweeps over a Coons patch with folded cells");
     }
     double percent = 100 * grid.to_bends;
     ImGui::SetNextItemWidth(width);
@@ -280,9 +284,9 @@ void grid_step(Frame& frame)
         changed = true;
     }
     tooltip(
-        "This share of the lines goes where the part bends, the others lie evenly. 50 suits a flat part with narrow bends.");
-    changed |= ImGui::Checkbox("Even out inside", &grid.even_cells);
-    tooltip("Moves the inner nodes towards right angles; no cell folds on the way");
+        "Share of the grid lines concentrated at bends; the others are spaced evenly. 50 suits a flat part with narrow bends.");
+    changed |= ImGui::Checkbox("Improve cell angles", &grid.even_cells);
+    tooltip("Moves the inner nodes to bring the cell angles closer to 90\u00b0, without folding a cell");
     if (changed)
         frame.actions.push(SetGrid{grid});
     if (session.grid) {
@@ -299,10 +303,9 @@ void grid_step(Frame& frame)
         figure(frame, "Worst scaled Jacobian", fmt::format("{:.3f}", figures.scaled_jacobian));
         ImGui::PopStyleColor();
         tooltip("1 in a rectangle, 0 where a cell folds");
-        figure(frame, "in column, row", fmt::format("{}, {}", figures.column, figures.row));
+        figure(frame, "In cell (column, row)", fmt::format("{}, {}", figures.column, figures.row));
         tooltip(
-            "Of this cell, counted from 0: column along the side from corner 1 to 2, row from corner 1 to 4. It has a ring "
-            "in the quad mesh.");
+            "Cell with the smallest value, counted from 0: column from corner 1 to 2, row from corner 1 to 4. It is circled in the quad mesh.");
         std::string lengths;
         for (const double length : figures.side)
             lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", shown_length(length, frame.lengths()));
@@ -317,12 +320,12 @@ void surface_step(Frame& frame)
                  light(frame, ChainStep::surface, status(frame, Stage::fit, session.surface != nullptr)));
     doubt_rows(frame, ChainStep::surface);
     if (!session.blank) {
-        muted(frame, "Comes after the grid.");
+        muted(frame, "Make the grid first.");
         return;
     }
     patches_editor(frame);
     if (!session.surface) {
-        muted(frame, session.options.patches ? "Comes after the blank." : "Comes after the grid.");
+        muted(frame, session.options.patches ? "Unfold the part first." : "Make the grid first.");
         return;
     }
     fit_editor(frame, fit_choice(session.options));

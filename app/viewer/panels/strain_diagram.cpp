@@ -166,8 +166,7 @@ void strain_diagram(Frame& frame)
         return;
     const bool open = ImGui::CollapsingHeader("Strain diagram", ImGuiTreeNodeFlags_DefaultOpen);
     tooltip(
-        "Every face as a point: major over minor logarithmic strain; the more of them, the more solid. Red line: forming "
-        "limit, dashed: margin. Red points: beyond the limit, or without a curve beyond the trusted strain. Click a point to select its face, drag a box to select many.");
+        "Each point is a face: major over minor logarithmic strain. Red line: forming limit, dashed: margin. Red points: above the limit or, without a curve, beyond the valid range of the hardening curve. Click a point to select its face, drag a box to select several.");
     if (!open)
         return;
     const SheetFields& face = document.session.blank->face;

@@ -39,33 +39,34 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
     const Palette p = palette_of(frame.state.view.dark);
     const auto why_not = unsuited(certificate);
     ImGui::PushStyleColor(ImGuiCol_Text, why_not ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-    figure(frame, "For analysis", why_not ? "not proved" : "no fold: proved");
+    figure(frame, "For analysis", why_not ? "not proved" : "no folds (proved)");
     ImGui::PopStyleColor();
     tooltip(why_not ? *why_not
-                    : "The normal never vanishes nor turns round: proved by the Bezier coefficients of every span");
+                    : "The surface normal never vanishes or flips; proved by the Bezier coefficients of every span");
     if (certificate.patch.empty())
         return;
     const size_t sharp = worst(certificate, [](const PatchCertificate& c) { return -c.least_scaled; });
     figure(frame, "Least scaled Jacobian",
            fmt::format("{:.3f}", certificate.patch[sharp].least_scaled) + of_patch(certificate, sharp));
-    tooltip("The sine of the angle between the parameter lines: 1 is best, 0 where they become one");
+    tooltip("Sine of the angle between the parameter lines: 1 is best, 0 is degenerate");
     const size_t flat = worst(certificate, [](const PatchCertificate& c) { return c.condition; });
     figure(frame, "Condition, worst", value_text(certificate.patch[flat].condition, "") + of_patch(certificate, flat));
-    tooltip("1 where the surface is a square grid, large where its spans are long or slanted");
+    tooltip("1 for square spans, large for long or skewed spans");
     const size_t slim = worst(certificate, [](const PatchCertificate& c) { return c.aspect; });
     figure(frame, "Span aspect, worst", value_text(certificate.patch[slim].aspect, "") + of_patch(certificate, slim));
     if (certificate.interfaces.empty())
         return;
     figure(frame, "Joints of patches", fmt::format("{}", certificate.interfaces.size()));
     ImGui::PushStyleColor(ImGuiCol_Text, certificate.leak.empty() ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.error);
-    figure(frame, "Gaps", certificate.leak.empty() ? "none, bit for bit" : "yes");
+    figure(frame, "Gaps", certificate.leak.empty() ? "none (exact)" : "yes");
     ImGui::PopStyleColor();
-    tooltip(certificate.leak.empty() ? "Patches share the knots and control points of their sides" : certificate.leak);
+    tooltip(certificate.leak.empty() ? "Neighbouring patches share the knots and control points of their common side"
+                                     : certificate.leak);
     double angle = 0;
     for (const InterfaceCertificate& joint : certificate.interfaces)
         angle = std::max(angle, joint.greatest_angle);
     figure(frame, "Angle at joints", fmt::format("up to {:.3g}\u00b0", angle * 180 / std::numbers::pi));
-    tooltip("Between the normals of two patches at their common side: 0 where they join smoothly");
+    tooltip("Angle between the normals of two patches at their common side; 0 where they join smoothly");
 }
 
 void picked_handles(Frame& frame, HandleKind kind)
@@ -93,9 +94,9 @@ void shape_editor(Frame& frame)
     const bool lattice = deformation && deformation->lattice;
     const HandleKind kind = frame.state.view.handles;
     ImGui::Dummy({0, 2 * frame.ui.scale});
-    if (small_button(frame, lattice ? "Remove lattice" : "Lay a lattice"))
+    if (small_button(frame, lattice ? "Remove lattice" : "Add lattice"))
         frame.actions.push(SetLattice{lattice ? std::nullopt : std::optional(LatticeChoice{})});
-    tooltip(lattice ? "Its bend is taken back" : "Around the surface: its points are dragged to bend all of it");
+    tooltip(lattice ? "Undoes its deformation" : "Around the surface; drag its points to deform the whole surface");
     if (lattice) {
         double count[3];
         for (size_t k = 0; k < 3; ++k)
@@ -109,7 +110,7 @@ void shape_editor(Frame& frame)
             }
             frame.actions.push(SetLattice{choice});
         }
-        tooltip("Along x, y and z. Another lattice begins at rest.");
+        tooltip("Points along x, y and z; another number resets the lattice");
     }
     if (frame.state.view.tool == Tool::shape && (kind == HandleKind::control || lattice))
         picked_handles(frame, kind);
@@ -117,16 +118,14 @@ void shape_editor(Frame& frame)
         return;
     figure(frame, "Moved by up to", length_text(session.deformed->result.largest, frame.lengths()));
     if (lattice && !frame.state.shape_dragged && session.deformed->result.off_lattice > 0) {
-        figure(frame, "Off the lattice's bend", length_text(session.deformed->result.off_lattice, frame.lengths(), 2));
+        figure(frame, "Lattice error", length_text(session.deformed->result.off_lattice, frame.lengths(), 2));
         tooltip(
-            "As far is the surface of the moved control points from the surface bent by the lattice itself; more control points "
-            "bring it nearer");
+            "Distance between the NURBS surface and the exact deformation by the lattice; more control points reduce it");
     }
     for (const HandleKind each : {HandleKind::control, HandleKind::lattice}) {
         const bool there =
             each == HandleKind::control ? !deformation->moves.empty() : lattice && !deformation->lattice->at_rest();
-        if (there &&
-            small_button(frame, each == HandleKind::control ? "Take control points back" : "Take lattice points back"))
+        if (there && small_button(frame, each == HandleKind::control ? "Reset control points" : "Reset lattice points"))
             frame.actions.push(ResetHandles{each});
     }
 }
@@ -138,8 +137,7 @@ bool surface_look_combo(const Frame& frame, SurfaceLook& look)
     int chosen = int(look);
     ImGui::SetNextItemWidth(150 * frame.ui.scale);
     const bool changed = ImGui::Combo("Colours", &chosen, names, IM_ARRAYSIZE(names));
-    tooltip(
-        "Of the NURBS surface. Zebra stripes break where it has a kink and bend sharply where its curvature jumps.");
+    tooltip("Colours of the NURBS surface. Zebra stripes break at kinks and bend sharply where the curvature jumps.");
     look = SurfaceLook(chosen);
     return changed;
 }
@@ -154,7 +152,7 @@ void edges_editor(Frame& frame, const LayoutOptions& patches)
         changed.edge_deg = at_edges ? LayoutOptions{}.edge_deg : none;
         frame.actions.push(SetPatches{changed});
     }
-    tooltip("Patches end where the sheet turns sharply over a line: a smooth surface needs few control points then");
+    tooltip("Patches end at sharp edges, so that each smooth patch needs fewer control points");
     if (!at_edges)
         return;
     ImGui::SetNextItemWidth(70 * frame.ui.scale);
@@ -162,7 +160,7 @@ void edges_editor(Frame& frame, const LayoutOptions& patches)
         changed.edge_deg = std::clamp(changed.edge_deg, 1., none);
         frame.actions.push(SetPatches{changed});
     }
-    tooltip("How far the sheet turns over an edge at which patches end");
+    tooltip("Smallest angle between faces that counts as a sharp edge");
 }
 
 void patches_editor(Frame& frame)
@@ -175,8 +173,7 @@ void patches_editor(Frame& frame)
     if (ImGui::Combo("Made of", &chosen, names, 2) && (chosen == 1) != patches.has_value())
         frame.actions.push(SetPatches{chosen == 1 ? std::optional(LayoutOptions{}) : std::nullopt});
     tooltip(
-        "One patch goes over the holes, by which CAD files trim it. Patches leave them open, which analysis needs; they "
-        "join without a gap.");
+        "One patch covers the holes; CAD files trim it there. Several patches leave the holes open, as analysis needs, and join without gaps.");
     if (!patches)
         return;
     for (size_t k = 0; k < patches->cuts.size(); ++k) {
@@ -184,7 +181,7 @@ void patches_editor(Frame& frame)
         if (small_button(frame, "x"))
             frame.actions.push(RemoveCut{int(k)});
         ImGui::PopID();
-        tooltip("Take this cut away");
+        tooltip("Remove this cut");
         ImGui::SameLine();
         muted(frame, cut_name(patches->cuts[k]));
     }
@@ -196,9 +193,9 @@ void patches_editor(Frame& frame)
         changed.smooth_joins = smooth;
         frame.actions.push(SetPatches{changed});
     }
-    tooltip("Takes the angles between patches away, as far as the tolerance allows; edges of the part stay");
+    tooltip("Makes patches join smoothly as far as the tolerance allows; sharp edges of the part are kept");
     if (patches->cuts.empty())
-        muted(frame, "To cut by hand, pick two vertices of the border with the tool Vertex.");
+        muted(frame, "To add a cut, pick two vertices of the border with the tool Vertex.");
 }
 
 void surface_figures(Frame& frame, const SurfaceStage& surface)
@@ -208,7 +205,7 @@ void surface_figures(Frame& frame, const SurfaceStage& surface)
         if (patches->layout.edges > 0)
             figure(frame, "Sharp edges", fmt::format("{}", patches->layout.edges));
         figure(frame, "Control points", fmt::format("{}", shared_controls(patches->patches).count));
-        tooltip("Those of joints count once");
+        tooltip("Control points shared by patches count once");
     } else {
         figure(frame, "Control points",
                fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));

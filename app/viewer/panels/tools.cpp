@@ -24,17 +24,16 @@ constexpr ToolButton tools[] = {
     {Tool::box, "Box", "Pick all faces in a box  (B)", GLFW_KEY_B},
     {Tool::lasso, "Lasso", "Pick all faces inside a drawn line  (L)", GLFW_KEY_L},
     {Tool::brush, "Brush", "Paint faces  (U)", GLFW_KEY_U},
-    {Tool::flood, "Flood", "Pick all around a face up to an angle between neighbours  (R)", GLFW_KEY_R},
-    {Tool::smooth_region, "Smooth", "Pick the smooth piece of sheet around a face  (N)", GLFW_KEY_N},
+    {Tool::flood, "Flood", "Pick the faces around a face, up to an angle between neighbours  (R)", GLFW_KEY_R},
+    {Tool::smooth_region, "Smooth", "Pick the smooth region around a face  (N)", GLFW_KEY_N},
     {Tool::vertex, "Vertex", "Pick vertices; two show their distance. Shift adds, Ctrl takes away  (D)", GLFW_KEY_D},
     {Tool::outline, "Outline",
-     "Pick vertices of the outline and the holes; sharp turns attract the mouse. Four of the outline can become the corners "
-     "of the grid  (G)",
+     "Pick vertices of the outline and the holes, snapping to sharp corners. Four on the outline can become the corners of the grid  (G)",
      GLFW_KEY_G},
     {Tool::line, "Line",
-     "Draw a drawbead, a pilot or a seam on the part, place by place; Return or a double click ends it, Escape drops it  (W)",
+     "Draw a drawbead, pilot or seam on the part point by point; Return or a double click ends it, Escape cancels it  (W)",
      GLFW_KEY_W},
-    {Tool::probe, "Probe", "Pin the value at a place  (O)", GLFW_KEY_O},
+    {Tool::probe, "Probe", "Pin a label with the value at a point  (O)", GLFW_KEY_O},
     {Tool::section, "Section", "Draw a line: the field is plotted along the cut  (X)", GLFW_KEY_X},
     {Tool::shape, "Shape",
      "Pick control points of the surface, or points of its lattice, and drag them; Shift adds, Ctrl takes away  (K)",
@@ -121,7 +120,7 @@ void tool_options(Frame& frame, const BarStyle& style)
             settings.handles = HandleKind(kind);
             frame.actions.push(SetViewSettings{settings});
         }
-        tooltip("What is dragged in the view of the surface. A lattice is laid around it in the step NURBS surface.");
+        tooltip("Points to drag in the surface view. Add a lattice in the step NURBS surface.");
         return;
     }
     if (settings.tool == Tool::line) {
@@ -151,7 +150,7 @@ void tool_options(Frame& frame, const BarStyle& style)
     }
     if (settings.tool != Tool::flood) {
         changed |= ImGui::Checkbox(hidden_too, &settings.through);
-        tooltip("Take the faces behind others, too");
+        tooltip("Select hidden faces too");
     }
     if (changed)
         frame.actions.push(SetViewSettings{settings});
@@ -354,7 +353,7 @@ void shortcuts(Frame& frame)
                 frame.ui.show_export = true;
             else
                 frame.model.say(Severity::hint, frame.state.job.running
-                                                    ? "There is nothing to export yet: the blank is being made."
+                                                    ? "There is nothing to export yet: the blank is being computed."
                                                     : "There is nothing to export yet: unfold the part first  (F6).");
         }
         if (pressed(GLFW_KEY_Q))

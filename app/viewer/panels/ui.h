@@ -75,8 +75,7 @@ struct Ui {
     bool show_export = false, show_picture = false, show_report = false, show_material = false,
          show_preferences = false, show_about = false, show_animation = false; ///< dialogs that open in the next frame
     std::map<int, double> message_since;                                       ///< seconds; by number
-    int unfolded_message = 0; ///< the one whose details are shown; 0: none
-    double wake_at = 0;       ///< seconds of ImGui's clock: the window changes then without an event; 0: no
+    double wake_at = 0; ///< seconds of ImGui's clock: the window changes then without an event; 0: no
     FileDialog files;
     DialogQueue dialogs;
     std::optional<View>
@@ -194,6 +193,8 @@ void unfolding_section(Frame& frame);
 void note_place(Frame& frame, const std::string& name);
 /// What the mesh doctor found, where, and what can be done about it.
 void doctor_panel(Frame& frame);
+/// A file that was refused while a part was open, with the way to its faults and back.
+void refused_notice(Frame& frame);
 /// Residual of the running job over its steps, logarithmic; nothing before there are two.
 void residual_plot(Frame& frame);
 float residual_plot_height(const Frame& frame); ///< pixels

@@ -16,15 +16,13 @@ void next_button(Frame& frame)
 {
     const Document& document = frame.state.document;
     if (document.steps.empty()) {
-        muted(
-            frame,
-            "For a part that is not made in one hit: its flanges are laid flat one after another, the outermost first.");
+        muted(frame,
+              "For parts made in several operations: flanges are unfolded one after another, the outermost first.");
         if (primary_button(frame, "Propose steps", idle(frame)))
             frame.actions.push(ProposeSteps{});
         note_place(frame, "propose steps");
         tooltip(
-            "Splits the part at its bends and says in which order it can be unfolded; the largest flat region stays. All "
-            "of it can be changed.");
+            "Splits the part at its bends and proposes the order of unfolding; the largest flat region stays fixed. All steps can be edited.");
         return;
     }
     if (all_steps_done(document))
@@ -35,7 +33,7 @@ void next_button(Frame& frame)
                        idle(frame)))
         frame.actions.push(RunSteps{});
     note_place(frame, "run steps");
-    tooltip(again ? "The states before it are kept" : "Runs every step that is missing or out of date");
+    tooltip(again ? "Earlier states are kept" : "Runs every step that is missing or out of date");
 }
 
 /// Where a proposal was planned anew: what of it, in one line.
@@ -46,13 +44,12 @@ void given_up_line(Frame& frame)
         document.unfolding->steps != document.steps)
         return;
     const std::vector<std::string>& given_up = document.unfolding->given_up;
-    muted(frame,
-          fmt::format("Planned anew: {} step{} did not work out.", given_up.size(), given_up.size() == 1 ? "" : "s"));
+    muted(frame, fmt::format("Replanned: {} step{} failed.", given_up.size(), given_up.size() == 1 ? "" : "s"));
     note_place(frame, "planned anew");
     std::string all;
     for (const std::string& each : given_up)
         all += (all.empty() ? "" : "\n") + each;
-    tooltip(all + "\nUndo brings the first proposal back.");
+    tooltip(all + "\nUndo restores the first proposal.");
 }
 
 /// The slider from the part to the last state, and what plays it.
@@ -91,7 +88,7 @@ void slider(Frame& frame)
             frame.actions.push(ShowStep{{}, wanted});
     }
     note_place(frame, "slider");
-    tooltip("How far the part is unfolded in its view");
+    tooltip("How far the part is shown unfolded");
 }
 
 /// The list as a whole: another proposal, files.
@@ -101,15 +98,15 @@ void list_buttons(Frame& frame)
     const bool empty = document.steps.empty();
     ImGui::BeginDisabled(!idle(frame));
     if (!empty) {
-        if (small_button(frame, "Propose anew"))
+        if (small_button(frame, "Propose again"))
             frame.actions.push(ProposeSteps{});
-        tooltip("Replaces the list; the largest flat region stays. Undo brings this one back.");
+        tooltip("Replaces the list; the largest flat region stays fixed. Undo restores the present list.");
         ImGui::SameLine();
     }
     if (!document.selected.empty()) {
-        if (small_button(frame, empty ? "Propose, selection stays" : "Selection stays"))
+        if (small_button(frame, empty ? "Propose, selection fixed" : "Selection fixed"))
             frame.actions.push(ProposeSteps{document.selected.front()});
-        tooltip("Proposes steps in which the region of the first selected face stays where it is");
+        tooltip("Proposes steps that keep the region of the first selected face fixed");
         if (empty)
             ImGui::SameLine();
     }
@@ -117,7 +114,7 @@ void list_buttons(Frame& frame)
         ImGui::NewLine();
     if (small_button(frame, "Open steps..."))
         frame.ui.files.open(FileDialog::Purpose::open_steps, suggested_file(frame, ".json").parent_path());
-    tooltip("Steps of a file as the command line has it: spia unfold PART --script FILE");
+    tooltip("Steps from a file of the command line: spia unfold PART --script FILE");
     if (!empty) {
         ImGui::SameLine();
         if (small_button(frame, "Save steps..."))
@@ -150,12 +147,12 @@ void blank_of_steps(Frame& frame)
     const Palette p = palette_of(frame.state.view.dark);
     const UnfoldRun& run = document.unfolding->run;
     if (!run.blank)
-        return coloured(p.warning, "The part does not lie in a plane yet; add a step.");
+        return coloured(p.warning, "The part is not flat yet; add a step.");
     const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
     figure(frame, "Blank of the steps", size_text(size[0], size[1], frame.lengths()));
     if (run.flipped > 0)
-        return coloured(p.warning,
-                        fmt::format("{} triangles of it are flipped; unfold there in smaller steps.", run.flipped));
+        return coloured(p.warning, fmt::format("{} triangles of the blank are flipped; unfold in smaller steps there.",
+                                               run.flipped));
     bool& polish = frame.ui.polish_steps;
     const bool waits = blank_of_steps_waits(document);
     if (!waits) {
@@ -168,22 +165,21 @@ void blank_of_steps(Frame& frame)
         if (small_button(frame, polished ? "Use it unpolished" : "Polish it"))
             frame.actions.push(UseBlankOfSteps{!polished});
         note_place(frame, "polish");
-        tooltip(polished ? "Goes on from the blank as the steps gave it"
-                         : "Starts the one-step solve from it: all material may move once more");
+        tooltip(polished ? "Uses the blank of the steps unchanged"
+                         : "Runs the one-step solution from it; all points may move again");
         ImGui::SameLine();
         if (small_button(frame, "Unfold in one step"))
             frame.actions.push(RunTo{Stage::solve});
-        tooltip("Takes the blank of the one-step solve instead  (F6); that of the steps is kept here");
+        tooltip("Uses the blank of the one-step solution instead  (F6); the blank of the steps is kept here");
         return;
     }
     if (primary_button(frame, "Use this blank", idle(frame)))
         frame.actions.push(UseBlankOfSteps{polish});
     note_place(frame, "use this blank");
-    tooltip("Forming limits, grid, surface and all files go on from this blank instead of that of the one-step solve");
-    ImGui::Checkbox("Polish it by the one-step solve", &polish);
+    tooltip("Uses this blank for forming limits, grid, surface and files instead of the one-step blank");
+    ImGui::Checkbox("Polish by the one-step solution", &polish);
     tooltip(
-        "Starts the one-step solve from this blank: all material may move once more. Neither is the true one where the part is made "
-        "in several hits.");
+        "Runs the one-step solution from this blank; all points may move again. For parts made in several operations both blanks are approximations.");
 }
 
 void unfolding_section(Frame& frame)
@@ -199,7 +195,7 @@ void unfolding_section(Frame& frame)
         ImGui::SetNextItemOpen(true);
     const bool open = ImGui::CollapsingHeader("Step by step");
     note_place(frame, "step by step");
-    tooltip("Unfolds picked regions one after another onto faces in space, until the part is flat");
+    tooltip("Unfolds regions one after another onto target surfaces until the part is flat");
     if (appear)
         ImGui::SetScrollHereY(0); // the list has the room
     if (!open)
@@ -220,7 +216,7 @@ void unfolding_section(Frame& frame)
             settings.field_on_steps = field;
             frame.actions.push(SetViewSettings{settings});
         }
-        tooltip("Of the state that is shown, instead of what stays (yellow) and what unfolds (green)");
+        tooltip("Colours the shown state by the field instead of by fixed (yellow) and moving (green) faces");
     }
     list_buttons(frame);
     new_step(frame);

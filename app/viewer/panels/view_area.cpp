@@ -133,15 +133,17 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::PopStyleVar();
     ImDrawList* draw = ImGui::GetWindowDrawList();
     ImGui::PushFont(frame.ui.fonts.bold);
-    ImGui::TextUnformatted(title(view));
+    const bool of_refused = view == View::part && shows_refused(frame.state);
+    ImGui::TextUnformatted(of_refused ? ("Refused: " + frame.state.refused_file->file.filename().string()).c_str()
+                                      : title(view));
     ImGui::PopFont();
     ImGui::PushFont(frame.ui.fonts.small);
-    const bool old = is_old(frame.state, view) && !frame.ui.dragged_corner; // the quads follow it
+    const bool old = is_old(frame.state, view) && !frame.ui.dragged_corner && !of_refused; // the quads follow it
     if (old) {
         ImGui::SameLine();
         ImGui::TextColored(p.warning, "old");
-        tooltip(frame.state.job.running ? "A new one is being made"
-                                        : "Options were changed after this was made: Update all  (F5)");
+        tooltip(frame.state.job.running ? "A new result is being computed"
+                                        : "Options have changed since this was computed: Update all  (F5)");
     }
     view_buttons(frame, view);
     ImGui::PopFont();
@@ -189,7 +191,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
         draw->AddText(nullptr, 0, {from.x + (size.x - text.x) / 2, from.y + (size.y - text.y) / 2}, ink(p.muted),
                       shown.empty.c_str(), nullptr, wrap);
     }
-    if (frame.state.document.section)
+    if (frame.state.document.section && !of_refused)
         draw_section(frame, view, mouse.size, from, draw);
     if (drawn.old && !live) { // no legend, no label over another picture
         veil(frame, from, size, draw);

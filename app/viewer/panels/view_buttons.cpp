@@ -14,13 +14,13 @@ void view_buttons(Frame& frame, View view)
     };
     const bool maximised = frame.state.view.maximised == view;
     const char* enlarge = maximised ? "Four views" : "Enlarge";
-    std::vector<Item> items = {{"Fit", "Show all of it  (F)", {}}}; // what matters most comes first
+    std::vector<Item> items = {{"Fit", "Fit the view  (F)", {}}}; // what matters most comes first
     if (view != View::blank)
         items = {items[0],
-                 {"Iso", "From the front right above", StandardView::isometric},
-                 {"Top", "From above", StandardView::top},
-                 {"Front", "From the front", StandardView::front},
-                 {"Right", "From the right", StandardView::right}};
+                 {"Iso", "Isometric view", StandardView::isometric},
+                 {"Top", "Top view", StandardView::top},
+                 {"Front", "Front view", StandardView::front},
+                 {"Right", "Right view", StandardView::right}};
     const ImGuiStyle& style = ImGui::GetStyle();
     const float gap = 4 * frame.ui.scale;
     const auto width = [&](const char* label) { return ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap; };

@@ -102,7 +102,7 @@ void status_bar(Frame& frame)
         text += fmt::format("    {} {}{}", label_of_field(state),
                             value_text(vertex ? now.at_vertex[*vertex] : now.face.value[probe->face], info(field).unit,
                                        frame.lengths()),
-                            vertex && is_smoothed(state.document.display) ? ", mean of its faces" : "");
+                            vertex && is_smoothed(state.document.display) ? ", mean of the faces around it" : "");
     }
     ImGui::TextUnformatted(text.c_str());
 }
@@ -120,7 +120,7 @@ void choice_of_panel(Frame& frame)
         ImGui::PopStyleColor();
     };
     tab("Steps", SidePanels::steps);
-    tooltip("The chain from part to surface  (F2)");
+    tooltip("The steps from part to surface  (F2)");
     ImGui::SameLine(0, gap);
     tab("Inspect", SidePanels::inspect);
     tooltip("The field and its charts  (F3)");

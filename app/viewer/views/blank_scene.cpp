@@ -131,13 +131,13 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
     Scene result;
     const Session& session = state.document.session;
     if (!session.part) {
-        result.empty = "The flat blank appears here once a part is open and solved.";
+        result.empty = "The flat blank appears here once a part is open and unfolded.";
         return result;
     }
     const SceneCache::LiveBlank live = live_blank(state);
     if (!session.blank && !live) {
         result.empty = state.job.running ? "The blank appears as soon as there is a first guess."
-                                         : "Solve to see the flat blank of this part.";
+                                         : "Unfold the part to see its flat blank.";
         return result;
     }
     const PartShape& part = part_shape(state, cache);
@@ -188,7 +188,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
         if (shown.dots)
             result.points.push_back(shown.dots);
         for (const Eigen::Vector3d& place : shown.place)
-            result.labels.push_back({place, "lies on itself", palette::text(state.view.dark)});
+            result.labels.push_back({place, "overlap", palette::text(state.view.dark)});
     }
     if (const auto corner = patches || session.options.patches ? std::nullopt : corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);

@@ -83,7 +83,7 @@ std::string noise_note(const FieldDisplay& display, const std::array<double, 2>&
 {
     if (display.range || lengthened(display, extremes, size) == extremes)
         return "";
-    return fmt::format("even within {:.2g}", shown * least_range(display.field, size));
+    return fmt::format("uniform within {:.2g}", shown * least_range(display.field, size));
 }
 
 ColourScale field_scale(const FieldDisplay& display, const std::array<double, 2>& extremes, double size, double shown)

@@ -10,7 +10,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
 {
     Scene result;
     const Session& session = state.document.session;
-    if (!session.part && state.refused) {
+    if (state.refused && (!session.part || shows_refused(state))) {
         result = refused_scene(state, cache);
         add_shown_fault(result, state);
         return result;

@@ -14,19 +14,18 @@ namespace {
 std::string what_is_missing(const Session& session)
 {
     if (!session.part)
-        return "The quad mesh appears here once a part is open and solved.";
+        return "The quad mesh appears here once a part is open and unfolded.";
     if (!session.blank)
-        return "Solve first; then the blank can be filled with a grid of quads.";
+        return "Unfold the part first; then the blank can be filled with a grid.";
     if (session.options.patches)
         return "Make the patches to see their quads on the part.";
     if (!session.grid)
         return "Make the grid to see the quad mesh on the part.";
     if (const int folded = session.grid->result.quality.folded_cells; folded > 0)
         return fmt::format(
-            "{} cells of the grid fold, so it does not fit onto the part. See them in red on the blank, and "
-            "move the corners or choose another method.",
+            "{} cells of the grid are folded, so it cannot be put on the part. They are red on the blank; move the corners or choose another method.",
             folded);
-    return "The grid is not on the part yet: carry on with the chain.";
+    return "The grid is not on the part yet: press Update all (F5).";
 }
 
 /// A ring and a text at the cell with the least scaled Jacobian.
@@ -38,7 +37,8 @@ void add_worst_cell(Scene& scene, const LaterResults& made, const GridFigures& f
     for (const int node : {lifted.node(i, j), lifted.node(i + 1, j), lifted.node(i, j + 1), lifted.node(i + 1, j + 1)})
         middle += lifted.position.col(node) / 4;
     scene.rings.push_back({middle});
-    scene.labels.push_back({middle, fmt::format("min {} in cell {}, {}", value_text(figures.scaled_jacobian, ""), i, j),
+    scene.labels.push_back({middle,
+                            fmt::format("min {} (column {}, row {})", value_text(figures.scaled_jacobian, ""), i, j),
                             palette::text(dark)});
 }
 

@@ -420,26 +420,6 @@ TEST_F(ByHand, AnotherFileWhileThereIsUnsavedWork)
     EXPECT_EQ(now["part"]["file"], "assets/parts/dome.obj") << "nothing is lost";
 }
 
-TEST_F(ByHand, ARefusedFileSaysWhyAndGivesTheWindowNoName)
-{
-    std::ofstream(folder / "torn.stl") << "solid torn\n facet normal 0 0 1\n  outer loop\n   vertex 0 0";
-    start_with("assets/parts/dome.obj");
-    hands->keys("ctrl+o");
-    hands->see("Open a part");
-    hands->type((folder / "torn.stl").string());
-    hands->keys("Return");
-    const Json now = hands->see_that("the refusal", [](const Json& r) {
-        const Json& said = r["messages"];
-        return r["job"]["running"] == false && std::any_of(said.begin(), said.end(), [](const Json& message) {
-                   return message["severity"] == "error" &&
-                          message["text"].get<std::string>().find("torn") != std::string::npos;
-               });
-    });
-    EXPECT_TRUE(now["part"].is_null()) << "the part before had no work to be kept";
-    EXPECT_EQ(hands->viewer().title(), "SPIA");
-    hands->see_part_of_line("torn.stl");
-}
-
 TEST_F(ByHand, EscapeCancels)
 {
     start_with("assets/parts/inner-panel.obj");

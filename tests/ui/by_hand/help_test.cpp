@@ -31,13 +31,15 @@ TEST_F(HelpByHand, TheManualIsReadAndSearched)
     hands->click("Search the manual");
     hands->type("shoulder");
     hands->see("Process conditions"); // the chapter in which it stands
-    hands->see_no("What amber lights mean");
+    hands->see_no("Keys and mouse");
     hands->click("Process conditions");
     hands->see_part_of_line("Shoulder");
+    hands->click("shoulder");
     hands->keys("ctrl+a");
     hands->type("zzzz");
     hands->see("Nothing was found.");
-    hands->keys("Escape"); // what was typed is taken back, or the window goes
+    hands->keys("Escape"); // what was typed is taken back
+    hands->see_no("Nothing was found.");
     hands->keys("Escape");
     hands->see_no("Process conditions");
 }

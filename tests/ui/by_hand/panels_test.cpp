@@ -71,7 +71,7 @@ TEST_F(PanelsByHand, TheSheetIsChosen)
     unfold();
     hands->menu("Edit", "Keep result as reference");
     hands->see_that("a reference", [](const Json& now) { return now["comparison"].is_object(); });
-    hands->menu("Edit", "Forget the reference");
+    hands->menu("Edit", "Remove reference");
     hands->see_that("no reference", [](const Json& now) { return now["comparison"].is_null(); });
 }
 

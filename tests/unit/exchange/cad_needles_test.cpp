@@ -78,7 +78,7 @@ TEST(CadNeedles, OnABentPartStayAndAreNoFault)
     EXPECT_LT(triangle_quality(part.mesh).least_angle * degrees, 1);
     EXPECT_FALSE(part.remeshed);
     EXPECT_FALSE(part.doctor.find(Fault::sliver));
-    EXPECT_TRUE(has_note(part, "follow the straight lines"));
+    EXPECT_TRUE(has_note(part, "rulings of a developable surface"));
 }
 
 } // namespace

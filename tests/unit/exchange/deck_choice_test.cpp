@@ -43,7 +43,7 @@ TEST(DeckChoice, TakesPartsByIdOrNameInTheOrderOfTheDeck)
     EXPECT_FALSE(both.thickness);
     EXPECT_EQ(both.material, "DC04");
     ASSERT_EQ(both.notes.size(), 1u);
-    EXPECT_EQ(both.notes[0], "the parts are 0.75 to 1.25 thick in the deck; none of it is taken");
+    EXPECT_EQ(both.notes[0], "the parts have thicknesses from 0.75 to 1.25 in the deck; none is used");
 }
 
 TEST(DeckChoice, TakesSetsByName)

@@ -210,11 +210,11 @@ TEST(DynaDeck, ThicknessesWithoutSenseAreToldAndNotTaken)
     for (const char* absurd : {"-1", "1e300", "1e6"}) {
         const Deck deck = spia::read(shells + absurd + "\n");
         EXPECT_FALSE(deck.parts[0].thickness) << absurd;
-        EXPECT_TRUE(has_note(deck, "part 7 lid: a thickness of")) << absurd;
+        EXPECT_TRUE(has_note(deck, "part 7 lid: its thickness of")) << absurd;
     }
     EXPECT_EQ(spia::read(shells + "1e5\n").parts[0].thickness, 1e5);
     const Deck own = spia::read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n9,7,1,2,3,4\n-2,-2,-2,-2\n");
-    EXPECT_TRUE(has_note(own, "1 shells have a thickness of their own that makes no sense"));
+    EXPECT_TRUE(has_note(own, "1 shells have an invalid thickness of their own"));
     EXPECT_TRUE(has_note(own, "first: element 9"));
     EXPECT_FALSE(own.parts[0].thickness);
 }

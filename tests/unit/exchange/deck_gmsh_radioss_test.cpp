@@ -99,7 +99,7 @@ TEST(RadiossDeck, AUnitThatIsGivenAgainstThatOfTheDeckIsTold)
     const auto told = [&](std::optional<LengthUnit> unit) {
         const PartFile part = read_part(scratch / "a.rad", {.unit = unit});
         return std::any_of(part.notes.begin(), part.notes.end(), [](const std::string& note) {
-            return note == "the deck says that its lengths are in m; they are taken as mm, as was asked";
+            return note == "the deck gives its lengths in m; they are read as mm, as requested";
         });
     };
     EXPECT_FALSE(told({}));

@@ -49,7 +49,7 @@ TEST(NastranDeck, FieldsAreCutAsTheirLineSays)
     EXPECT_EQ(place(deck, 6), Eigen::Vector3d(4, 5, 6));
     EXPECT_EQ(deck.corner[0], (std::array<int, 4>{0, 1, 2, -1}));
     EXPECT_EQ(deck.corner[1], (std::array<int, 4>{3, 4, 5, 6}));
-    EXPECT_TRUE(has_note(deck, "thicknesses of their own, up to 1.25, others none at all; none is taken")) << deck.notes.size();
+    EXPECT_TRUE(has_note(deck, "their own thicknesses, up to 1.25, others none; none is used")) << deck.notes.size();
 }
 
 TEST(NastranDeck, ControlSectionsAndTheEndMayBeThereOrNot)

@@ -195,11 +195,11 @@ TEST(Shortcomings, TellOfConditionsThatCannotBeMeant)
     session.options.flatten.process.drawbeads[0].force_N_mm = 0;
     EXPECT_TRUE(says("b does nothing"));
     session.options.flatten.process.edge_restraint = 0.2;
-    EXPECT_FALSE(says("of the edge the sheet stands"));
+    EXPECT_FALSE(says("of the edge the sheet is parallel"));
     auto along = std::make_shared<FlattenResult>(*session.blank);
     along->stamping.direction = Eigen::Vector3d::UnitX();
     session.blank = along;
-    EXPECT_TRUE(says("on 180 of 180 mm of the edge the sheet stands"));
+    EXPECT_TRUE(says("on 180 of 180 mm of the edge the sheet is parallel"));
 }
 
 } // namespace spia

@@ -42,13 +42,14 @@ TEST_F(UnfoldShortcomings, AStateBetweenThatLiesOnItselfIsOne)
     EXPECT_THAT(shortcomings(run, 100, {}), IsEmpty());
     run.states[1].overlap = {5, {1, 2, 3}, 4};
     run.states[2].overlap = {5, {1, 2, 3}, 0}; // still there, but told already
-    EXPECT_THAT(shortcomings(run, 100, {}),
-                ElementsAre(HasSubstr("step \"" + run.states[1].name +
-                                      "\" lays the sheet on itself at 4 places, where there may be no way for it; the "
-                                      "first is near 1, 2, 3")));
+    EXPECT_THAT(
+        shortcomings(run, 100, {}),
+        ElementsAre(HasSubstr("step \"" + run.states[1].name +
+                              "\" makes the sheet overlap itself at 4 places, so that it may be impossible; the "
+                              "first is near 1, 2, 3")));
     const Json report = parse_json(unfold_report_json("part.obj", part, map, steps, run, {}, {}), "report");
     ASSERT_EQ(report["shortcomings"].size(), 1U);
-    EXPECT_THAT(report["shortcomings"][0].get<std::string>(), HasSubstr("lays the sheet on itself at 4 places"));
+    EXPECT_THAT(report["shortcomings"][0].get<std::string>(), HasSubstr("makes the sheet overlap itself at 4 places"));
     EXPECT_EQ(report["states"][1]["overlap"]["landed"], 4);
     EXPECT_EQ(report["states"][2]["overlap"]["landed"], 0);
 }
@@ -57,7 +58,7 @@ TEST_F(UnfoldShortcomings, TheLastStateCountsWhateverLaidItSo)
 {
     run.states.back().overlap = {2, {1, 2, 3}, 0};
     EXPECT_THAT(shortcomings(run, 100, {"found before"}),
-                ElementsAre("found before", "the blank lies on itself at 2 places"));
+                ElementsAre("found before", "the blank overlaps itself at 2 places"));
 }
 
 } // namespace spia

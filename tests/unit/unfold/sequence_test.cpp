@@ -194,7 +194,7 @@ TEST(Sequence, WhatClosesATubeIsNotLaidOnTheTube)
     const int wall = map.regions[0].flatness < map.regions[1].flatness ? 0 : 1;
     const UnfoldSequence sequence = propose_sequence(cup, map, {.root = wall});
     ASSERT_EQ(sequence.notes.size(), 1u);
-    EXPECT_NE(sequence.notes[0].find("all around"), std::string::npos) << sequence.notes[0];
+    EXPECT_NE(sequence.notes[0].find("surrounds"), std::string::npos) << sequence.notes[0];
     ASSERT_EQ(sequence.steps.size(), 1u);
     EXPECT_EQ(sequence.steps[0].kind, UnfoldKind::flatten);
 }

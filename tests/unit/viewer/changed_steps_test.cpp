@@ -50,7 +50,7 @@ TEST_F(UnfoldingSteps, AChangeMakesItsStepAndThoseAfterItOutOfDateAndRedoKeepsTh
     EXPECT_EQ(status(), std::vector(4, done));
     EXPECT_FALSE(all_steps_done(document)) << "the blank is that of five";
     run();
-    EXPECT_THAT(last(Severity::warning), HasSubstr("does not lie in a plane"));
+    EXPECT_THAT(last(Severity::warning), HasSubstr("is not flat"));
     EXPECT_EQ(after(3).seconds, second_run->run.states[3].seconds);
 }
 
@@ -82,7 +82,7 @@ TEST_F(UnfoldingSteps, AStepWithoutAResultSaysSoAndKeepsTheStatesBeforeIt)
     EXPECT_THAT(last(Severity::error), HasSubstr(fmt::format("Step 2 \"{}\" has no result", document.steps[1]->name)));
     EXPECT_THAT(last(Severity::error), HasSubstr("7 mm beside the target"));
     EXPECT_THAT(last(Severity::error), HasSubstr("The states up to step 1 are kept"));
-    EXPECT_THAT(last(Severity::error), HasSubstr("take away its offset")) << "what can be done here";
+    EXPECT_THAT(last(Severity::error), HasSubstr("remove its offset")) << "what can be done here";
     EXPECT_EQ(step_position(state), 1);
     EXPECT_EQ(state.view.step, 1) << "to be changed";
     change.offset_mm = 0;

@@ -98,8 +98,8 @@ TEST_F(CornerChoice, WhileACornerIsDraggedTheQuadsFollowAndTheLastSurfaceStaysAn
     model.apply(SetCorner{0, side[2], true});
     wait();
     open("square-cup.obj");
-    EXPECT_EQ(quads_shown(state).lifted, nullptr) << "of another part";
-    EXPECT_EQ(surface_shown(state).surface, nullptr) << "of another part";
+    EXPECT_EQ(quads_shown(state).lifted, nullptr) << "to another part";
+    EXPECT_EQ(surface_shown(state).surface, nullptr) << "to another part";
 }
 
 TEST_F(CornerChoice, FourVerticesOfTheOutlineBecomeTheCornersInTheirOrder)

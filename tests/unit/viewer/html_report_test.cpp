@@ -138,9 +138,9 @@ TEST(HtmlReport, HasTheTablesThatWereChosenAndTheUsersOwnWords)
     const auto has = [&](const std::string& html, const char* text) { return html.find(text) != std::string::npos; };
     const std::pair<const char*, bool ReportTables::*> tables[] = {
         {"<h2>Key figures", &ReportTables::key_figures},
-        {"<h2>Where the sheet thins most", &ReportTables::worst_spots},
+        {"<h2>Largest thinning", &ReportTables::worst_spots},
         {"<h2>Assumptions", &ReportTables::assumptions},
-        {"<h2>How the solver got there", &ReportTables::solver}};
+        {"<h2>Convergence of the solver", &ReportTables::solver}};
     for (const auto& [only, member] : tables) {
         ReportOptions options;
         options.tables = {false, false, false, false, false};
@@ -244,8 +244,11 @@ TEST(HtmlReport, SaysWhatMakesTheResultPoorer)
     worse->necking_triangles = 1234;
     session.blank = worse;
     const std::string html = report(folder / "r.html", session);
-    EXPECT_NE(html.find("<p class=\"note\"><b>Mind:</b> the steps became too short"), std::string::npos);
+    EXPECT_NE(html.find("<p class=\"note\"><b>Caution:</b> The steps became too short"), std::string::npos);
     EXPECT_NE(html.find("1234 triangles are strained beyond"), std::string::npos);
+    const std::string judged = report(folder / "r.html", session, {}, {"the thickness 1 mm is assumed"});
+    EXPECT_NE(judged.find("<b>Caution:</b> The thickness 1 mm is assumed.</p>"), std::string::npos)
+        << "what the lights of the window say";
     session.blank = nullptr;
     EXPECT_THROW(write_html_report(folder / "r.html", session, {}), InputError);
 }

@@ -58,7 +58,7 @@ TEST_F(Lights, ASheetThatNobodyGaveIsAssumedUntilItIsConfirmed)
     open();
     ASSERT_EQ(of(ChainStep::sheet).size(), 1u);
     const Doubt assumed = of(ChainStep::sheet)[0];
-    EXPECT_THAT(assumed.text, HasSubstr("1 mm thickness is assumed"));
+    EXPECT_THAT(assumed.text, HasSubstr("The thickness 1 mm is assumed"));
     EXPECT_THAT(assumed.text, HasSubstr("mild_steel is assumed"));
     EXPECT_FALSE(readiness(state).fine);
     model.apply(SetMaterial{"dp600"}); // the thickness is still nobody's
@@ -87,7 +87,7 @@ TEST_F(Lights, ThicknessOfTheFileIsGivenAndThatOfAnotherPartIsNot)
     EXPECT_TRUE(of(ChainStep::sheet).empty());
     open();
     ASSERT_EQ(of(ChainStep::sheet).size(), 1u);
-    EXPECT_THAT(of(ChainStep::sheet)[0].text, HasSubstr("1.25 mm is the thickness of the part before"));
+    EXPECT_THAT(of(ChainStep::sheet)[0].text, HasSubstr("1.25 mm is that of the previous part"));
     EXPECT_THAT(of(ChainStep::sheet)[0].text, testing::Not(HasSubstr("grade"))) << "the grade was chosen by the user";
 }
 
@@ -115,12 +115,12 @@ TEST_F(Lights, ASurfaceOutOfToleranceOffersAFitWithinIt)
     ASSERT_GT(document.session.surface->deviation.max(), usual_tolerance) << "or this test says nothing";
     const auto far = of(ChainStep::surface);
     ASSERT_FALSE(far.empty());
-    EXPECT_THAT(far[0].text, HasSubstr("leaves the part by up to"));
+    EXPECT_THAT(far[0].text, HasSubstr("deviates from the part by up to"));
     EXPECT_FALSE(readiness(state).fine);
     press(far[0]);
     ASSERT_TRUE(document.session.surface->fit);
     EXPECT_EQ(document.session.surface->fit->tolerance, usual_tolerance);
-    EXPECT_THAT(all(), testing::Not(HasSubstr("mm is usual")));
+    EXPECT_THAT(all(), testing::Not(HasSubstr("a usual tolerance")));
 }
 
 TEST_F(Lights, CracksAndForbiddenThinningAreAmberAndShowTheirZones)

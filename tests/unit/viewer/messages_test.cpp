@@ -85,24 +85,23 @@ TEST_F(Messages, OfAnotherPartAreGone)
     EXPECT_FALSE(shows("30 mm thick"));
 }
 
-TEST_F(Messages, WhatWasDoneOnOpeningIsOneLineThatUnfolds)
+TEST_F(Messages, OnOpeningSayHowManyNotesTheStepPartHas)
 {
     std::ofstream(folder / "strip.k") << sample::dyna();
     model.apply(OpenPart{folder / "strip.k", "", {.parts = {"7"}}});
     wait();
     ASSERT_TRUE(document.session.part);
-    const Message* opened = nullptr;
-    for (const Message& message : state.messages)
-        if (message.text.find("Opened strip.k") == 0)
-            opened = &message;
-    ASSERT_TRUE(opened);
+    const PartFile& part = *document.session.part;
+    const std::vector<std::string> notes = notes_on_reading(part);
+    ASSERT_GT(notes.size(), 1u);
     EXPECT_EQ(shown(), 1);
-    EXPECT_EQ(opened->severity, Severity::hint);
-    ASSERT_GT(opened->details.size(), 1u);
-    EXPECT_THAT(opened->text, HasSubstr(fmt::format("{} things were done", opened->details.size())));
-    EXPECT_THAT(opened->details[0], HasSubstr("1.25 mm thick as in the file"));
-    EXPECT_EQ(opened_message("a.obj", {"One thing."}).text, "Opened a.obj. One thing.");
-    EXPECT_TRUE(opened_message("a.obj", {"One thing."}).details.empty());
+    EXPECT_EQ(state.messages.back().text,
+              fmt::format("Opened strip.k: {} notes, see the step Part.", notes.size() + part.doctor.findings.size()));
+    EXPECT_THAT(notes, testing::Contains(HasSubstr("a thickness of 1.25 mm")));
+    for (const std::string& doubt : part.doubts) // which make the light amber
+        EXPECT_THAT(notes, testing::Not(testing::Contains(doubt)));
+    EXPECT_EQ(document.session.options.flatten.thickness, 1.25);
+    EXPECT_EQ(document.thickness_from, SheetSource::file);
 }
 
 TEST_F(Messages, OfAChangeGoWhenItIsUndone)

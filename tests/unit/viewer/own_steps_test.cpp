@@ -26,7 +26,7 @@ TEST_F(UnfoldingSteps, AStepOfPickedFacesLaysThemOnTheFaceOfARegion)
     model.apply(SelectFaces{leg});
     model.apply(MakeRegion{"leg", RegionKind::fixed});
     model.apply(AddStep{0, 0, "", {}});
-    EXPECT_THAT(last(Severity::error), HasSubstr("cannot both stay and be unfolded"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("cannot be both fixed and unfolded"));
     model.apply(AddStep{0, {}, "", {}});
     EXPECT_THAT(last(Severity::error), HasSubstr(fmt::format("{} faces to unfold also belong", leg.size())));
     model.apply(ClearSelection{});
@@ -97,7 +97,7 @@ TEST_F(UnfoldingSteps, AllThatIsNotPickedStaysButOnlyTheRegionCarriesTheFace)
     EXPECT_EQ(names(), std::vector<std::string>{"upper leg onto web"});
     run();
     ASSERT_EQ(status(), std::vector{done}) << last(Severity::error);
-    EXPECT_THAT(last(Severity::warning), HasSubstr("does not lie in a plane yet; add a step"));
+    EXPECT_THAT(last(Severity::warning), HasSubstr("is not flat yet; add a step"));
     for (const int f : upper)
         for (const int v : part.triangle.col(f))
             EXPECT_NEAR(after(0).position(0, v), right, 1e-4);

@@ -144,7 +144,7 @@ TEST_F(Picking, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
     EXPECT_NEAR(document.section->from[1], document.section->to[1], 1e-9);
     EXPECT_GT((document.section->to - document.section->from).norm(), 100);
     model.apply(DrawSection{View::part, {1, 1}, {2, 2}, size}); // beside the part
-    EXPECT_TRUE(says(Severity::error, "over the sheet"));
+    EXPECT_TRUE(says(Severity::error, "across the sheet"));
     model.apply(DrawSection{View::blank, {1, 1}, {2, 2}, size});
     EXPECT_TRUE(says(Severity::error, "Unfold the part first"));
     model.apply(SelectFaces{{4, 5}});

@@ -89,7 +89,7 @@ TEST_F(RefusedPart, IsTakenWithoutItsSmallerPiecesAndRefusedAgainAfterUndo)
     EXPECT_EQ(state.refused, nullptr);
     EXPECT_LT(state.document.session.part->mesh.triangles(), both.triangles());
     EXPECT_EQ(first_stale(state.document), Stage::solve);
-    EXPECT_EQ(state.history.undo_name(), "Read the part otherwise");
+    EXPECT_EQ(state.history.undo_name(), "Change reading options");
     apply(SetReading{{{}, false}}); // refused again: what is there stays to be looked at, out of date
     EXPECT_EQ(errors(), 1);
     EXPECT_EQ(first_stale(state.document), Stage::read);
@@ -176,6 +176,137 @@ TEST_F(RefusedPart, ThatCannotBeReadAtAllIsNotShown)
     apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
     EXPECT_EQ(state.refused, nullptr);
     EXPECT_EQ(errors(), 0);
+}
+
+TEST_F(RefusedPart, LeavesThePartThatIsOpenWithItsResults)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    apply(SelectFaces{{1, 2, 3}, PickMode::replace});
+    apply(RunTo{Stage::solve});
+    const auto part = state.document.session.part;
+    const auto blank = state.document.session.blank;
+    ASSERT_NE(blank, nullptr);
+    const auto cameras = state.view.camera;
+    put(folder / "broken.obj", "v 0 0 x\n");
+    for (const auto& file : {folder / "broken.obj", two_pieces()}) {
+        apply(OpenPart{file, ""});
+        EXPECT_EQ(state.document.session.part, part);
+        EXPECT_EQ(state.document.session.blank, blank);
+        EXPECT_EQ(first_stale(state.document), Stage::grid);
+        EXPECT_EQ(state.document.selected, (std::vector<int>{1, 2, 3}));
+        EXPECT_TRUE(state.unsaved);
+        EXPECT_EQ(window_title(state), "dome* - SPIA");
+        EXPECT_EQ(state.view.camera, cameras);
+        EXPECT_EQ(examined(state), part.get()) << "until its faults are asked for";
+        ASSERT_FALSE(state.messages.empty());
+        const Message& said = state.messages.back();
+        EXPECT_EQ(said.severity, Severity::error);
+        EXPECT_NE(said.text.find(file.filename().string()), std::string::npos) << said.text;
+        EXPECT_EQ(said.text.find(folder / ""), std::string::npos) << said.text << ": the name is enough";
+        EXPECT_NE(said.text.find("dome.obj is still open"), std::string::npos) << said.text;
+    }
+    apply(Undo{}); // the run, as if nothing had been opened
+    EXPECT_EQ(state.history.undo_name(), "Select faces");
+    EXPECT_EQ(state.document.session.blank, nullptr);
+    EXPECT_NE(state.refused, nullptr) << "it has nothing to do with the part";
+}
+
+TEST_F(RefusedPart, OpenedBesideAPartIsShownOnRequestAndThePartComesBack)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    const auto part = state.document.session.part;
+    apply(ShowRefused{});
+    EXPECT_EQ(errors(), 1) << "there is none";
+    apply(OpenPart{two_pieces(), ""});
+    ASSERT_TRUE(state.refused_file);
+    const auto cameras = state.view.camera;
+    SceneCache cache;
+    EXPECT_EQ(scene(View::part, state, cache).layers[0].mesh->triangle.cols(), part->mesh.triangles());
+
+    apply(ShowRefused{});
+    EXPECT_TRUE(shows_refused(state));
+    EXPECT_EQ(scene(View::part, state, cache).layers[0].mesh->triangle.cols(), state.refused->mesh.triangles());
+    EXPECT_EQ(examined(state), state.refused.get());
+    const auto& findings = state.refused->doctor.findings;
+    const auto pieces = std::find_if(findings.begin(), findings.end(),
+                                     [](const Finding& f) { return f.fault == Fault::several_components; });
+    ASSERT_NE(pieces, findings.end());
+    apply(ShowFault{int(pieces - findings.begin()), 0});
+    ASSERT_TRUE(state.fault);
+    EXPECT_EQ(state.fault->place, pieces->place[0]);
+    EXPECT_EQ(state.view.camera[size_t(View::surface)], cameras[size_t(View::surface)]) << "shows the part";
+    model.hover(View::part, {300, 200}, {600, 400});
+    EXPECT_FALSE(state.hovered) << "no face of the part is there";
+    EXPECT_EQ(kept_view(state).camera, cameras);
+
+    apply(CloseRefused{});
+    EXPECT_FALSE(shows_refused(state));
+    EXPECT_EQ(state.refused, nullptr);
+    EXPECT_FALSE(state.fault);
+    EXPECT_EQ(state.view.camera, cameras);
+    EXPECT_EQ(scene(View::part, state, cache).layers[0].mesh->triangle.cols(), part->mesh.triangles());
+    EXPECT_TRUE(state.messages.back().gone) << "what was said of it";
+}
+
+TEST_F(RefusedPart, BesideAPartIsTakenWithoutItsSmallerPieces)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    apply(OpenPart{two_pieces(), ""});
+    apply(ShowRefused{});
+    apply(OpenPart{two_pieces(), "", {{}, true}}); // as the panel's button does
+    ASSERT_NE(state.document.session.part, nullptr);
+    EXPECT_EQ(window_title(state), "two - SPIA");
+    EXPECT_FALSE(state.refused_file);
+    EXPECT_EQ(state.refused, nullptr);
+    EXPECT_EQ(state.history.undo_name(), "");
+}
+
+TEST_F(RefusedPart, UntilAnotherPartIsThereTheOneBeforeIsNotChangedButLookedAt)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    const auto part = state.document.session.part;
+    model.apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/inner-panel.obj", ""});
+    EXPECT_EQ(state.document.session.part, part);
+    EXPECT_TRUE(model.opening_beside());
+    EXPECT_EQ(window_title(state), "dome - SPIA");
+    model.apply(SelectFaces{{4}, PickMode::replace});
+    EXPECT_TRUE(state.document.selected.empty()) << "it would be lost";
+    EXPECT_EQ(errors(), 1);
+    FieldDisplay display = state.document.display;
+    display.field = Field::strain_major;
+    model.apply(SetDisplay{display});
+    EXPECT_EQ(errors(), 1);
+    while (model.busy())
+        model.poll();
+    EXPECT_NE(state.document.session.part, part);
+    EXPECT_EQ(window_title(state), "inner-panel - SPIA");
+    EXPECT_EQ(state.document.display.field, Field::strain_major);
+    EXPECT_EQ(errors(), 0);
+}
+
+TEST_F(RefusedPart, OpeningThatIsCancelledLeavesThePart)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""});
+    const auto part = state.document.session.part;
+    model.apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/inner-panel.obj", ""});
+    apply(CancelJob{});
+    if (state.document.session.part != part) // it was there before it could be cancelled
+        GTEST_SKIP();
+    EXPECT_EQ(window_title(state), "dome - SPIA");
+    EXPECT_NE(state.messages.back().text.find("dome.obj is still open"), std::string::npos);
+    apply(SelectFaces{{4}, PickMode::replace});
+    EXPECT_EQ(state.document.selected, (std::vector<int>{4}));
+}
+
+TEST_F(RefusedPart, ARunThatAnOpeningEndsIsNoChangeOfThePartThatStays)
+{
+    apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/inner-panel.obj", ""});
+    model.apply(RunTo{Stage::solve});
+    EXPECT_TRUE(state.unsaved);
+    apply(OpenPart{two_pieces(), ""});
+    EXPECT_EQ(window_title(state), "inner-panel - SPIA") << "nothing to save";
+    EXPECT_EQ(state.history.undo_name(), "");
+    EXPECT_EQ(state.document.session.blank, nullptr);
 }
 
 TEST(TakeChanges, OfTwoThatSawTheSameBothCount)

@@ -91,7 +91,7 @@ TEST_F(Scenes, TheBlankShowsWhereItLiesOnItself)
             if (points->colour == palette::folded)
                 found.second += int(points->point.cols());
         const auto names = std::count_if(shown.labels.begin(), shown.labels.end(),
-                                         [](const SceneLabel& label) { return label.text == "lies on itself"; });
+                                         [](const SceneLabel& label) { return label.text == "overlap"; });
         EXPECT_EQ(names, (found.first > 0) + (found.second > 0));
         return found;
     };

@@ -112,7 +112,7 @@ TEST_F(Shape, AnotherFitTakesMovesOfControlPointsBackAndKeepsTheLattice)
     fit.tolerance = 0.2;
     model.apply(SetFit{fit});
     wait();
-    EXPECT_TRUE(says(Severity::warning, "moves of single control points were taken back"));
+    EXPECT_TRUE(says(Severity::warning, "moved control points were reset"));
     ASSERT_TRUE(document.session.options.deformation);
     EXPECT_TRUE(document.session.options.deformation->moves.empty());
     EXPECT_EQ(document.session.options.deformation->lattice->move(2, 0), 5);

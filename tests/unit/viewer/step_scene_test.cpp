@@ -149,7 +149,7 @@ TEST_F(UnfoldingSteps, WhatIsPickedIsWhatIsShown)
     const auto before = document.selected;
     model.apply(ShowStep{{}, 0.5});
     model.apply(everything);
-    EXPECT_THAT(last(Severity::error), HasSubstr("on the way from one step to the next"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("shown between two steps"));
     EXPECT_EQ(document.selected, before);
     model.apply(DrawSection{View::part, {0, 300}, {800, 300}, {800, 600}});
     EXPECT_THAT(last(Severity::error), HasSubstr("back to the part"));

@@ -87,7 +87,7 @@ TEST_F(Target, RubsAgainstWhatIsLaidOnIt)
     ChangeStep change = change_of(0);
     change.friction = StepFriction{};
     model.apply(change);
-    EXPECT_THAT(last(Severity::error), HasSubstr("a force or a pressure above 0"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("force or pressure on the target of a step must be above 0"));
     change.friction.reset();
     model.apply(change);
     EXPECT_FALSE(document.steps[0]->pick.friction);
@@ -328,7 +328,7 @@ TEST_F(Target, TheFacesThatCarryItAreThosePicked)
     const PlannedStep& last_step = *document.steps[4];
     model.apply(SelectFaces{last_step.pick.freed});
     model.apply(SetCarrying{4, {}});
-    EXPECT_THAT(last(Severity::error), HasSubstr("cannot carry its target"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("cannot define its target"));
     const std::vector<int> some(last_step.pick.fixed.begin(), last_step.pick.fixed.begin() + 20);
     model.apply(SelectFaces{some});
     model.apply(SetCarrying{4, {}});

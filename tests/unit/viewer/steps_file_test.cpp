@@ -103,7 +103,7 @@ TEST_F(StepsFile, WhatMakesNoSenseOnThePartIsSaidAndTheRestIsTaken)
             warnings += message.text;
     EXPECT_THAT(warnings, HasSubstr("the nearest is"));
     EXPECT_THAT(warnings, HasSubstr("Step \"gone\" is left out"));
-    EXPECT_THAT(last(Severity::done), HasSubstr("not all of it makes sense"));
+    EXPECT_THAT(last(Severity::done), HasSubstr("some of them do not fit this part"));
     model.apply(Undo{});
     EXPECT_EQ(document.steps.size(), proposed);
     write(R"({"stepz": []})");

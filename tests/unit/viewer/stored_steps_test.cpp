@@ -117,7 +117,7 @@ TEST_F(UnfoldingSteps, WhatRubsAndWhatCarriesMustBePickedAnewWhereAChangedPartHa
     EXPECT_THAT(said, HasSubstr("its friction was removed"));
     EXPECT_TRUE(needs_pick(*step));
     EXPECT_TRUE(carrying_faces(*step).empty()) << "not all that stays";
-    EXPECT_THAT(said, HasSubstr("pick others for it before it is run"));
+    EXPECT_THAT(said, HasSubstr("pick others before running it"));
     // A target of one's own needs none.
     StoredPicks own = stored;
     own.steps.step[0].target = {.plane = TargetPlane{{0, 0, 0}, {1, 0, 0}}};
@@ -148,7 +148,7 @@ TEST_F(UnfoldingSteps, AStepThatNeedsAPickHasNoResultUntilItHasOne)
     EXPECT_EQ(status()[0], StepStatus::needs_pick);
     model.apply(SaveSteps{folder / "steps.json"});
     wait();
-    EXPECT_THAT(last(Severity::error), HasSubstr("needs faces that carry its target"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("needs fixed faces for its target"));
     EXPECT_FALSE(std::filesystem::exists(folder / "steps.json"));
     run();
     EXPECT_THAT(last(Severity::error), HasSubstr("press \"Fit to selection\""));

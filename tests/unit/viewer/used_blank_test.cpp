@@ -99,11 +99,11 @@ TEST_F(UsedBlank, UnfoldingByNameSolvesInOneStepAndTheBlankOfTheStepsCanBeTakenA
     unfold_box();
     use();
     run_to(Stage::fit);
-    EXPECT_THAT(last(Severity::hint), HasSubstr("up to date, from the blank of the steps"));
+    EXPECT_THAT(last(Severity::hint), HasSubstr("up to date, with the blank of the steps"));
     EXPECT_EQ(source(), "steps");
     run_to(Stage::solve);
     EXPECT_EQ(source(), "one step");
-    EXPECT_THAT(last(Severity::hint), HasSubstr("That of the steps is kept"));
+    EXPECT_THAT(last(Severity::hint), HasSubstr("The blank of the steps is kept"));
     EXPECT_TRUE(all_steps_done(document));
     EXPECT_NE(document.session.blank->blank.position, document.unfolding->run.blank->position);
     use();
@@ -141,13 +141,13 @@ TEST_F(UsedBlank, TheReportForPeopleTellsOfTheSteps)
         return content_of(folder / "report.html");
     };
     run_to(Stage::solve);
-    EXPECT_THAT(html(), AllOf(Not(HasSubstr("step by step")), HasSubstr("How the solver got there")));
+    EXPECT_THAT(html(), AllOf(Not(HasSubstr("step by step")), HasSubstr("Convergence of the solver")));
     use();
     EXPECT_THAT(html(), AllOf(HasSubstr("made step by step, in 5 steps<"), HasSubstr("The steps of the blank"),
                               HasSubstr(document.steps[3]->name), HasSubstr("each of which converged"),
-                              Not(HasSubstr("How the solver got there"))));
+                              Not(HasSubstr("Convergence of the solver"))));
     use(true);
-    EXPECT_THAT(html(), AllOf(HasSubstr("then polished"), HasSubstr("How the solver got there")));
+    EXPECT_THAT(html(), AllOf(HasSubstr("then polished"), HasSubstr("Convergence of the solver")));
 }
 
 TEST_F(UsedBlank, AProjectMakesItAgain)
@@ -176,7 +176,7 @@ TEST_F(UsedBlank, AProjectWhoseStepsHaveChangedSinceSaysSo)
     model.apply(OpenProject{folder / "box.spia"});
     wait();
     EXPECT_TRUE(std::any_of(state.messages.begin(), state.messages.end(), [](const Message& message) {
-        return message.text.find("that of steps that have changed since") != std::string::npos;
+        return message.text.find("The steps have changed since their blank was computed") != std::string::npos;
     }));
     EXPECT_EQ(source(), "one step");
 }
@@ -199,7 +199,7 @@ TEST_F(UsedBlank, StepsOfAPartThatIsToBeReadAgainAreNotUsed)
     wait();
     if (first_stale(document) == Stage::read) { // else it was read before
         use();
-        EXPECT_THAT(last(Severity::error), HasSubstr("to be read again first"));
+        EXPECT_THAT(last(Severity::error), HasSubstr("must be read again first"));
         EXPECT_EQ(document.session.options.steps, std::nullopt);
     }
 }
@@ -211,11 +211,11 @@ TEST_F(UsedBlank, WithoutOneTheActionSaysWhatIsMissing)
     EXPECT_THAT(last(Severity::error), HasSubstr("There are no steps yet"));
     propose();
     use();
-    EXPECT_THAT(last(Severity::error), HasSubstr("Run the steps first"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("Run all steps first"));
     model.apply(RemoveStep{4});
     run();
     use();
-    EXPECT_THAT(last(Severity::error), HasSubstr("does not lie in a plane yet"));
+    EXPECT_THAT(last(Severity::error), HasSubstr("is not flat yet"));
     EXPECT_EQ(document.session.options.steps, std::nullopt);
     const Action action = UseBlankOfSteps{true};
     EXPECT_EQ(to_json(action_from_json(to_json(action), state)), to_json(action));
@@ -232,7 +232,7 @@ TEST_F(UsedBlank, ACancelledRunLeavesWhatWasThere)
     if (document.session.blank == blank) { // else it was done before
         EXPECT_EQ(first_stale(document), std::nullopt);
         EXPECT_EQ(document.session.options.steps, std::nullopt);
-        EXPECT_EQ(state.history.undo_name(), "Run the chain");
+        EXPECT_EQ(state.history.undo_name(), "Update all");
     }
     use();
     EXPECT_EQ(source(), "steps");
