@@ -142,7 +142,8 @@ Picture picture_of_view(Renderer& renderer, ViewerModel& model, const ViewerStat
         const ImVec2 size{float(width), float(height)};
         const auto legend = content.legend ? draw_legend(frame, shown, {0, 0}, size, draw) : std::nullopt;
         if (content.labels)
-            draw_labels(frame, view, shown, {0, 0}, size, legend, draw);
+            draw_labels(frame, view, shown, {0, 0}, size, legend ? std::vector{*legend} : std::vector<PixelBox>{},
+                        draw);
     });
     lay_over(picture, *ImGui::GetDrawData());
     return picture;

@@ -199,7 +199,7 @@ TEST_F(Scripts, AReopenedProjectIsWhatWasSaved)
     fs::create_directory(folder / "kept");
     const Ended saved = run("working.json");
     ASSERT_TRUE(fs::exists(folder / "kept/dome.spia"));
-    const Ended reopened = run_viewer(folder, {"kept/dome.spia"});
+    const Ended reopened = run_viewer(folder, {"kept/dome.spia", "--light"}); // the theme is that of the screen
     ASSERT_EQ(reopened.exit_code, 0) << reopened.errors;
     const Json before = lasting(saved.report), after = lasting(reopened.report);
     ASSERT_GT(before["regions"][0]["faces"], 0);

@@ -301,6 +301,43 @@ TEST_F(Render, ALineBehindAFaceIsHiddenUnlessItIsOnTop)
     expect_colour(rgb_at_mm(draw(scene), 0, 0), {0, 1, 0});
 }
 
+TEST_F(Render, WhatAPlaneCutsAwayIsNotDrawnWhateverItIs)
+{
+    const Eigen::Vector3d origin(1000, -50, 7); // of line and dots: where things lie does not depend on it
+    auto line = std::make_shared<SceneLines>();
+    line->origin = origin;
+    line->point.resize(3, 2);
+    line->point << -1004, -996, 53, 53, -7, -7; // from x = -4 to 4 at y = 3
+    line->colour = {0, 1, 0, 1};
+    line->width = 5;
+    auto dots = std::make_shared<ScenePoints>();
+    dots->origin = origin;
+    dots->point.resize(3, 2);
+    dots->point << -1003, -997, 47, 47, -7, -7; // x = -3 and 3, y = -3
+    dots->colour = {0, 0, 1, 1};
+    dots->size = 8;
+    for (const bool perspective : {false, true})
+        for (const double side_kept : {-1., 1.}) {
+            Scene scene = scene_of({layer(rectangle(-4, -1, 4, 1))});
+            scene.lines = {line};
+            scene.points = {dots};
+            scene.kept = HalfSpace{{side_kept, 0, 0}, -side_kept}; // from x = 1 on, or up to there
+            Camera camera = from_above();
+            camera.perspective = perspective;
+            const Picture picture = draw(scene, camera);
+            const Eigen::Vector3d paper = rgb_at(picture, 0, 0);
+            const double there = side_kept > 0 ? 2 : 0, gone = side_kept > 0 ? 0 : 2;
+            expect_colour(rgb_at_mm(picture, there, 0), {1, 0, 0});
+            expect_colour(rgb_at_mm(picture, gone, 0), paper);
+            expect_colour(rgb_at_mm(picture, there, 3), {0, 1, 0});
+            expect_colour(rgb_at_mm(picture, gone, 3), paper);
+            expect_colour(rgb_at_mm(picture, 3 * side_kept, -3), {0, 0, 1});
+            expect_colour(rgb_at_mm(picture, -3 * side_kept, -3), paper);
+            expect_colour(rgb_at_mm(picture, 1 + 0.1 * side_kept, 0), {1, 0, 0}); // up to the plane itself
+            expect_colour(rgb_at_mm(picture, 1 - 0.1 * side_kept, 0), paper);
+        }
+}
+
 TEST_F(Render, APointIsARoundDotOfItsSizeWithItsColourInTheMiddle)
 {
     auto point = std::make_shared<ScenePoints>();

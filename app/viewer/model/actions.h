@@ -349,7 +349,15 @@ struct DrawSection {
     glm::dvec2 from{0}, to{0}, size{0};
 };
 struct ClearSection {}; ///< "clear_section"
-struct ClearProbes {};  ///< "clear_probes"
+/// "add_measurement": kind ("distance", "angle", "faces", "circle", "rounding"), at [{face, barycentric}, ...]: 2, 3, 2, 3 or 1 places
+struct AddMeasurement {
+    Measurement measurement;
+};
+struct RemoveMeasurement {
+    int measurement = 0;
+};                           ///< "remove_measurement"
+struct ClearMeasurements {}; ///< "clear_measurements"
+struct ClearProbes {};       ///< "clear_probes"
 
 // --- looking
 struct SetDisplay {
@@ -370,6 +378,11 @@ struct LookFrom {
     View view = View::part;
     StandardView from = StandardView::isometric;
 }; ///< "look_from"
+/// "look_from_side": side [x, y, z] of the view cube, each -1, 0 or 1: where the viewer stands
+struct LookFromSide {
+    View view = View::part;
+    std::array<int, 3> side = {0, 0, 1};
+};
 struct FlyTo {
     int face = 0;
 }; ///< "fly_to": every view shows this face in its middle
@@ -440,10 +453,11 @@ using Action =
                  RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
                  UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
                  ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
-                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection, SetDisplay,
-                 SetViewSettings, SetPreferences, FitView, LookFrom, FlyTo, FlyToVertex, ShowFault, HideFault,
-                 ShowRefused, CloseRefused, KeepReference, DropReference, Undo, Redo, OpenProject, SaveProject,
-                 ExportFiles, WriteReport, Screenshot, SaveAnimation, DismissMessages, Quit>;
+                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
+                 AddMeasurement, RemoveMeasurement, ClearMeasurements, SetDisplay, SetViewSettings, SetPreferences,
+                 FitView, LookFrom, LookFromSide, FlyTo, FlyToVertex, ShowFault, HideFault, ShowRefused, CloseRefused, KeepReference,
+                 DropReference, Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot,
+                 SaveAnimation, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

@@ -106,6 +106,7 @@ struct ViewerModel::Apply {
     /// What a picking tool needs of the view it is used in.
     const RayPicker& picker(View view);
     const Camera& camera(View view) const { return state.view.camera[size_t(view)]; }
+    std::optional<HalfSpace> kept(View view) const { return kept_in(state.view, view); }
     void operator()(const PickAt& action);
     void operator()(const PickArea& action);
     void operator()(const PickBrush& action);
@@ -144,6 +145,9 @@ struct ViewerModel::Apply {
 
     void operator()(const DrawSection& action);
     void operator()(const ClearSection&);
+    void operator()(const AddMeasurement& action);
+    void operator()(const RemoveMeasurement& action);
+    void operator()(const ClearMeasurements&);
 
     // --- looking
     void operator()(const SetDisplay& action);
@@ -153,6 +157,7 @@ struct ViewerModel::Apply {
     void begin_as_preferred(Document& fresh) const;
     void operator()(const FitView& action) { model.fitter_.fit(state, action.view); }
     void operator()(const LookFrom& action);
+    void operator()(const LookFromSide& action);
     void operator()(const FlyTo& action);
     void operator()(const FlyToVertex& action);
     /// Every view shows the middle of some vertices of the part.

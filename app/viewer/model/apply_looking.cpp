@@ -5,6 +5,7 @@
 
 #include "app/viewer/model/clear_sight.h"
 #include "app/viewer/model/comparison.h"
+#include "app/viewer/model/view_cube.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {
@@ -22,6 +23,8 @@ void ViewerModel::Apply::operator()(const SetViewSettings& action)
 {
     if (action.view.dark != state.view.dark) // a theme that is chosen stays chosen
         state.preferences.dark = action.view.dark;
+    if (action.view.mouse != state.view.mouse) // as its habits do
+        state.preferences.mouse = action.view.mouse;
     state.view = action.view;
 }
 
@@ -36,6 +39,13 @@ void ViewerModel::Apply::operator()(const LookFrom& action)
     for (const View view : all_views)
         if (view == action.view || (state.view.linked && view != View::blank && action.view != View::blank))
             state.view.camera[size_t(view)] = look(state.view.camera[size_t(view)], action.from);
+}
+
+void ViewerModel::Apply::operator()(const LookFromSide& action)
+{
+    for (const View view : all_views)
+        if (view == action.view || (state.view.linked && view != View::blank && action.view != View::blank))
+            state.view.camera[size_t(view)] = look_from(state.view.camera[size_t(view)], action.side);
 }
 
 void ViewerModel::Apply::operator()(const FlyTo& action)

@@ -1,8 +1,10 @@
 #include "app/viewer/model/apply.h"
-#include "engine/exchange/vertex_numbers.h"
 
 #include <algorithm>
 #include <fmt/core.h>
+
+#include "app/viewer/model/measuring.h"
+#include "engine/exchange/vertex_numbers.h"
 
 namespace spia::viewer {
 
@@ -36,7 +38,7 @@ const RayPicker& ViewerModel::Apply::picker(View view)
 void ViewerModel::Apply::operator()(const PickAt& action)
 {
     const RayPicker& on = picker(action.view);
-    select(faces_at(action, camera(action.view), on, model.pickers_.regions(session)), action.mode,
+    select(faces_at(action, camera(action.view), on, model.pickers_.regions(session), kept(action.view)), action.mode,
            action.flood    ? "Flood fill"
            : action.smooth ? "Select smooth region"
                            : "Pick face");
@@ -45,15 +47,15 @@ void ViewerModel::Apply::operator()(const PickAt& action)
 void ViewerModel::Apply::operator()(const PickArea& action)
 {
     const RayPicker& on = picker(action.view);
-    select(faces_in(action, camera(action.view), *model.pickers_.mesh(session, action.view), on), action.mode,
-           action.polygon.size() == 4 ? "Select by box" : "Select by lasso");
+    select(faces_in(action, camera(action.view), *model.pickers_.mesh(session, action.view), on, kept(action.view)),
+           action.mode, action.polygon.size() == 4 ? "Select by box" : "Select by lasso");
 }
 
 void ViewerModel::Apply::operator()(const PickBrush& action)
 {
     const RayPicker& on = picker(action.view);
-    select(faces_under(action, camera(action.view), *model.pickers_.mesh(session, action.view), on), action.mode,
-           "Brush faces");
+    select(faces_under(action, camera(action.view), *model.pickers_.mesh(session, action.view), on, kept(action.view)),
+           action.mode, "Brush faces");
 }
 
 void ViewerModel::Apply::operator()(const GrowSelection&)
@@ -104,7 +106,7 @@ void ViewerModel::Apply::require_vertices(const std::vector<int>& vertices) cons
 void ViewerModel::Apply::operator()(const PickVertex& action)
 {
     picker(action.view); // says what is missing
-    const std::optional<int> vertex = model.pickers_.vertex_at(session, action, camera(action.view));
+    const std::optional<int> vertex = model.pickers_.vertex_at(session, action, camera(action.view), kept(action.view));
     select_vertices(vertex ? std::vector{*vertex} : std::vector<int>{}, action.mode,
                     action.boundary ? "Pick boundary vertex" : "Pick vertex");
 }
@@ -197,7 +199,7 @@ void ViewerModel::Apply::operator()(const DrawSection& action)
     std::optional<Eigen::Vector3d> found;
     for (int k = 0; k <= looks && !found; ++k) {
         const glm::dvec2 pixel = glm::mix(action.from, action.to, double(k) / looks);
-        const RayHit there = hit_at(from, on, pixel, action.size);
+        const RayHit there = hit_at(from, on, pixel, action.size, kept(action.view));
         const Ray ray = ray_through(from, on.box(), pixel, action.size);
         if (there.face >= 0)
             found = ray.origin + there.distance * ray.direction;
@@ -220,6 +222,31 @@ void ViewerModel::Apply::operator()(const ClearSection&)
 {
     change("Remove section");
     document.section.reset();
+}
+
+void ViewerModel::Apply::operator()(const AddMeasurement& action)
+{
+    const TriMesh& mesh = part().mesh;
+    Measurement made = action.measurement;
+    const bool by_region = made.kind == MeasureKind::rounding;
+    made.found =
+        std::make_shared<const Measured>(measured(mesh, made, by_region ? &model.pickers_.regions(session) : nullptr));
+    change("Measure");
+    document.measurements.push_back(std::move(made));
+}
+
+void ViewerModel::Apply::operator()(const RemoveMeasurement& action)
+{
+    if (action.measurement < 0 || size_t(action.measurement) >= document.measurements.size())
+        throw InputError(fmt::format("There is no measurement {}.", action.measurement + 1));
+    change("Remove measurement");
+    document.measurements.erase(document.measurements.begin() + action.measurement);
+}
+
+void ViewerModel::Apply::operator()(const ClearMeasurements&)
+{
+    change("Remove all measurements");
+    document.measurements.clear();
 }
 
 } // namespace spia::viewer

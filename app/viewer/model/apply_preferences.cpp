@@ -18,6 +18,8 @@ void ViewerModel::Apply::operator()(const SetPreferences& action)
     const Preferences before = std::exchange(state.preferences, wanted);
     if (wanted.dark != before.dark)
         state.view.dark = wanted.dark;
+    if (wanted.mouse != before.mouse)
+        state.view.mouse = wanted.mouse;
     if (wanted.map != before.map)
         document.display.map = wanted.map;
     if (session.file.empty()) // the next part is the first

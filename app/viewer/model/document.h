@@ -37,6 +37,24 @@ struct Probe {
     Eigen::Vector3d barycentric{1. / 3, 1. / 3, 1. / 3};
 };
 
+/// What is measured on the part as it is formed.
+enum class MeasureKind {
+    distance, ///< between two places
+    angle,    ///< at the second of three places
+    faces,    ///< between two faces: how far the sheet turns from one to the other
+    circle,   ///< through three places
+    rounding  ///< the cylinder through the rounded piece of sheet around a place
+};
+std::string_view name(MeasureKind kind);
+size_t places_of(MeasureKind kind); ///< how many are picked
+
+struct Measured;
+struct Measurement {
+    MeasureKind kind = MeasureKind::distance;
+    std::vector<Probe> at;
+    std::shared_ptr<const Measured> found = {}; ///< never null in a document, see measuring.h
+};
+
 /// A line drawn in a view: the field is plotted along the cut of the plane through it and the direction of sight.
 struct SectionLine {
     Eigen::Vector3d from{0, 0, 0}, to{0, 0, 0}; ///< mm, at the depth of what was under the mouse
@@ -84,6 +102,7 @@ struct Document {
     double edge_restraint = 0;              ///< of the outer edge, as a share of the lock force
     std::optional<Eigen::Vector3d> rolling; ///< rolling direction; not given: the sheet is isotropic in its plane
     std::vector<Probe> probes;
+    std::vector<Measurement> measurements;
     std::optional<SectionLine> section;
     LimitsChoice limits;
     StepList steps;                            ///< of unfolding step by step

@@ -28,6 +28,10 @@ inline constexpr auto is_rotation = [](const glm::dquat& turn, const Place& plac
     if (!(std::abs(glm::length(turn) - 1) <= rounding))
         place.fail("must be a unit quaternion w, x, y, z");
 };
+inline constexpr auto is_direction = [](const Eigen::Vector3d& direction, const Place& place) {
+    if (!(direction.norm() > 0))
+        place.fail("must have a length");
+};
 inline constexpr auto in_space = [](const glm::dvec3& place_mm, const Place& place) {
     for (int k = 0; k < 3; ++k)
         Between{-most_mm, most_mm}(place_mm[k], place.entry(size_t(k)));
@@ -230,6 +234,9 @@ inline constexpr auto members_of<ProcessLine> =
 template <>
 inline constexpr auto members_of<Probe> =
     std::tuple{required("face", &Probe::face, any_index), member("barycentric", &Probe::barycentric, is_barycentric)};
+template <>
+inline constexpr auto members_of<Measurement> =
+    std::tuple{required("kind", &Measurement::kind), required("at", &Measurement::at)};
 
 template <>
 inline constexpr auto members_of<FieldDisplay> = std::tuple{member("field", &FieldDisplay::field),
@@ -249,6 +256,11 @@ inline constexpr auto members_of<Camera> =
                member("flat", &Camera::flat)};
 
 template <>
+inline constexpr auto members_of<ClipPlane> =
+    std::tuple{member("on", &ClipPlane::on), member("axis", &ClipPlane::axis),
+               member("place_mm", &ClipPlane::place_mm, Between{-most_mm, most_mm}), member("flip", &ClipPlane::flip),
+               member("direction", &ClipPlane::direction, is_direction)};
+template <>
 inline constexpr auto members_of<ViewSettings> =
     std::tuple{member("camera", &ViewSettings::camera),
                member("linked", &ViewSettings::linked),
@@ -256,6 +268,9 @@ inline constexpr auto members_of<ViewSettings> =
                member("split_x", &ViewSettings::split_x, Between{0.15, 0.85}),
                member("split_y", &ViewSettings::split_y, Between{0.15, 0.85}),
                member("tool", &ViewSettings::tool),
+               member("measure", &ViewSettings::measure),
+               member("mouse", &ViewSettings::mouse),
+               member("clip", &ViewSettings::clip),
                member("flood_angle", &ViewSettings::flood_angle, Between{0, 180}),
                member("brush_radius", &ViewSettings::brush_radius, Between{0, 10000}),
                member("through", &ViewSettings::through),
@@ -280,7 +295,8 @@ inline constexpr auto members_of<Preferences> =
                member("material", &Preferences::material),
                member("thickness_mm", &Preferences::thickness_mm, Between{1e-6, 1e3}),
                member("map", &Preferences::map),
-               member("tolerance_mm", &Preferences::tolerance_mm, Between{1e-9, most_mm})};
+               member("tolerance_mm", &Preferences::tolerance_mm, Between{1e-9, most_mm}),
+               member("mouse", &Preferences::mouse)};
 
 /// Takes over what `wanted` has otherwise than `seen`: two changes of different members made at the same time, each from
 /// what was seen then, both count.

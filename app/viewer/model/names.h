@@ -45,7 +45,22 @@ inline constexpr std::array names_of<Tool>{Names<Tool>{Tool::look, "look"},
                                            Names<Tool>{Tool::outline, "outline"},
                                            Names<Tool>{Tool::line, "line"},
                                            Names<Tool>{Tool::shape, "shape"},
+                                           Names<Tool>{Tool::measure, "measure"},
                                            Names<Tool>{Tool::corners, "corners"}};
+template <>
+inline constexpr std::array names_of<MouseStyle>{
+    Names<MouseStyle>{MouseStyle::spia, "spia"},       Names<MouseStyle>{MouseStyle::nx, "nx"},
+    Names<MouseStyle>{MouseStyle::catia, "catia"},     Names<MouseStyle>{MouseStyle::solidworks, "solidworks"},
+    Names<MouseStyle>{MouseStyle::inspire, "inspire"}, Names<MouseStyle>{MouseStyle::blender, "blender"}};
+template <>
+inline constexpr std::array names_of<MeasureKind>{
+    Names<MeasureKind>{MeasureKind::distance, "distance"}, Names<MeasureKind>{MeasureKind::angle, "angle"},
+    Names<MeasureKind>{MeasureKind::faces, "faces"}, Names<MeasureKind>{MeasureKind::circle, "circle"},
+    Names<MeasureKind>{MeasureKind::rounding, "rounding"}};
+template <>
+inline constexpr std::array names_of<ClipAxis>{Names<ClipAxis>{ClipAxis::x, "x"}, Names<ClipAxis>{ClipAxis::y, "y"},
+                                               Names<ClipAxis>{ClipAxis::z, "z"},
+                                               Names<ClipAxis>{ClipAxis::view, "view"}};
 template <>
 inline constexpr std::array names_of<HandleKind>{Names<HandleKind>{HandleKind::control, "control"},
                                                  Names<HandleKind>{HandleKind::lattice, "lattice"}};

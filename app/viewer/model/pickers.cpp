@@ -116,14 +116,15 @@ const std::vector<int>* Pickers::ready_outline(const Session& session)
     return track ? &track->vertex : nullptr;
 }
 
-std::optional<int> Pickers::vertex_at(const Session& session, const PickVertex& pick, const Camera& camera)
+std::optional<int> Pickers::vertex_at(const Session& session, const PickVertex& pick, const Camera& camera,
+                                      const std::optional<HalfSpace>& kept)
 {
     const RayPicker* on = picker(session, pick.view);
     if (!on)
         return {};
     const TriMesh& shown = *mesh(session, pick.view);
-    return pick.boundary ? boundary_vertex_at(pick, camera, shown, boundary(session, pick.view), *on)
-                         : viewer::vertex_at(pick, camera, shown, *on);
+    return pick.boundary ? boundary_vertex_at(pick, camera, shown, boundary(session, pick.view), *on, kept)
+                         : viewer::vertex_at(pick, camera, shown, *on, kept);
 }
 
 } // namespace spia::viewer

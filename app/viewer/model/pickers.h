@@ -41,7 +41,8 @@ public:
     /// Null while it is being made. @throws likewise
     const std::vector<int>* ready_outline(const Session& session);
     /// What a click would pick. Nothing likewise where the view shows none of the part.
-    std::optional<int> vertex_at(const Session& session, const PickVertex& pick, const Camera& camera);
+    std::optional<int> vertex_at(const Session& session, const PickVertex& pick, const Camera& camera,
+                                 const std::optional<HalfSpace>& kept);
 
 private:
     /// What is searched on the part, or on its blank.

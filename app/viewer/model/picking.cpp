@@ -67,7 +67,7 @@ private:
 /// @param box of pixels, outside of which there is none
 template <class Inside>
 FaceSet faces_seen(const Camera& camera, const TriMesh& mesh, const RayPicker& picker, glm::dvec2 size, PixelBox box,
-                   bool through, const Inside& inside)
+                   bool through, const std::optional<HalfSpace>& kept, const Inside& inside)
 {
     const Sight sight(camera, picker.box(), size);
     box.least = glm::max(box.least, glm::dvec2(0)); // what the view does not show is not picked
@@ -82,36 +82,45 @@ FaceSet faces_seen(const Camera& camera, const TriMesh& mesh, const RayPicker& p
         const Eigen::Vector3d a = mesh.position.col(t[0]), b = mesh.position.col(t[1]), c = mesh.position.col(t[2]);
         const Eigen::Vector3d middle = (a + b + c) / 3;
         const glm::dvec2 pixel = sight.pixel(middle);
-        if (!box.holds(pixel) || !inside(pixel))
+        if (!box.holds(pixel) || !inside(pixel) || (kept && kept->height(middle) < 0))
             return;
         if (!through) {
             const Eigen::Vector3d viewer = sight.viewer_of(middle), normal = (b - a).cross(c - a);
             if (std::abs(normal.dot(viewer - middle)) <= edge_on * normal.norm() * (viewer - middle).norm() ||
-                picker.hidden(f, middle, viewer))
+                picker.hidden(f, middle, kept_eye(kept, viewer, middle)))
                 return;
         }
         taken[size_t(i)] = 1;
     });
-    size_t kept = 0;
+    size_t count = 0;
     for (size_t i = 0; i < faces.size(); ++i)
         if (taken[i])
-            faces[kept++] = faces[i];
-    faces.resize(kept);
+            faces[count++] = faces[i];
+    faces.resize(count);
     std::sort(faces.begin(), faces.end());
     return faces;
 }
 
 } // namespace
 
-RayHit hit_at(const Camera& camera, const RayPicker& picker, glm::dvec2 pixel, glm::dvec2 size)
+RayHit hit_at(const Camera& camera, const RayPicker& picker, glm::dvec2 pixel, glm::dvec2 size,
+              const std::optional<HalfSpace>& kept)
 {
     const Ray ray = ray_through(camera, picker.box(), pixel, size);
-    return picker.first(ray.origin, ray.direction);
+    if (!kept)
+        return picker.first(ray.origin, ray.direction);
+    const auto seen = kept_of_ray(*kept, ray.origin, ray.direction);
+    if (!seen)
+        return {};
+    RayHit hit = picker.first(ray.origin + seen->from * ray.direction, ray.direction);
+    hit.distance += seen->from;
+    return hit.distance <= seen->to ? hit : RayHit{};
 }
 
-FaceSet faces_at(const PickAt& pick, const Camera& camera, const RayPicker& picker, const RegionSearch& part_regions)
+FaceSet faces_at(const PickAt& pick, const Camera& camera, const RayPicker& picker, const RegionSearch& part_regions,
+                 const std::optional<HalfSpace>& kept)
 {
-    const int face = hit_at(camera, picker, pick.pixel, pick.size).face;
+    const int face = hit_at(camera, picker, pick.pixel, pick.size, kept).face;
     if (face < 0)
         return {};
     if (pick.smooth)
@@ -121,19 +130,21 @@ FaceSet faces_at(const PickAt& pick, const Camera& camera, const RayPicker& pick
     return {face};
 }
 
-FaceSet faces_in(const PickArea& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker)
+FaceSet faces_in(const PickArea& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
+                 const std::optional<HalfSpace>& kept)
 {
     const PixelPolygon polygon(pick.polygon);
-    return faces_seen(camera, mesh, picker, pick.size, polygon.box(), pick.through,
+    return faces_seen(camera, mesh, picker, pick.size, polygon.box(), pick.through, kept,
                       [&](glm::dvec2 pixel) { return polygon.holds(pixel); });
 }
 
-FaceSet faces_under(const PickBrush& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker)
+FaceSet faces_under(const PickBrush& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
+                    const std::optional<HalfSpace>& kept)
 {
     const PixelBox box{pick.pixel - pick.radius, pick.pixel + pick.radius};
-    FaceSet faces = faces_seen(camera, mesh, picker, pick.size, box, pick.through,
+    FaceSet faces = faces_seen(camera, mesh, picker, pick.size, box, pick.through, kept,
                                [&](glm::dvec2 pixel) { return glm::length(pixel - pick.pixel) <= pick.radius; });
-    const int under = hit_at(camera, picker, pick.pixel, pick.size).face;
+    const int under = hit_at(camera, picker, pick.pixel, pick.size, kept).face;
     return under < 0 ? faces : united(faces, {under});
 }
 
@@ -148,14 +159,17 @@ FaceSet picked(const FaceSet& selected, const FaceSet& faces, PickMode mode)
 }
 
 std::optional<Probe> probe_at(const Camera& camera, const TriMesh& mesh, const RayPicker& picker, glm::dvec2 pixel,
-                              glm::dvec2 size, double snap)
+                              glm::dvec2 size, double snap, const std::optional<HalfSpace>& kept)
 {
-    const RayHit hit = hit_at(camera, picker, pixel, size);
+    const RayHit hit = hit_at(camera, picker, pixel, size, kept);
     if (hit.face < 0)
         return {};
     Probe probe{hit.face, hit.barycentric};
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec2 corner = pixel_of(camera, mesh.position.col(mesh.triangle(k, hit.face)), size);
+        const Eigen::Vector3d vertex = mesh.position.col(mesh.triangle(k, hit.face));
+        const glm::dvec2 corner = pixel_of(camera, vertex, size);
+        if (kept && kept->height(vertex) < 0)
+            continue;
         if (const double away = glm::length(corner - pixel); away < snap) {
             snap = away;
             probe.barycentric = Eigen::Vector3d::Unit(k);

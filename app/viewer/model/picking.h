@@ -4,35 +4,40 @@
 
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/camera.h"
+#include "app/viewer/model/clip_plane.h"
 #include "engine/forming/blank.h"
 #include "engine/mesh/pick.h"
 #include "engine/mesh/region.h"
 #include "engine/mesh/tri_mesh.h"
 
 /// What a view shows at a pixel, and which faces a tool takes there. The mesh is the part or its flat_mesh() (they have
-/// the same faces), the picker is built of it, the camera is that of the view.
+/// the same faces), the picker is built of it, the camera is that of the view. What a clipping plane cuts away is not there.
 namespace spia::viewer {
 
 /// What is hit first from the viewer's side; face -1: nothing.
-RayHit hit_at(const Camera& camera, const RayPicker& picker, glm::dvec2 pixel, glm::dvec2 size);
+RayHit hit_at(const Camera& camera, const RayPicker& picker, glm::dvec2 pixel, glm::dvec2 size,
+              const std::optional<HalfSpace>& kept = {});
 
 /// The face under the pixel, or what is flooded from it; empty where there is none.
 /// @param part_regions of the part, also if the view shows the blank, which has no angles
-FaceSet faces_at(const PickAt& pick, const Camera& camera, const RayPicker& picker, const RegionSearch& part_regions);
+FaceSet faces_at(const PickAt& pick, const Camera& camera, const RayPicker& picker, const RegionSearch& part_regions,
+                 const std::optional<HalfSpace>& kept = {});
 
 /// Faces whose middle lies inside the polygon (even-odd rule) and is not hidden by another face; with `through` hidden ones
 /// too. A face seen exactly from its edge counts as hidden, a face behind the eye or the near plane never counts.
-FaceSet faces_in(const PickArea& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker);
+FaceSet faces_in(const PickArea& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
+                 const std::optional<HalfSpace>& kept = {});
 
 /// Likewise in the circle of the brush, and always the face under its middle: on a coarse mesh a brush may hold no middle.
-FaceSet faces_under(const PickBrush& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker);
+FaceSet faces_under(const PickBrush& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
+                    const std::optional<HalfSpace>& kept = {});
 
 /// The selection after picking some faces.
 FaceSet picked(const FaceSet& selected, const FaceSet& faces, PickMode mode);
 
 /// A place to watch: what is hit first at the pixel, or the vertex of that face within `snap` pixels of it.
 std::optional<Probe> probe_at(const Camera& camera, const TriMesh& mesh, const RayPicker& picker, glm::dvec2 pixel,
-                              glm::dvec2 size, double snap = 8);
+                              glm::dvec2 size, double snap = 8, const std::optional<HalfSpace>& kept = {});
 
 inline constexpr double turn_reaches[] = {0.01, 0.03}; ///< of a boundary's length, to each side of a turn
 

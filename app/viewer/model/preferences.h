@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/viewer/model/mouse_style.h"
 #include "app/viewer/model/scene.h"
 #include "engine/exchange/length_unit.h"
 
@@ -17,6 +18,7 @@ struct Preferences {
     std::optional<double> thickness_mm;  ///< likewise; null: none is chosen
     std::optional<ColourMap> map;        ///< of fields; null: diverging where zero matters, else viridis
     std::optional<double> tolerance_mm;  ///< of the surface from the part; null: it runs through the nodes of the grid
+    MouseStyle mouse = MouseStyle::spia; ///< how it moves the camera
 
     friend bool operator==(const Preferences&, const Preferences&) = default;
 };

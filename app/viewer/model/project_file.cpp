@@ -96,6 +96,9 @@ inline constexpr auto members_of<StoredProbe> =
                required("barycentric", &StoredProbe::barycentric, is_barycentric),
                required("at", &StoredProbe::at, anywhere_in_space), required("normal", &StoredProbe::normal)};
 template <>
+inline constexpr auto members_of<StoredMeasurement> =
+    std::tuple{required("kind", &StoredMeasurement::kind), required("at", &StoredMeasurement::at)};
+template <>
 inline constexpr auto members_of<StoredCorner> = std::tuple{required("vertex", &StoredCorner::vertex, any_index),
                                                             required("at", &StoredCorner::at, anywhere_in_space)};
 template <>
@@ -124,11 +127,15 @@ inline constexpr auto members_of<StoredSteps> =
     std::tuple{member("patch", &StoredSteps::patch), member("step", &StoredSteps::step),
                member("proposed", &StoredSteps::proposed), member("root", &StoredSteps::root, any_index)};
 template <>
-inline constexpr auto members_of<StoredPicks> =
-    std::tuple{member("fingerprint", &StoredPicks::fingerprint), member("selected", &StoredPicks::selected),
-               member("vertices", &StoredPicks::vertices),       member("regions", &StoredPicks::regions),
-               member("probes", &StoredPicks::probes),           member("lines", &StoredPicks::lines),
-               member("corners", &StoredPicks::corners),         member("steps", &StoredPicks::steps)};
+inline constexpr auto members_of<StoredPicks> = std::tuple{member("fingerprint", &StoredPicks::fingerprint),
+                                                           member("selected", &StoredPicks::selected),
+                                                           member("vertices", &StoredPicks::vertices),
+                                                           member("regions", &StoredPicks::regions),
+                                                           member("probes", &StoredPicks::probes),
+                                                           member("lines", &StoredPicks::lines),
+                                                           member("measurements", &StoredPicks::measurements),
+                                                           member("corners", &StoredPicks::corners),
+                                                           member("steps", &StoredPicks::steps)};
 template <>
 inline constexpr auto members_of<SectionLine> =
     std::tuple{required("from", &SectionLine::from, anywhere_in_space),
@@ -364,7 +371,9 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.view = view;
     stored.section = document.section;
     stored.recovers = recovers;
-    write_atomically(file, lines_of(written(stored), file.string()));
+    Json json = written(stored);
+    json["view"].erase("mouse"); // a habit of the user
+    write_atomically(file, lines_of(json, file.string()));
 }
 
 Project open_project(const fs::path& file, const fs::path& materials)

@@ -390,7 +390,7 @@ std::string repairs(const PartFile& part)
         rows += row(finding.severity == spia::Severity::repaired ? "Repaired" : "Noted", finding.text);
     for (const std::string& note : part.notes)
         rows += row("Noted", note);
-    return rows.empty() ? "" : facts("The part as it was read", rows);
+    return rows.empty() ? "" : facts("Input part", rows);
 }
 
 } // namespace spia::viewer

@@ -5,6 +5,7 @@
 
 #include "app/viewer/model/changed_part.h"
 #include "app/viewer/model/file_numbers.h"
+#include "app/viewer/model/measuring.h"
 #include "engine/core/error.h"
 #include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/closest_point.h"
@@ -66,17 +67,39 @@ public:
         return found;
     }
 
-    std::optional<Probe> probe(const StoredProbe& stored, size_t number)
+    std::optional<Probe> place(const StoredProbe& stored)
     {
         if (same_)
             if (const int triangle = FaceNumbers(part_).triangle(stored.face, stored.piece); triangle >= 0)
                 return Probe{triangle, stored.barycentric};
         const ClosestPoint found = changed().find(stored.at, stored.normal);
-        if (found.face >= 0)
-            return Probe{found.face, found.barycentric};
+        return found.face >= 0 ? std::optional(Probe{found.face, found.barycentric}) : std::nullopt;
+    }
+
+    std::optional<Probe> probe(const StoredProbe& stored, size_t number)
+    {
+        if (const auto found = place(stored))
+            return found;
         missing.push_back(fmt::format("probe {} near {} is not on the changed part any more; it was removed",
                                       number + 1, near(stored.at)));
         return {};
+    }
+
+    /// Measured anew: on a changed part there may be another radius at the place, or none.
+    std::optional<Measurement> measurement(const StoredMeasurement& stored, size_t number)
+    {
+        Measurement made{stored.kind, {}};
+        for (const StoredProbe& each : stored.at)
+            if (const auto found = place(each))
+                made.at.push_back(*found);
+        try {
+            made.found = std::make_shared<const Measured>(measured(part_.mesh, made));
+            return made;
+        } catch (const InputError&) {
+            missing.push_back(
+                fmt::format("measurement {} is not possible on the changed part any more; it was removed", number + 1));
+            return {};
+        }
     }
 
     std::vector<int> vertices(const std::vector<StoredVertex>& stored)
@@ -265,6 +288,10 @@ std::vector<std::string> restore_picks(Document& document, const StoredPicks& pi
     for (size_t i = 0; i < picks.probes.size(); ++i)
         if (const auto probe = restorer.probe(picks.probes[i], i))
             restored.probes.push_back(*probe);
+    restored.measurements.clear();
+    for (size_t i = 0; i < picks.measurements.size(); ++i)
+        if (auto measurement = restorer.measurement(picks.measurements[i], i))
+            restored.measurements.push_back(std::move(*measurement));
     restored.session.options.corners = picks.corners ? restorer.corners(*picks.corners) : std::nullopt;
     document = std::move(restored);
     return restorer.missing;

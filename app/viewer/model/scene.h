@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/viewer/model/clip_plane.h"
+
 namespace spia::viewer {
 
 /// An sRGB colour with opacity, 0..1.
@@ -125,6 +127,7 @@ struct Scene {
     std::shared_ptr<const std::vector<Isoline>> isolines; ///< null: none are shown
     std::optional<SceneLegend> legend;                    ///< of the field that is shown
     std::vector<Colour> region_colours;                   ///< by number of region
+    std::optional<HalfSpace> kept;                        ///< what is beyond is cut away; nothing: all is shown
     Eigen::AlignedBox3d box;                              ///< mm, around everything worth seeing: what "fit" shows
     std::string empty;                                    ///< if there is nothing to show: what to do about it
 };

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "app/viewer/model/camera.h"
+#include "app/viewer/model/clip_plane.h"
 #include "app/viewer/model/document.h"
 #include "app/viewer/model/file_listing.h"
 #include "app/viewer/model/history.h"
 #include "app/viewer/model/message.h"
+#include "app/viewer/model/mouse_style.h"
 #include "app/viewer/model/preferences.h"
 
 namespace spia::viewer {
@@ -34,7 +36,8 @@ enum class Tool {
     outline,
     corners,
     line,
-    shape
+    shape,
+    measure
 };
 std::string_view name(Tool tool);
 Tool tool_by_name(std::string_view name); ///< @throws InputError
@@ -62,9 +65,12 @@ struct ViewSettings {
     std::optional<View> maximised;
     float split_x = 0.5f, split_y = 0.5f; ///< of the four views, shares of the window
     Tool tool = Tool::look;
-    double flood_angle = 20;  ///< degrees
-    double brush_radius = 20; ///< pixels
-    bool through = false;     ///< box, lasso and brush take hidden faces too
+    MeasureKind measure = MeasureKind::distance; ///< of the tool for it
+    MouseStyle mouse = MouseStyle::spia;         ///< not kept with the project: a habit of the user
+    ClipPlane clip;                              ///< of the views in space
+    double flood_angle = 20;                     ///< degrees
+    double brush_radius = 20;                    ///< pixels
+    bool through = false;                        ///< box, lasso and brush take hidden faces too
     bool dark = true;
     bool edges = false; ///< of the triangles
     bool features = true;
@@ -77,6 +83,12 @@ struct ViewSettings {
     std::optional<int> step;     ///< the chosen one, from 0: its faces are marked
     bool field_on_steps = false; ///< the field of the states instead of the marks
 };
+
+/// What a view does not cut away; nothing: all of it is there.
+inline std::optional<HalfSpace> kept_in(const ViewSettings& settings, View view)
+{
+    return view == View::blank ? std::nullopt : kept_by(settings.clip);
+}
 
 /// A place where the mesh of the part is at fault.
 struct ShownFault {

@@ -8,6 +8,7 @@
 #include "app/viewer/model/grades.h"
 #include "app/viewer/model/handles.h"
 #include "app/viewer/model/lights.h"
+#include "app/viewer/model/measuring.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/pipeline/report.h"
@@ -145,6 +146,20 @@ Json probes_json(const Document& document, const FaceValues& field)
             json["at"] = vector_json(mesh.position(Eigen::all, corner) * probe.barycentric);
             json["value"] = field.value.size() == 0 ? Json(nullptr) : Json(field.value[probe.face]);
         }
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+Json measurements_json(const Document& document)
+{
+    Json list = Json::array();
+    for (const Measurement& each : document.measurements) {
+        Json json = written(each);
+        json["value"] = each.found->value;
+        json["text"] = text_of(each, LengthUnit::mm);
+        json["residual"] = written(each.found->residual);
+        json["on_blank"] = written(on_blank(document.session, each));
         list.push_back(std::move(json));
     }
     return list;
@@ -338,6 +353,7 @@ Json state_report(const ViewerState& state)
             {"comparison", comparison_json(state)},
             {"unfolding", unfolding_json(state)},
             {"probes", probes_json(document, field)},
+            {"measurements", measurements_json(document)},
             {"display", written(document.display)},
             {"field", field_json(document, field)},
             {"view", written(state.view)},

@@ -17,6 +17,7 @@ namespace spia::viewer {
 /// | `distance` | of two picked vertices: null, or straight `part`, `blank` (mm; null: none yet) |
 /// | `regions[]` | `name`, `kind`, `colour`, `faces`, `first` |
 /// | `probes[]` | `face`, `barycentric`, `at` (mm), `value` of the field shown, in its unit (null: none) |
+/// | `measurements[]` | `kind`, `at` (as in add_measurement), `value` (mm, of angles degrees), `text`, `residual` (mm, of a rounding; else null), `on_blank` (mm, of a distance once there is a blank) |
 /// | `display` | as in the script action set_display |
 /// | `grades` | that can be chosen: `built_in[]`, `own[]`, `at_fault` (why, by the stem of the file) |
 /// | `comparison` | null, or `reference` (its name), `by_face` (whether there are differences), `outline_distance` (mm), `figures` (`reference`, `now` of each) |

@@ -153,11 +153,18 @@ StoredPicks store_picks(const Document& document)
     picks.steps.proposed = still_proposed(document);
     if (picks.steps.proposed && document.proposal->root >= 0)
         picks.steps.root = document.proposal->root;
-    for (const Probe& probe : document.probes) {
+    const auto stored = [&](const Probe& probe) {
         require_triangle(part.mesh, probe.face);
         const Eigen::Matrix3d corners = corners_of(part.mesh, probe.face);
-        picks.probes.push_back({numbers.face(probe.face), numbers.piece(probe.face), probe.barycentric,
-                                corners * probe.barycentric, unit_normal(corners)});
+        return StoredProbe{numbers.face(probe.face), numbers.piece(probe.face), probe.barycentric,
+                           corners * probe.barycentric, unit_normal(corners)};
+    };
+    for (const Probe& probe : document.probes)
+        picks.probes.push_back(stored(probe));
+    for (const Measurement& measurement : document.measurements) {
+        picks.measurements.push_back({measurement.kind, {}});
+        for (const Probe& probe : measurement.at)
+            picks.measurements.back().at.push_back(stored(probe));
     }
     if (document.session.options.corners) {
         auto& corners = picks.corners.emplace();

@@ -38,6 +38,11 @@ struct StoredProbe {
     Eigen::Vector3d normal{0, 0, 1}; ///< unit, of the face
 };
 
+struct StoredMeasurement {
+    MeasureKind kind = MeasureKind::distance;
+    std::vector<StoredProbe> at;
+};
+
 struct StoredCorner {
     int vertex = 0;              ///< number in the file
     Eigen::Vector3d at{0, 0, 0}; ///< mm
@@ -77,6 +82,7 @@ struct StoredPicks {
     std::vector<StoredVertex> vertices;
     std::vector<StoredRegion> regions;
     std::vector<StoredProbe> probes;
+    std::vector<StoredMeasurement> measurements;
     std::vector<ProcessLine> lines;                     ///< by their places
     std::optional<std::array<StoredCorner, 4>> corners; ///< of the grid, where the user chose them
     StoredSteps steps;
@@ -94,7 +100,7 @@ StoredPatch store_patch(const PartFile& part, const std::vector<int>& triangles)
 /// @throws InputError if the document has no part, or a pick names a face, vertex or corner that the part does not have
 StoredPicks store_picks(const Document& document);
 
-/// Puts the picks into a document whose part has been read: selection, vertices, regions, probes, and the corners of the
+/// Puts the picks into a document whose part has been read: selection, vertices, regions, probes, measurements, and the corners of the
 /// session's options. On a changed part a face belongs to a patch where its middle lies on one of the patch's old triangles: no
 /// farther off than 1 % of the part's diagonal, and with a normal within 60 degrees. A corner is the nearest vertex of
 /// the outer boundary. A step of unfolding that has no faces to move any more is left out; one that has none left of those

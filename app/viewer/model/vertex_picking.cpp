@@ -74,13 +74,16 @@ struct Candidate {
 /// Finds out which candidates a view shows.
 class Candidates {
 public:
-    Candidates(const PickVertex& pick, const Sight& sight, const TriMesh& mesh, const RayPicker& picker)
-        : pick_(pick), sight_(sight), mesh_(mesh), picker_(picker)
+    Candidates(const PickVertex& pick, const Sight& sight, const TriMesh& mesh, const RayPicker& picker,
+               const std::optional<HalfSpace>& kept)
+        : pick_(pick), sight_(sight), mesh_(mesh), picker_(picker), kept_(kept)
     {
     }
 
     void add_within(double reach, int vertex, int face, bool plain = true)
     {
+        if (kept_ && kept_->height(mesh_.position.col(vertex)) < 0)
+            return;
         const glm::dvec2 pixel = sight_.pixel(mesh_.position.col(vertex));
         const double away = glm::length(pixel - pick_.pixel);
         if (away <= reach && PixelBox{glm::dvec2(0), pick_.size}.holds(pixel))
@@ -100,7 +103,7 @@ public:
                 continue;
             const Eigen::Vector3d place = mesh_.position.col(each.vertex), viewer = sight_.viewer_of(place);
             const double far = (place - viewer).norm();
-            if ((!first || far < depth) && !picker_.hidden(each.face, place, viewer)) {
+            if ((!first || far < depth) && !picker_.hidden(each.face, place, kept_eye(kept_, viewer, place))) {
                 first = &each;
                 depth = far;
             }
@@ -113,6 +116,7 @@ private:
     const Sight& sight_;
     const TriMesh& mesh_;
     const RayPicker& picker_;
+    const std::optional<HalfSpace>& kept_;
     std::vector<Candidate> all_;
 };
 
@@ -148,13 +152,14 @@ BoundaryVertices boundary_vertices(const TriMesh& mesh)
     return boundary;
 }
 
-std::optional<int> vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker)
+std::optional<int> vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
+                             const std::optional<HalfSpace>& kept)
 {
     const Sight sight(camera, picker.box(), pick.size);
     // From a small circle outwards: of a fine mesh the whole reach may hold thousands of vertices.
     for (double part = 1. / 8; part <= 1; part *= 2) {
         const double reach = part * pick.reach;
-        Candidates candidates(pick, sight, mesh, picker);
+        Candidates candidates(pick, sight, mesh, picker, kept);
         for (const int f : picker.near(sight.half_spaces({pick.pixel - reach, pick.pixel + reach})))
             for (int k = 0; k < 3; ++k)
                 candidates.add_within(reach, mesh.triangle(k, f), f);
@@ -165,10 +170,11 @@ std::optional<int> vertex_at(const PickVertex& pick, const Camera& camera, const
 }
 
 std::optional<int> boundary_vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh,
-                                      const BoundaryVertices& boundary, const RayPicker& picker)
+                                      const BoundaryVertices& boundary, const RayPicker& picker,
+                                      const std::optional<HalfSpace>& kept)
 {
     const Sight sight(camera, picker.box(), pick.size);
-    Candidates candidates(pick, sight, mesh, picker);
+    Candidates candidates(pick, sight, mesh, picker, kept);
     for (size_t i = 0; i < boundary.vertex.size(); ++i)
         candidates.add_within(pick.reach, boundary.vertex[i], boundary.face[i], !boundary.sharp[i]);
     return candidates.first_in_sight();

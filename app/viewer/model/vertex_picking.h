@@ -24,13 +24,14 @@ BoundaryVertices boundary_vertices(const TriMesh& mesh);
 
 /// The vertex in sight that is nearest to the pixel, at most pick.reach from it. Where several stand behind each other
 /// it is the one in front.
-std::optional<int> vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh,
-                             const RayPicker& picker);
+std::optional<int> vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh, const RayPicker& picker,
+                             const std::optional<HalfSpace>& kept = {});
 
 /// Likewise of the boundary. A sharp turn within reach goes before all others.
 /// @param boundary of the mesh
 std::optional<int> boundary_vertex_at(const PickVertex& pick, const Camera& camera, const TriMesh& mesh,
-                                      const BoundaryVertices& boundary, const RayPicker& picker);
+                                      const BoundaryVertices& boundary, const RayPicker& picker,
+                                      const std::optional<HalfSpace>& kept = {});
 
 /// Four vertices as corners of a grid, in their order along the outline from the first of them on.
 /// @param outline vertices of the outer boundary in their order

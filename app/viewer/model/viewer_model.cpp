@@ -9,6 +9,7 @@
 #include "app/viewer/model/grid_advice.h"
 #include "app/viewer/model/handles.h"
 #include "app/viewer/model/lengths.h"
+#include "app/viewer/model/measuring.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
@@ -385,11 +386,15 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     }
     if (before && before != after)
         document.section.reset();
-    if (!picks)
+    if (!picks) {
+        if (before && after && before != after)
+            measure_again(document);
         return lost;
+    }
     document.selected.clear();
     document.vertices.clear();
     document.probes.clear();
+    document.measurements.clear();
     document.regions.clear();
     document.lines.clear();
     document.steps.clear();
@@ -537,6 +542,7 @@ void ViewerModel::part_opened()
     if (!document.session.part)
         return;
     state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
+    state_.view.clip.on = false; // of another part
     fitter_.fit(state_);
     const PartFile& part = *document.session.part;
     double& thickness = document.session.options.flatten.thickness;
@@ -561,9 +567,11 @@ void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>
         return;
     for (const std::string& lost : restore(document, project.picks, search)) // the rest of the project is sound
         say(Severity::warning, lost);
-    const bool dark = state_.view.dark; // of the one who opens it
+    const bool dark = state_.view.dark; // of the one who opens it, as the mouse's habits are
+    const MouseStyle mouse = state_.view.mouse;
     state_.view = project.view;
     state_.view.dark = dark;
+    state_.view.mouse = mouse;
     steps_next_ = keep_step_ = project.steps_ran && !document.steps.empty();
     keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
     if (keep_cameras_ && project.blank_of_steps && steps_next_)
@@ -589,8 +597,9 @@ void ViewerModel::hover(View view, glm::dvec2 pixel, glm::dvec2 size, double rea
     if (const Tool tool = state_.view.tool; tool == Tool::vertex || tool == Tool::outline)
         state_.hovered_vertex = pickers_.vertex_at(
             state_.document.session,
-            {.view = view, .pixel = pixel, .size = size, .boundary = tool == Tool::outline, .reach = reach}, camera);
-    const RayHit hit = hit_at(camera, *picker, pixel, size);
+            {.view = view, .pixel = pixel, .size = size, .boundary = tool == Tool::outline, .reach = reach}, camera,
+            kept_in(state_.view, view));
+    const RayHit hit = hit_at(camera, *picker, pixel, size, kept_in(state_.view, view));
     if (hit.face < 0)
         return;
     state_.hovered = hit.face;

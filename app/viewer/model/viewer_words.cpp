@@ -1,5 +1,6 @@
 #include "app/viewer/model/viewer_words.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 
 #include "app/viewer/model/lengths.h"
@@ -26,6 +27,7 @@ std::string in_viewer_words(std::string text)
         {"--max-control-points", "the greatest number of control points"},
         {"--patches", "\"Made of\" in the step NURBS surface"},
         {"--part", "\"Import options...\" in the step Part"},
+        {"with --young", "in the field above"},
         {"--young", "in the field above"},
         {"--data engineering or --data true", "above"},
         {"--data", "above"},
@@ -58,9 +60,11 @@ std::string load_words(const FaceRegion& region, LengthUnit lengths)
 
 std::string as_sentence(std::string text)
 {
-    const std::string_view first = std::string_view(text).substr(0, text.find_first_of(" :,;"));
-    const bool file = first.find('/') != first.npos || first.substr(0, first.size() - 1).find('.') != first.npos;
-    if (!first.empty() && !file && text[0] >= 'a' && text[0] <= 'z')
+    const size_t end = std::min(text.find_first_of(" :,;"), text.size());
+    const std::string_view first = std::string_view(text).substr(0, end);
+    const bool name = (end < text.size() && text[end] == ':') || first.find('/') != first.npos ||
+                      first.substr(0, std::max<size_t>(end, 1) - 1).find('.') != first.npos;
+    if (!first.empty() && !name && text[0] >= 'a' && text[0] <= 'z')
         text[0] = char(text[0] - 'a' + 'A');
     return text;
 }

@@ -18,12 +18,11 @@ void shortcuts_window(Frame& frame)
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
     if (ImGui::Begin("Keyboard and mouse", &frame.ui.show_shortcuts,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
+        const MouseStyle style = frame.state.view.mouse;
         constexpr const char* rows[][2] = {
-            {"Left button", "what the tool does; with Look: turn"},
-            {"Right button", "turn, with every tool"},
-            {"Middle button, Shift + right", "pan"},
-            {"Wheel", "zoom to the place under the mouse"},
+            {"Left button", "what the tool does"},
             {"Shift, Ctrl", "picking adds, takes away"},
+            {"View cube", "a click looks from there, a drag turns"},
             {"Double click on a title", "one view, four views"},
             {"F4, Shift + F4", "the next view, the one before has the keyboard; a click gives it, too"},
             {"Arrows, Page up, down", "turn and zoom the view that has the keyboard; Shift: pan"},
@@ -32,11 +31,12 @@ void shortcuts_window(Frame& frame)
             {"Alt", "the menus: arrows go through them, Return takes"},
             {"Arrows, Tab, Space, Return", "in panels: go, next field, press, take"},
             {"V P B L U R N", "tools: look, face, box, lasso, brush, flood, smooth"},
-            {"D G W O X C", "tools: vertex, outline, line, probe, section, corners"},
+            {"D G W C", "tools: vertex, outline, line, corners"},
+            {"O X M K", "tools: probe, section, measure, shape"},
             {"F5, F6", "run all, unfold"},
             {"F", "fit all"},
             {"1 2 3 4, 5", "top, front, right, isometric; perspective"},
-            {"E, T", "triangle edges; dark or light"},
+            {"E, T, H", "triangle edges; dark or light; clip"},
             {"F2, F3", "show or hide the panels"},
             {"Ctrl + Z, Y", "undo, redo (also Ctrl + Shift + Z)"},
             {"I, +, -", "invert, grow, shrink the selection"},
@@ -44,13 +44,18 @@ void shortcuts_window(Frame& frame)
             {"Ctrl + comma", "preferences"},
             {"Esc", "close a menu or dialog; cancel the job; clear the selection"}};
         if (ImGui::BeginTable("keys", 2)) {
-            for (const auto& row : rows) {
+            const auto row = [](const char* how, const char* does) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
-                ImGui::TextUnformatted(row[0]);
+                ImGui::TextUnformatted(how);
                 ImGui::TableNextColumn();
-                ImGui::TextDisabled("%s", row[1]);
-            }
+                ImGui::TextDisabled("%s", does);
+            };
+            row("Mouse", fmt::format("as in {}; others in View > Mouse", title(style)).c_str());
+            for (const MouseHabit& habit : habits(style))
+                row(habit.how.c_str(), habit.does.c_str());
+            for (const auto& each : rows)
+                row(each[0], each[1]);
             ImGui::EndTable();
         }
     }

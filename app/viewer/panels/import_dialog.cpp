@@ -13,6 +13,7 @@
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
+#include "app/viewer/panels/view_tools.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -241,20 +242,20 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
     }
     if (choices.camera == Camera{})
         choices.camera = import_camera(listed, view);
+    const MouseStyle style = frame.state.view.mouse;
+    const float slack = click_slack * frame.ui.scale;
+    const bool left_is_free = true; // a click chooses, a drag may turn
+    const Navigator::Step step =
+        choices.navigator.follow(style, mouse_held(), mouse_pressed(), glm::dvec2(io.MouseDelta.x, io.MouseDelta.y),
+                                 ImGui::IsItemHovered(), left_is_free, slack);
+    choices.camera = step.centre ? pan(choices.camera, view / 2. - pixel, view) : moved(choices.camera, step, view);
     if (ImGui::IsItemActivated()) {
-        choices.panning = ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(1) && io.KeyShift);
+        choices.left = ImGui::IsMouseDown(0);
         choices.moved = false;
     }
-    if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-        constexpr float slack = 4; // pixels: a click may shake
-        choices.moved = choices.moved || ImGui::IsMouseDragging(0, slack) || ImGui::IsMouseDragging(1, slack) ||
-                        ImGui::IsMouseDragging(2, slack);
-        const glm::dvec2 drag(io.MouseDelta.x, io.MouseDelta.y);
-        if (choices.moved)
-            choices.camera = choices.panning ? pan(choices.camera, drag, view) : orbit(choices.camera, drag, view);
-    }
+    choices.moved |= ImGui::IsItemActive() && ImGui::IsMouseDragging(0, slack);
     if (ImGui::IsItemHovered() && io.MouseWheel != 0)
-        choices.camera = zoom(choices.camera, std::pow(1.15, io.MouseWheel), pixel, view);
+        choices.camera = zoom(choices.camera, wheel_factor(style), pixel, view);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
         const RayHit hit = hit_at(choices.camera, *listed.picker, pixel, view);
         choices.hovered.reset();
@@ -267,7 +268,7 @@ void preview(Frame& frame, const ListedFile& listed, ImVec2 size)
                 is_cad_file(listed.items) ? "face" : "shell", listed.items.face_of[size_t(p)]);
         }
     }
-    if (ImGui::IsItemDeactivated() && !choices.moved && choices.hovered &&
+    if (ImGui::IsItemDeactivated() && choices.left && !choices.moved && choices.hovered &&
         !listed.items.item[size_t(*choices.hovered)].choice.empty())
         choose(choices, *choices.hovered, io.KeyCtrl);
     const ImVec2 dots = io.DisplayFramebufferScale;

@@ -8,6 +8,7 @@
 
 #include "app/viewer/model/camera.h"
 #include "app/viewer/model/file_listing.h"
+#include "app/viewer/model/mouse_style.h"
 #include "app/viewer/model/scene.h"
 #include "app/viewer/views/import_scene.h"
 #include "app/viewer/views/scene_cache.h"
@@ -31,8 +32,9 @@ struct ImportChoices {
     std::string sewing, deflection; ///< mm, as typed; empty: found
     std::optional<int> hovered;     ///< an item
     Camera camera;
-    bool turning = false, panning = false, moved = false; ///< by the mouse; since it was pressed
-    std::shared_ptr<const PreviewShape> shape;            ///< the newest that is ready; null: none yet
+    Navigator navigator;
+    bool left = false, moved = false;          ///< the left button is down; the mouse has moved since it went down
+    std::shared_ptr<const PreviewShape> shape; ///< the newest that is ready; null: none yet
     Memo<Eventually<std::shared_ptr<const PreviewShape>>, std::shared_ptr<const ListedFile>, std::vector<char>> making;
     Memo<Scene, std::shared_ptr<const PreviewShape>, std::optional<int>> scene;
     std::shared_ptr<Worker> worker; ///< makes the shapes of large files

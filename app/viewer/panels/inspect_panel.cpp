@@ -4,6 +4,7 @@
 
 #include "app/viewer/model/comparison.h"
 #include "app/viewer/model/cut_order.h"
+#include "app/viewer/model/measuring.h"
 #include "app/viewer/model/statistics.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "app/viewer/panels/surface_step.h"
@@ -205,6 +206,38 @@ void probes_section(Frame& frame)
         frame.actions.push(ClearProbes{});
 }
 
+void measurements_section(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    if (document.measurements.empty() || !ImGui::CollapsingHeader("Measurements", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    for (size_t k = 0; k < document.measurements.size(); ++k) {
+        const Measurement& each = document.measurements[k];
+        ImGui::PushID(int(k));
+        if (ImGui::Selectable(fmt::format("M{}   {}", k + 1, text_of(each, frame.lengths())).c_str(), false, 0,
+                              {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
+            frame.actions.push(FlyTo{each.at.front().face});
+        tooltip("Click to look at it in every view");
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x"))
+            frame.actions.push(RemoveMeasurement{int(k)});
+        ImGui::PushFont(frame.ui.fonts.small);
+        ImGui::Indent(14 * frame.ui.scale);
+        muted(frame, title(each.kind));
+        for (const Measured::Figure& more : each.found->more)
+            figure(frame, more.name.c_str(), text_of(more, frame.lengths()));
+        if (const auto flat = on_blank(document.session, each))
+            figure(frame, "On the blank",
+                   fmt::format("{}  ({})", fixed_length(*flat, frame.lengths(), 2),
+                               fixed_length(*flat - each.found->value, frame.lengths(), 2, true)));
+        ImGui::Unindent(14 * frame.ui.scale);
+        ImGui::PopFont();
+        ImGui::PopID();
+    }
+    if (small_button(frame, "Remove all##measurements"))
+        frame.actions.push(ClearMeasurements{});
+}
+
 /// Straight, on the part and on the blank: what forming has made of it.
 void vertex_distance(Frame& frame)
 {
@@ -378,6 +411,7 @@ void inspect_panel(Frame& frame)
         old_figures_note(frame);
         field_section(frame);
         vertices_section(frame);
+        measurements_section(frame);
         histogram_section(frame);
         worst_section(frame);
         probes_section(frame);

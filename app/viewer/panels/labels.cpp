@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "app/viewer/model/picking.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
@@ -31,27 +33,46 @@ Hidden hidden_in(Frame& frame, View view, glm::dvec2 size)
     if (!picker) // a flat sheet hides nothing
         return [](const glm::dvec3&) { return false; };
     const Camera& camera = frame.state.view.camera[size_t(view)];
+    const auto kept = kept_in(frame.state.view, view);
     const double touching = 0.004 * picker->box().diagonal().norm(); // mm; grids lie that near to the part
-    return [&camera, picker, size, touching](const glm::dvec3& place) {
+    return [&camera, picker, size, touching, kept](const glm::dvec3& place) {
         const Ray ray = ray_through(camera, picker->box(), glm::dvec2(place), size);
-        const RayHit hit = picker->first(ray.origin, ray.direction);
+        const RayHit hit = hit_at(camera, *picker, glm::dvec2(place), size, kept);
         return hit.face >= 0 &&
                pixel_of(camera, ray.origin + hit.distance * ray.direction, size).z > place.z + touching;
     };
 }
 
+/// A hair's breadth beyond the plane counts as on it.
+bool cut_away(const Scene& scene, const Eigen::Vector3d& place)
+{
+    return scene.kept && scene.kept->height(place) < -1e-9 * std::max(1., scene.box.diagonal().norm());
+}
+
+/// What is left of isolines: each stretch that is not interrupted.
+std::vector<Isoline> kept_lines(const std::vector<Isoline>& lines, const HalfSpace& half)
+{
+    std::vector<Isoline> kept;
+    for (const Isoline& line : lines)
+        for (Eigen::Index begin = 0, end; begin < line.point.cols(); begin = end + 1) {
+            for (end = begin; end < line.point.cols() && half.height(line.point.col(end)) >= 0; ++end)
+                ;
+            if (end - begin > 1)
+                kept.push_back({line.value, line.point.middleCols(begin, end - begin)});
+        }
+    return kept;
+}
+
 void find_places(Frame& frame, View view, const Scene& scene, glm::dvec2 size, bool with_values,
-                 const std::optional<PixelBox>& legend, LabelPlaces& places)
+                 std::vector<PixelBox> taken, LabelPlaces& places)
 {
     const Camera& camera = frame.state.view.camera[size_t(view)];
     const Hidden hidden = hidden_in(frame, view, size);
-    std::vector<PixelBox> taken;
-    if (legend)
-        taken.push_back(*legend);
+    const glm::dvec2 nowhere(-std::numeric_limits<double>::max()); // no label stands outside of the view
     std::vector<LabelWish> wishes;
     for (const SceneLabel& label : scene.labels)
-        wishes.push_back(
-            {glm::dvec2(pixel_of(camera, label.place, size)), extent(frame.ui.fonts.text, label.text), label.kind});
+        wishes.push_back({cut_away(scene, label.place) ? nowhere : glm::dvec2(pixel_of(camera, label.place, size)),
+                          extent(frame.ui.fonts.text, label.text), label.kind});
     places.placed = place_labels(wishes, size, taken, frame.ui.scale);
     places.hidden.clear();
     for (const PlacedLabel& placed : places.placed) {
@@ -65,7 +86,7 @@ void find_places(Frame& frame, View view, const Scene& scene, glm::dvec2 size, b
         return;
     const ColourScale& scale = scene.legend->scale;
     places.values = isoline_labels(
-        *scene.isolines, camera, size,
+        scene.kept ? kept_lines(*scene.isolines, *scene.kept) : *scene.isolines, camera, size,
         [&](double value) {
             const std::string text = tick_text(scale, value);
             return std::pair(text, extent(frame.ui.fonts.small, text));
@@ -74,7 +95,7 @@ void find_places(Frame& frame, View view, const Scene& scene, glm::dvec2 size, b
 }
 
 const LabelPlaces& places_of(Frame& frame, View view, const Scene& scene, glm::dvec2 size,
-                             const std::optional<PixelBox>& legend)
+                             const std::vector<PixelBox>& taken)
 {
     LabelPlaces& places = frame.ui.labels[size_t(view)];
     const Camera& camera = frame.state.view.camera[size_t(view)];
@@ -85,15 +106,17 @@ const LabelPlaces& places_of(Frame& frame, View view, const Scene& scene, glm::d
     const Session& session = frame.state.document.session;
     const bool picker = frame.model.pickers().ready_picker(session, view) != nullptr;
     if (places.part == session.part && places.picker == picker && places.camera == camera && places.size == size &&
-        places.isolines == isolines && places.legend == legend.has_value() && places.labels == scene.labels)
+        places.isolines == isolines && places.taken == taken && places.kept == scene.kept &&
+        places.labels == scene.labels)
         return places;
-    find_places(frame, view, scene, size, with_values, legend, places);
+    find_places(frame, view, scene, size, with_values, taken, places);
     places.part = session.part;
     places.picker = picker;
     places.camera = camera;
     places.size = size;
     places.isolines = isolines;
-    places.legend = legend.has_value();
+    places.taken = taken;
+    places.kept = scene.kept;
     places.labels = scene.labels;
     return places;
 }
@@ -120,10 +143,10 @@ void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* t
 }
 
 void draw_labels(Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec2 size,
-                 const std::optional<PixelBox>& legend, ImDrawList* draw)
+                 const std::vector<PixelBox>& taken, ImDrawList* draw)
 {
     const glm::dvec2 pixels(size.x, size.y);
-    const LabelPlaces& places = places_of(frame, view, scene, pixels, legend);
+    const LabelPlaces& places = places_of(frame, view, scene, pixels, taken);
     const Camera& camera = frame.state.view.camera[size_t(view)];
     const Colour ground = frame.state.view.dark ? Colour{0.08f, 0.09f, 0.12f, 0.82f} : Colour{1, 1, 1, 0.82f};
     const auto at = [&](glm::dvec2 pixel) {

@@ -22,7 +22,8 @@ struct LabelPlaces {
     glm::dvec2 size{0};
     std::vector<SceneLabel> labels;
     std::shared_ptr<const std::vector<Isoline>> isolines;
-    bool legend = false;
+    std::vector<PixelBox> taken;
+    std::optional<HalfSpace> kept;
     std::shared_ptr<const PartFile> part;
     bool picker = false; ///< else what hides a place was not known yet
 
@@ -39,8 +40,9 @@ void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* t
 std::optional<PixelBox> draw_legend(const Frame& frame, const Scene& scene, ImVec2 from, ImVec2 size, ImDrawList* draw);
 
 /// The labels of a scene and the values of its isolines, none over another. A label that had to go aside has a line to
-/// its place; one whose place is hidden is pale.
+/// its place; one whose place is hidden is pale, one whose place is cut away is not there.
+/// @param taken  what none may cover, pixels of the view
 void draw_labels(Frame& frame, View view, const Scene& scene, ImVec2 from, ImVec2 size,
-                 const std::optional<PixelBox>& legend, ImDrawList* draw);
+                 const std::vector<PixelBox>& taken, ImDrawList* draw);
 
 } // namespace spia::viewer

@@ -183,7 +183,7 @@ void contents(Frame& frame, ManualWindow& window)
     const Manual& manual = *window.manual;
     ImGui::SetNextItemWidth(-1);
     text_input("##search", window.searched, false, "Search the manual");
-    ImGui::BeginChild("contents", {0, 0});
+    ImGui::BeginChild("contents", {0, 0}, false, ImGuiWindowFlags_NoNavInputs);
     const std::vector<ManualPlace> places = places_of(manual, window.searched);
     if (places.empty()) {
         if (window.searched.size() > 1)

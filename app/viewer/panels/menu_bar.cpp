@@ -36,6 +36,25 @@ void run_menu(Frame& frame)
     ImGui::EndMenu();
 }
 
+/// Whose habits the mouse follows.
+void mouse_menu(Frame& frame)
+{
+    if (!ImGui::BeginMenu("Mouse"))
+        return;
+    ViewSettings view = frame.state.view;
+    for (const MouseStyle style : all_mouse_styles) {
+        if (ImGui::MenuItem(title(style), nullptr, view.mouse == style)) {
+            view.mouse = style;
+            frame.actions.push(SetViewSettings{view});
+        }
+        std::string words;
+        for (const MouseHabit& habit : habits(style))
+            words += (words.empty() ? "" : "\n") + habit.how + ": " + habit.does;
+        tooltip(words);
+    }
+    ImGui::EndMenu();
+}
+
 /// What the picked faces are.
 void region_menu(Frame& frame)
 {
@@ -164,6 +183,9 @@ void menu_bar(Frame& frame)
                 changed = true;
             }
         ImGui::Separator();
+        mouse_menu(frame);
+        if (ImGui::MenuItem("Clip", "H", view.clip.on, state.document.session.part != nullptr))
+            toggle_clip(frame);
         changed |= ImGui::MenuItem("Dark theme", "T", &view.dark);
         changed |= ImGui::MenuItem("Rotate 3D views together", nullptr, &view.linked);
         changed |= ImGui::MenuItem("Triangle edges", "E", &view.edges);

@@ -46,6 +46,15 @@ void interface_rows(Frame& frame, Preferences& edited)
     row("Lengths in");
     either(frame, "mm", LengthUnit::mm, "inch", LengthUnit::inch, edited.lengths);
     tooltip("On the screen and in reports. Exported files have a unit of their own.");
+    row("Mouse as in");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::BeginCombo("##mouse", title(edited.mouse))) {
+        for (const MouseStyle style : all_mouse_styles)
+            if (ImGui::Selectable(title(style), style == edited.mouse))
+                edited.mouse = style;
+        ImGui::EndCombo();
+    } else
+        tooltip("How the mouse turns, pans and zooms; its gestures are in the list of F1");
     row("Field colours");
     constexpr std::pair<std::optional<ColourMap>, const char*> maps[] = {
         {std::nullopt, "Automatic: blue to orange about 0, else viridis"},
@@ -120,6 +129,7 @@ void preferences_dialog(Frame& frame)
     if (appears) {
         choices.edited = frame.state.preferences;
         choices.edited.dark = frame.state.view.dark;
+        choices.edited.mouse = frame.state.view.mouse;
         choices.thickness_mm = choices.edited.thickness_mm.value_or(choices.thickness_mm);
         choices.tolerance_mm = choices.edited.tolerance_mm.value_or(choices.tolerance_mm);
     }

@@ -10,6 +10,7 @@
 
 #include "app/viewer/model/actions.h"
 #include "app/viewer/model/lengths.h"
+#include "app/viewer/model/view_cube.h"
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/panels/animation_dialog.h"
 #include "app/viewer/panels/charts.h"
@@ -65,6 +66,13 @@ struct HandleDrag {
     bool moved = false;
 };
 
+/// The view cube under a pressed button.
+struct CubeDrag {
+    CubeSide side;
+    glm::dvec2 from; ///< pixels of the view
+    bool moved = false;
+};
+
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
@@ -91,7 +99,9 @@ struct Ui {
 
     // the view the mouse is busy in
     std::optional<View> busy;
-    bool turning = false, panning = false;
+    Navigator navigator;
+    std::optional<CubeDrag> cube_drag;
+    std::vector<Probe> measuring; ///< places of a measurement to be, those clicked so far
     std::optional<int> dragged_corner;
     bool aside = false;            ///< drawn for a picture: the views of the window keep their sizes and cameras
     glm::dvec2 corner_taken_at{0}; ///< pixels of the view
@@ -202,6 +212,11 @@ void inspect_panel(Frame& frame);
 void view_area(Frame& frame);
 void tool_bar(Frame& frame);
 float tool_bar_height(const Frame& frame, float width); ///< pixels; narrow windows need two rows
+/// The clipping plane, while there is one: a row above the views.
+void clip_bar(Frame& frame);
+float clip_bar_height(const Frame& frame); ///< pixels; 0: there is none
+/// Turns clipping on, through the middle of the part, or off.
+void toggle_clip(Frame& frame);
 void dialogs(Frame& frame);
 /// The result beside the reference that was kept.
 void comparison_section(Frame& frame);

@@ -9,37 +9,44 @@
 namespace spia::viewer {
 namespace {
 
+/// The place under the mouse comes into the middle of the view, and is what the view turns about from then on.
+Camera centred(Frame& frame, View view, const Mouse& mouse, const Camera& camera)
+{
+    const RayPicker* picker = frame.model.pickers().ready_picker(frame.state.document.session, view);
+    const auto kept = kept_in(frame.state.view, view);
+    Camera result = pan(camera, mouse.size / 2. - mouse.pixel, mouse.size);
+    if (!picker)
+        return result;
+    const RayHit hit = hit_at(camera, *picker, mouse.pixel, mouse.size, kept);
+    if (hit.face < 0)
+        return result;
+    const Ray ray = ray_through(camera, picker->box(), mouse.pixel, mouse.size);
+    const Eigen::Vector3d at = ray.origin + hit.distance * ray.direction;
+    result.target = {at[0], at[1], at[2]};
+    return result;
+}
+
 /// Turning, panning and zooming.
 void navigate(Frame& frame, View view, const Mouse& mouse)
 {
-    ImGuiIO& io = ImGui::GetIO();
+    const ImGuiIO& io = ImGui::GetIO();
     Ui& ui = frame.ui;
-    const Tool tool = frame.state.view.tool;
-    const auto busy_before = ui.busy;
-    if (mouse.inside && !ui.busy) {
-        const bool left_turns = tool == Tool::look && !ui.dragged_corner;
-        if (ImGui::IsMouseClicked(2) || (ImGui::IsMouseClicked(1) && io.KeyShift)) {
-            ui.busy = view;
-            ui.panning = true;
-        } else if (ImGui::IsMouseClicked(1) || (left_turns && ImGui::IsMouseClicked(0))) {
-            ui.busy = view;
-            ui.turning = true;
-        }
-    }
+    const MouseStyle style = frame.state.view.mouse;
     Camera camera = frame.state.view.camera[size_t(view)];
     const Camera before = camera;
-    const glm::dvec2 drag =
-        busy_before ? glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) : glm::dvec2(0); // from the press on
-    if (ui.busy == view && (ui.turning || ui.panning)) {
-        if (drag != glm::dvec2(0))
-            camera = ui.panning ? pan(camera, drag, mouse.size) : orbit(camera, drag, mouse.size);
-        if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
+    if (ui.navigator.busy() ? ui.busy == view : mouse.inside && !ui.busy) {
+        const bool left_is_free = frame.state.view.tool == Tool::look && !ui.dragged_corner;
+        const Navigator::Step step =
+            ui.navigator.follow(style, mouse_held(), mouse_pressed(), {io.MouseDelta.x, io.MouseDelta.y}, true,
+                                left_is_free, click_slack * ui.scale);
+        if (ui.navigator.busy())
+            ui.busy = view;
+        else if (ui.busy == view)
             ui.busy.reset();
-            ui.turning = ui.panning = false;
-        }
+        camera = step.centre ? centred(frame, view, mouse, camera) : moved(camera, step, mouse.size);
     }
     if (mouse.inside && io.MouseWheel != 0)
-        camera = zoom(camera, std::pow(1.15, io.MouseWheel), mouse.pixel, mouse.size);
+        camera = zoom(camera, wheel_factor(style), mouse.pixel, mouse.size);
     if (camera != before) {
         ViewSettings settings = frame.state.view;
         take_camera(settings, view, camera);
@@ -175,7 +182,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     ImGui::InvisibleButton("canvas", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    const Mouse mouse{dvec(ImGui::GetMousePos()) - dvec(from), dvec(size), ImGui::IsItemHovered()};
+    Mouse mouse{dvec(ImGui::GetMousePos()) - dvec(from), dvec(size), ImGui::IsItemHovered()};
 
     draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
     const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
@@ -193,14 +200,23 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     }
     if (frame.state.document.section && !of_refused)
         draw_section(frame, view, mouse.size, from, draw);
+    std::optional<PixelBox> cube;
     if (drawn.old && !live) { // no legend, no label over another picture
         veil(frame, from, size, draw);
     } else {
         if (shown.hovered)
             mark_hovered(frame, view, *shown.hovered, mouse.size, from, draw);
+        std::vector<PixelBox> taken;
         const auto legend = draw_legend(frame, shown, from, size, draw);
-        draw_labels(frame, view, shown, from, size, legend, draw);
+        const auto triad = axis_triad(frame, view, legend, mouse.size, from, draw);
+        cube = cube_place(frame, view, mouse.size);
+        for (const auto& box : {legend, triad, cube})
+            if (box)
+                taken.push_back(*box);
+        draw_labels(frame, view, shown, from, size, taken, draw);
     }
+    if (cube && view_cube(frame, view, *cube, mouse, from, draw))
+        mouse.inside = false;
     use_tool(frame, view, mouse, from, draw);
     if (frame.ui.focus == view && frame.ui.by_keys && tool_clicks(frame.state.view.tool))
         draw_cross(frame, {from.x + size.x / 2, from.y + size.y / 2}, draw);
@@ -245,8 +261,12 @@ void end_drags(Frame& frame)
         return;
     Ui& ui = frame.ui;
     ui.busy.reset();
-    ui.turning = ui.panning = false;
+    ui.navigator.end();
+    ui.cube_drag.reset();
     ui.trail.clear();
+    if (frame.state.view.tool != Tool::measure || !frame.state.document.session.part ||
+        ui.measuring.size() >= places_of(frame.state.view.measure))
+        ui.measuring.clear();
     if (frame.state.view.tool != Tool::line || !frame.state.document.session.part)
         ui.line.clear();
     const auto& grid = frame.state.document.session.grid;
@@ -260,6 +280,20 @@ void end_drags(Frame& frame)
 }
 
 } // namespace
+
+MouseHeld mouse_held()
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    return {ImGui::IsMouseDown(0), ImGui::IsMouseDown(2), ImGui::IsMouseDown(1), io.KeyShift, io.KeyCtrl};
+}
+
+bool mouse_pressed() { return ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2); }
+
+double wheel_factor(MouseStyle style)
+{
+    constexpr double notch = 1.15; // larger
+    return std::pow(notch, (forward_enlarges(style) ? 1 : -1) * ImGui::GetIO().MouseWheel);
+}
 
 void take_camera(ViewSettings& settings, View view, const Camera& camera)
 {

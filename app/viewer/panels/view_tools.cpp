@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include "app/viewer/model/handles.h"
+#include "app/viewer/model/measuring.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
 namespace {
+
+constexpr double click_reach = 8; ///< pixels at content scale 1: so near to a vertex a click means it
 
 /// The corners of the blank follow the mouse along the outline.
 void drag_corners(Frame& frame, const Mouse& mouse)
@@ -100,17 +103,75 @@ std::optional<Eigen::Vector3d> place_of_line(Frame& frame, View view, const Mous
         const double reach = PickVertex{}.reach * frame.ui.scale;
         const auto nearest = [&](bool boundary, double within) {
             return pickers.vertex_at(session, {view, mouse.pixel, mouse.size, PickMode::replace, boundary, within},
-                                     camera);
+                                     camera, kept_in(frame.state.view, view));
         };
         auto vertex = nearest(true, reach);
         if (!vertex)
             vertex = nearest(false, 5 * reach); // of a coarse mesh
         return vertex ? std::optional<Eigen::Vector3d>(part.position.col(*vertex)) : std::nullopt;
     }
-    const auto hit = probe_at(camera, part, *picker, mouse.pixel, mouse.size);
+    const auto hit = probe_at(camera, part, *picker, mouse.pixel, mouse.size, click_reach * frame.ui.scale,
+                              kept_in(frame.state.view, view));
     return hit ? std::optional<Eigen::Vector3d>(part.position(Eigen::all, part.triangle.col(hit->face)) *
                                                 hit->barycentric)
                : std::nullopt;
+}
+
+/// One more place of a measurement; with the last one it is made.
+void measure_at(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
+{
+    const ViewSettings& settings = frame.state.view;
+    const Session& session = frame.state.document.session;
+    if (view != View::part || step_position(frame.state) > 0) {
+        frame.model.say(Severity::hint, "Measure in the view of the part, as it is formed.");
+        return;
+    }
+    Pickers& pickers = frame.model.pickers();
+    const RayPicker* picker = pickers.picker(session, view);
+    if (!picker)
+        return;
+    // A face is meant as a whole, a place may be a vertex.
+    const bool faces = settings.measure == MeasureKind::faces || settings.measure == MeasureKind::rounding;
+    const double snap = faces ? 0 : click_reach * frame.ui.scale;
+    const auto place = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker, pixel, size, snap,
+                                kept_in(settings, view));
+    if (!place)
+        return;
+    std::vector<Probe>& places = frame.ui.measuring;
+    places.push_back(*place);
+    if (places.size() >= places_of(settings.measure))
+        frame.actions.push(AddMeasurement{{settings.measure, std::exchange(places, {})}});
+}
+
+/// The places clicked so far, and what the next click adds to them.
+void draw_measuring(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
+{
+    if (view != View::part)
+        return;
+    const TriMesh& part = frame.state.document.session.part->mesh;
+    const Palette p = palette_of(frame.state.view.dark);
+    const float s = frame.ui.scale;
+    const auto cube = cube_place(frame, view, mouse.size);
+    const float room = float(cube ? cube->least.x : mouse.size.x) - 20 * s;
+    ImFont* const font = frame.ui.fonts.small;
+    draw->AddText(font, font->FontSize, {from.x + 10 * s, from.y + 8 * s}, ink(p.accent),
+                  advice(frame.state.view.measure), nullptr, room);
+    std::vector<ImVec2> shown;
+    for (const Probe& probe : frame.ui.measuring) {
+        if (probe.face >= part.triangles())
+            return;
+        const Eigen::Vector3d place = part.position(Eigen::all, part.triangle.col(probe.face)) * probe.barycentric;
+        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], place, mouse.size);
+        shown.push_back({from.x + float(pixel.x), from.y + float(pixel.y)});
+    }
+    if (!shown.empty() && mouse.inside)
+        shown.push_back(ImGui::GetMousePos());
+    for (const auto& [colour, width] : {std::pair(ink(p.panel), 4 * s), std::pair(ink(p.accent), 2 * s)})
+        draw->AddPolyline(shown.data(), int(shown.size()), colour, ImDrawFlags_None, width);
+    for (size_t k = 0; k < frame.ui.measuring.size(); ++k) {
+        draw->AddCircleFilled(shown[k], 5.5f * s, ink(p.panel));
+        draw->AddCircleFilled(shown[k], 4 * s, ink(p.accent));
+    }
 }
 
 /// A polyline on the part, place by place.
@@ -143,7 +204,7 @@ void draw_line(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawL
 bool tool_clicks(Tool tool)
 {
     return tool == Tool::pick || tool == Tool::flood || tool == Tool::smooth_region || tool == Tool::probe ||
-           tool == Tool::vertex || tool == Tool::outline;
+           tool == Tool::vertex || tool == Tool::outline || tool == Tool::measure;
 }
 
 void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
@@ -165,8 +226,8 @@ void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
         const RayPicker* picker = pickers.picker(session, view);
         if (!picker)
             return;
-        if (const auto probe =
-                probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker, pixel, size, 0))
+        if (const auto probe = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker, pixel,
+                                        size, 0, kept_in(settings, view)))
             frame.actions.push(AddProbe{*probe});
         return;
     }
@@ -175,6 +236,7 @@ void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
         frame.actions.push(PickVertex{view, pixel, size, pick_mode(), settings.tool == Tool::outline,
                                       PickVertex{}.reach * frame.ui.scale});
         return;
+    case Tool::measure: measure_at(frame, view, pixel, size); return;
     default: return;
     }
 }
@@ -199,6 +261,11 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
         if (clicked)
             click_with_tool(frame, view, mouse.pixel, mouse.size);
         return;
+    case Tool::measure:
+        if (clicked)
+            click_with_tool(frame, view, mouse.pixel, mouse.size);
+        draw_measuring(frame, view, mouse, from, draw);
+        return;
     case Tool::shape: drag_handles(frame, view, mouse); return;
     case Tool::line: draw_line(frame, view, mouse, from, draw); return;
     case Tool::brush: {
@@ -210,7 +277,7 @@ void use_tool(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawLi
         if (mouse.inside)
             draw->AddCircle({from.x + float(mouse.pixel.x), from.y + float(mouse.pixel.y)}, float(radius),
                             ink(p.accent), 32, 1.5f * ui.scale);
-        if (ui.busy == view && !ui.turning && !ui.panning) {
+        if (ui.busy == view && !ui.navigator.busy()) {
             const auto touch = [&](glm::dvec2 place) {
                 const bool first = ui.trail.empty();
                 frame.actions.push(PickBrush{view, place, radius, mouse.size,

@@ -176,9 +176,18 @@ void workbench(Frame& frame)
                           ImGuiWindowFlags_NavFlattened);
     tool_bar(frame);
     ImGui::EndChild();
+    const float clip = clip_bar_height(frame);
+    if (clip > 0) {
+        ImGui::SetCursorScreenPos({at.x + left + 6 * s, at.y + bar});
+        ImGui::BeginChild("clip", {middle - 12 * s, clip}, false,
+                          ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                              ImGuiWindowFlags_NavFlattened);
+        clip_bar(frame);
+        ImGui::EndChild();
+    }
     const MessageStrip messages = message_strip(frame, middle);
-    ImGui::SetCursorScreenPos({at.x + left, at.y + bar});
-    ImGui::BeginChild("views", {middle, height - bar - messages.height}, false,
+    ImGui::SetCursorScreenPos({at.x + left, at.y + bar + clip});
+    ImGui::BeginChild("views", {middle, height - bar - clip - messages.height}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     view_area(frame);
     ImGui::EndChild();

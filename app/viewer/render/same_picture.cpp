@@ -28,7 +28,7 @@ bool same_points(const std::shared_ptr<const ScenePoints>& a, const std::shared_
 bool same_picture(const Scene& a, const Scene& b)
 {
     return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(), same_look) &&
-           a.lines == b.lines && a.region_colours == b.region_colours &&
+           a.lines == b.lines && a.region_colours == b.region_colours && a.kept == b.kept &&
            std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_points);
 }
 

@@ -95,6 +95,9 @@ void SceneDrawer::draw(const Scene& scene, const Camera& camera, const Tile& til
         glClear(GL_COLOR_BUFFER_BIT);
     }
 
+    if (scene.kept)
+        glEnable(GL_CLIP_DISTANCE0);
+
     // Solid faces first, then all lines that they may hide, then what one looks through, then what lies on top.
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_POLYGON_OFFSET_FILL);
@@ -122,6 +125,7 @@ void SceneDrawer::draw(const Scene& scene, const Camera& camera, const Tile& til
     draw_lines(pass, true);
     draw_points(pass, true);
 
+    glDisable(GL_CLIP_DISTANCE0);
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
     glBindVertexArray(0);
@@ -151,6 +155,10 @@ void SceneDrawer::place(ShaderProgram& shader, const Pass& pass, const Eigen::Ve
     shader.set("view", glm::mat4(view_matrix(pass.camera, origin)));
     shader.set("projection", pass.projection);
     shader.set("size", glm::vec2(pass.tile.size));
+    Colour kept{0, 0, 0, 1}; // everything
+    if (const auto& half = pass.scene.kept)
+        kept = {float(half->normal[0]), float(half->normal[1]), float(half->normal[2]), float(half->height(origin))};
+    shader.set("kept", kept);
 }
 
 } // namespace spia::viewer

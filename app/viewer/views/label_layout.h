@@ -9,6 +9,8 @@ namespace spia::viewer {
 
 struct PixelBox {
     glm::dvec2 least{0}, greatest{0};
+
+    friend bool operator==(const PixelBox&, const PixelBox&) = default;
 };
 
 PixelBox around(glm::dvec2 middle, glm::dvec2 size);

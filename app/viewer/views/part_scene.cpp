@@ -1,4 +1,5 @@
 #include "app/viewer/views/fault_scene.h"
+#include "app/viewer/views/measurements.h"
 #include "app/viewer/views/picked_vertices.h"
 #include "app/viewer/views/sheet_shapes.h"
 #include "app/viewer/views/step_scene.h"
@@ -29,11 +30,12 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
                .mm_per_pixel = state.view.camera[size_t(View::part)].height / pixels},
               cache.on_part, cache);
     add_picked_vertices(result, state, cache.vertices_on_part, part.mesh, session.part->mesh.position);
+    add_measurements(result, state, cache);
     add_shown_fault(result, state);
     return result;
 }
 
-Scene scene(View view, const ViewerState& state, SceneCache& cache, double pixels)
+static Scene whole_scene(View view, const ViewerState& state, SceneCache& cache, double pixels)
 {
     switch (view) {
     case View::part: return part_scene(state, cache, pixels);
@@ -42,6 +44,13 @@ Scene scene(View view, const ViewerState& state, SceneCache& cache, double pixel
     case View::surface: return surface_scene(state, cache, pixels);
     }
     return {};
+}
+
+Scene scene(View view, const ViewerState& state, SceneCache& cache, double pixels)
+{
+    Scene result = whole_scene(view, state, cache, pixels);
+    result.kept = kept_in(state.view, view);
+    return result;
 }
 
 } // namespace spia::viewer

@@ -148,6 +148,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
     Memo<std::vector<std::vector<ClosestPoint>>, Part, std::vector<ProcessLine>> line_places;
     Vertices vertices_on_part, vertices_on_blank;
+    Memo<StageShape, std::vector<std::shared_ptr<const Measured>>> measurements;
     Memo<std::optional<std::array<int, 4>>, Part, std::array<int, 4>> chosen_corners;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;

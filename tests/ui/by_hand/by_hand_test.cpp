@@ -206,7 +206,7 @@ TEST_P(ByHandOnScreens, FromAnEmptyStartToFilesAndBack)
     EXPECT_EQ(now["display"]["field"], "thinning");
 
     // The web stays: what is flat in the middle of the view.
-    hands->click("Flood");
+    hands->tool("Flood");
     const glm::dvec2 middle = in_view(hands->viewer().report(), "part", 0.5, 0.5);
     hands->click_at(middle.x, middle.y);
     now = hands->see_that("picked faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
@@ -229,7 +229,7 @@ TEST_P(ByHandOnScreens, FromAnEmptyStartToFilesAndBack)
     });
     hands->scroll_to("Blank of the steps", panel_x, panel_y);
 
-    hands->click("Corners");
+    hands->tool("Corners");
     now = hands->see_that("the tool for corners", [](const Json& r) { return r["view"]["tool"] == "corners"; });
     const int before = now["corners"][0]["vertex"];
     const glm::dvec2 corner = of_blank(now, corner_of(now, 0)), to = of_blank(now, beside(now, 0));

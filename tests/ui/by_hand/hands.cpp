@@ -140,6 +140,14 @@ void Hands::click_beside(const std::string& line, double dx, double dy)
 
 void Hands::click_at(double x, double y) { viewer_.click(x, y); }
 
+void Hands::tool(const std::string& name)
+{
+    const std::string item = "tool " + name;
+    const Json now = waited("the tool " + name, [&](const Json& r) { return r["window"]["items"].contains(item); });
+    const auto at = place(now["window"]["items"][item], 0.5, 0.5);
+    viewer_.click(at.first, at.second);
+}
+
 void Hands::menu(const std::string& title, const std::string& entry)
 {
     click(title);

@@ -27,7 +27,7 @@ TEST_F(LinesByHand, ADrawbeadGetsItsForceFromItsShapeAndGoes)
     hands->scroll_to("Edge restraint", left_x, left_y);
     hands->click_beside("Edge restraint", -110, 0);
     now = hands->see_that("a held edge", [](const Json& r) { return r["process"]["edge_restraint"] > 0; });
-    hands->click_part(now["lines"][0]["name"].get<std::string>() + "   "); // its row unfolds
+    hands->click(now["lines"][0]["name"].get<std::string>()); // its row unfolds
     click_left("Force of the bead's shape");
     hands->see_that("a shape", [](const Json& r) { return r["lines"][0]["shape"].is_object(); });
     hands->click("x");

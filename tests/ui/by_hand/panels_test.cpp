@@ -77,7 +77,7 @@ TEST_F(PanelsByHand, TheSheetIsChosen)
 
 TEST_F(PanelsByHand, FacesArePickedAndMadeRegions)
 {
-    hands->click("Brush");
+    hands->tool("Brush");
     click_in_part(0.5, 0.55);
     Json now = hands->see_that("painted faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
     const int painted = now["selection"]["faces"];
@@ -111,10 +111,10 @@ TEST_F(PanelsByHand, ViewsAndMarks)
         return std::find(pushed.begin(), pushed.end(), "fit_view") != pushed.end();
     });
     unfold();
-    hands->click("Probe");
+    hands->tool("Probe");
     click_in_part(0.5, 0.5);
     hands->see_that("a probe", [](const Json& r) { return r["probes"].size() == 1; });
-    hands->click("Section");
+    hands->tool("Section");
     const auto from = in_part(0.3, 0.5), to = in_part(0.7, 0.5);
     viewer().drag(from.first, from.second, to.first, to.second);
     hands->scroll_to("Remove section", 1450, 500);

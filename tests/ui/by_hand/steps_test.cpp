@@ -50,7 +50,7 @@ TEST_F(StepsByHand, AStepIsAddedAimedSavedRemovedAndOpened)
     hands->see_that("the file", [&](const Json&) { return fs::exists(folder / "box-steps.json"); });
 
     hands->scroll_to("not run yet", left_x, left_y);
-    hands->click_beside("not run yet", 0, -15); // the name of the step, above it
+    hands->click_part("faces onto"); // the name of the step, above it
     value("/view/step", 0);
     click_left("Plane of selection");
     hands->see_that("a plane", [](const Json& r) { return r["unfolding"]["steps"][0]["target"]["plane"].is_object(); });
@@ -58,7 +58,7 @@ TEST_F(StepsByHand, AStepIsAddedAimedSavedRemovedAndOpened)
     click_left("Select faces");
     value("/selection/faces", wall);
     hands->scroll_to("edit", left_x, left_y);
-    hands->click_part(now["regions"][0]["name"].get<std::string>() + "  (");
+    hands->click_part(now["regions"][0]["name"].get<std::string>() + " (");
     hands->see_that("the bottom", [&](const Json& r) { return r["selection"]["faces"] == now["regions"][0]["faces"]; });
     click_left("Fit to selection");
     hands->see_that("a fitted target", [](const Json& r) {

@@ -16,8 +16,8 @@ TEST_F(TensileTestByHand, BecomesTheMaterialOfThePart)
         std::ofstream file(folder / "bar.csv");
         file << "true strain;true stress MPa\n"; // Swift: 500 (0.01 + e)^0.2
         constexpr double young = 210'000;
-        for (int k = 0; k < 5; ++k)
-            file << fmt::format("{};{}\n", 2e-4 * k, 2e-4 * k * young);
+        for (int k = 0; k < 18; ++k)
+            file << fmt::format("{};{}\n", 5e-5 * k, 5e-5 * k * young);
         for (int k = 0; k <= 40; ++k) {
             const double plastic = 0.005 * k, stress = 500 * std::pow(0.01 + plastic, 0.2);
             file << fmt::format("{};{}\n", plastic + stress / young, stress);

@@ -70,7 +70,7 @@ TEST(DeckChoice, SaysWhichPartsThereAre)
     const std::string none = refusal(deck, {"8"});
     EXPECT_NE(none.find("there is no part '8'"), std::string::npos);
     EXPECT_NE(none.find("7 Hood"), std::string::npos);
-    EXPECT_NE(none.find("4 shells, 1.25 thick, DC04"), std::string::npos) << none;
+    EXPECT_NE(none.find("4 shells, thickness 1.25, DC04"), std::string::npos) << none;
     deck.parts.push_back({.id = 8, .name = "solid"});
     EXPECT_NE(refusal(deck, {"8"}).find("part 8 solid has no shell elements"), std::string::npos);
     EXPECT_NE(refusal(deck, {"solid"}).find("no part 'solid'"), std::string::npos);

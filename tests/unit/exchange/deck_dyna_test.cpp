@@ -46,7 +46,7 @@ TEST(DynaDeck, EveryOptionOfShellsHasItsCards)
     }
     // The mean over the corners of each: 3 for the quad, 1 for the triangle; the part has their mean, whatever its section says.
     const Deck deck = read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n" + quad + two + triangle + two);
-    EXPECT_TRUE(has_note(deck, "from 1 to 3; their mean, 2, is taken"));
+    EXPECT_TRUE(has_note(deck, "from 1 to 3; their mean, 2, is used"));
     EXPECT_EQ(read(four_nodes + "*ELEMENT_SHELL_THICKNESS\n" + quad + two + triangle + two +
                    "*PART\nside\n2,8\n*SECTION_SHELL\n8,2\n1.5,1.5,1.5,1.5\n")
                   .parts[0]

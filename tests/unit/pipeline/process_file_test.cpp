@@ -191,9 +191,9 @@ TEST(Shortcomings, TellOfConditionsThatCannotBeMeant)
     EXPECT_TRUE(says("0.001 mm thick"));
     session.options.flatten.thickness = 1;
     session.options.flatten.process.drawbeads = {{"b", {{20, 5, 0}, {20, 35, 0}}, 1000}};
-    EXPECT_TRUE(says("b holds by 1000 N/mm"));
+    EXPECT_TRUE(says("b restrains with 1000 N/mm"));
     session.options.flatten.process.drawbeads[0].force_N_mm = 0;
-    EXPECT_TRUE(says("b does nothing"));
+    EXPECT_TRUE(says("b has no effect"));
     session.options.flatten.process.edge_restraint = 0.2;
     EXPECT_FALSE(says("of the edge the sheet is parallel"));
     auto along = std::make_shared<FlattenResult>(*session.blank);

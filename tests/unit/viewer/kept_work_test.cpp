@@ -1,5 +1,6 @@
 #include "app/viewer/model/kept_work.h"
 
+#include <chrono>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -121,6 +122,8 @@ TEST_F(UnsavedWork, IsThereAfterACrashOnReadingTheOtherPart)
     {
         KeptWork crashing;
         crashing.open(model, OpenPart{dome, ""});
+        for (int k = 0; k < 2000 && nothing_kept(); ++k) // it is written in the background
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_TRUE(KeptWork().look_for_left());
 }

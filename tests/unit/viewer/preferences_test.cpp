@@ -26,7 +26,10 @@ protected:
     }
 };
 
-Preferences all_changed() { return {false, 150, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, 0.05}; }
+Preferences all_changed()
+{
+    return {false, 150, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, 0.05, MouseStyle::nx};
+}
 
 TEST_F(KeptPreferencesFile, ComeBackAsTheyWereKept)
 {
@@ -108,13 +111,13 @@ TEST_F(Preferring, OneOfBothLeavesTheOtherADoubt)
     some.thickness_mm = 1.2;
     model.apply(SetPreferences{some});
     open();
-    EXPECT_THAT(sheet_doubts(), HasSubstr("is assumed as the grade"));
-    EXPECT_THAT(sheet_doubts(), testing::Not(HasSubstr("thick")));
+    EXPECT_THAT(sheet_doubts(), HasSubstr("The grade mild_steel is assumed"));
+    EXPECT_THAT(sheet_doubts(), testing::Not(HasSubstr("thickness")));
     some = {};
     some.lengths = LengthUnit::inch;
     model.apply(SetPreferences{some});
     open();
-    EXPECT_THAT(sheet_doubts(), HasSubstr("0.0472 in is the thickness of the part before"))
+    EXPECT_THAT(sheet_doubts(), HasSubstr("0.0472 in is that of the previous part"))
         << "in the unit that is shown";
 }
 

@@ -92,6 +92,9 @@ std::vector<Action> every_action()
         set(DrawSection{View::blank, pixel, {30, 40}, size});
         set(SetDisplay{{Field::strain_major, true, std::array{-0.5, 0.5}, ColourMap::grey, 7, true, false, true}});
         set(LookFrom{View::quads, StandardView::left});
+        set(LookFromSide{View::surface, {-1, 0, 1}});
+        set(AddMeasurement{{MeasureKind::angle, {Probe{7, {0.5, 0.25, 0.25}}, Probe{8}, Probe{9, {0, 1, 0}}}}});
+        set(RemoveMeasurement{3});
         set(OpenProject{"a.spia"});
         set(ExportFiles{
             "out", {"step", "dxf"}, {LengthUnit::inch, "door", {true, false, true, false, true}, {false, true}}});
@@ -100,13 +103,16 @@ std::vector<Action> every_action()
             {"Door <1>", "two\nlines", {View::quads}, false, {true, false, true, false, true}, LengthUnit::inch}});
         set(Screenshot{"picture.png", View::blank, 800, 600, false, false, true});
         set(SaveAnimation{"way.gif", 12, 3, 320, 200, false, false});
-        set(SetPreferences{{false, 125, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, 0.05}});
+        set(SetPreferences{{false, 125, LengthUnit::inch, "dp600", 0.8, ColourMap::grey, 0.05, MouseStyle::catia}});
         ViewSettings view;
         view.camera[1].turn = glm::dquat(0.5, 0.5, -0.5, 0.5);
         view.camera[3].target = {1, 2, 3};
         view.maximised = View::surface;
         view.tool = Tool::lasso;
         view.dark = false;
+        view.mouse = MouseStyle::blender;
+        view.measure = MeasureKind::circle;
+        view.clip = {true, ClipAxis::view, 12.5, true, {0, 0.6, 0.8}};
         set(SetViewSettings{view});
     }
     return actions;

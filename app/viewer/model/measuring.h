@@ -1,0 +1,47 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/viewer/model/document.h"
+#include "engine/exchange/length_unit.h"
+#include "engine/mesh/region.h"
+
+namespace spia::viewer {
+
+/// What a measurement has found.
+struct Measured {
+    double value = 0;               ///< mm, or degrees
+    std::optional<double> residual; ///< mm, greatest distance of the sheet from the cylinder through it
+    struct Figure {
+        std::string name;
+        std::vector<double> mm; ///< lengths; empty: the words are all
+        std::string words = {};
+    };
+    std::vector<Figure> more;                        ///< further figures
+    std::vector<Eigen::Matrix3Xd> line;              ///< polylines that show it, mm
+    Eigen::Vector3d label = Eigen::Vector3d::Zero(); ///< where its text stands, mm
+};
+
+/// Measures on the part.
+/// @param regions  of the part; only a rounding needs it
+/// @throws InputError  why there is nothing to measure there, and what to do instead
+Measured measured(const TriMesh& part, const Measurement& measurement, const RegionSearch* regions = nullptr);
+
+/// "R 5.02 mm", "90.00 deg": of a measurement of a document.
+std::string text_of(const Measurement& measurement, LengthUnit unit);
+std::string text_of(const Measured::Figure& figure, LengthUnit unit);
+
+/// Measures all of a document anew on its part, which has other coordinates now; what is not possible any more goes.
+void measure_again(Document& document);
+
+/// The straight distance on the blank of what a distance on the part was measured between.
+std::optional<double> on_blank(const Session& session, const Measurement& measurement);
+
+const char* title(MeasureKind kind);  ///< "Distance", ...
+const char* advice(MeasureKind kind); ///< what is to be clicked
+
+} // namespace spia::viewer
