@@ -19,7 +19,7 @@ deck="$out/two parts.inp"
     printf '*SHELL SECTION, ELSET=Lid, MATERIAL=DC04\n0.8, 5\n*SHELL SECTION, ELSET=Base, MATERIAL=DC01\n1.5\n'
     printf '*ELSET, ELSET=Row, GENERATE\n1, 3, 1\n'
 } > "$deck"
-expect 2 "part  *Base  *9 shells, 1.5 thick, DC01" "$spia" info "$deck"
+expect 2 "part  *Base  *9 shells, thickness 1.5, DC01" "$spia" info "$deck"
 grep -q "element set  *Row" "$out/log" || fail "no sets"
 expect 0 "can be unfolded" "$spia" info "$deck" --part Lid --json "$out/info.json"
 grep -q '"thickness_mm": 0.8' "$out/info.json" || fail "no thickness in the JSON"
