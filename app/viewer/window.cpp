@@ -244,6 +244,8 @@ private:
         const auto start = Clock::now();
         const bool solving = model_.busy();
         model_.poll();
+        if (solving && !model_.busy()) // what it brings may need some frames to find its place
+            GlWindow::news() = true;
         follow_files();
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
