@@ -14,25 +14,16 @@ constexpr std::array<std::array<int, 2>, 4> sizes{{{640, 480}, {960, 640}, {1280
 
 std::string words(const std::array<int, 2>& size) { return fmt::format("{} x {}", size[0], size[1]); }
 
-void row(const char* label)
-{
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(label);
-    ImGui::TableNextColumn();
-}
-
 void choice_rows(Frame& frame, AnimationChoices& choices)
 {
     const float s = frame.ui.scale;
-    row("As");
+    form_row("As");
     if (ImGui::RadioButton("GIF", choices.gif))
         choices.gif = true;
     ImGui::SameLine(0, 16 * s);
     if (ImGui::RadioButton("Numbered pictures (PNG)", !choices.gif))
         choices.gif = false;
-    row("Size");
+    form_row("Size");
     ImGui::SetNextItemWidth(150 * s);
     if (ImGui::BeginCombo("##size", words(sizes[size_t(choices.size)]).c_str())) {
         for (size_t k = 0; k < sizes.size(); ++k)
@@ -40,19 +31,19 @@ void choice_rows(Frame& frame, AnimationChoices& choices)
                 choices.size = int(k);
         ImGui::EndCombo();
     }
-    row("Pictures");
+    form_row("Pictures");
     ImGui::SetNextItemWidth(150 * s);
     typed_integer(frame, "from part to blank", choices.frames, 4);
     choices.frames = std::clamp(choices.frames, 2, 500);
     ImGui::BeginDisabled(!choices.gif);
-    row("Takes");
+    form_row("Takes");
     ImGui::SetNextItemWidth(150 * s);
     typed_number(frame, "seconds", choices.seconds, "%.3g", 0.5);
     choices.seconds = std::clamp(choices.seconds, 0.1, 600.);
-    row("Then");
+    form_row("Then");
     ImGui::Checkbox("back to the part", &choices.back);
     ImGui::EndDisabled();
-    row("With");
+    form_row("With");
     ImGui::Checkbox("Legend", &choices.legend);
 }
 
@@ -78,7 +69,7 @@ void animation_dialog(Frame& frame)
         ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, 90 * frame.ui.scale);
         ImGui::TableSetupColumn("choice", ImGuiTableColumnFlags_WidthStretch);
         choice_rows(frame, choices);
-        row("File");
+        form_row("File");
         choose = path_input(frame, "file", choices.file, "a file for the animation");
         file = choices.file;
         if (file.extension() != ending)

@@ -56,6 +56,15 @@ bool pressed(const Frame& frame, int key)
 
 bool enter_pressed(const Frame& frame) { return pressed(frame, GLFW_KEY_ENTER) || pressed(frame, GLFW_KEY_KP_ENTER); }
 
+void form_row(const char* label)
+{
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(label);
+    ImGui::TableNextColumn();
+}
+
 bool path_input(const Frame& frame, const char* id, std::string& path, const char* hint)
 {
     const float button = ImGui::CalcTextSize("Choose...").x + 2 * ImGui::GetStyle().FramePadding.x;

@@ -26,6 +26,9 @@ bool pressed(const Frame& frame, int key);
 /// Return on either side of the keyboard.
 bool enter_pressed(const Frame& frame);
 
+/// Begins a row of a form, a table of two columns: its label; what is asked comes next.
+void form_row(const char* label);
+
 /// A line to type a file or folder into, and a button that lets choose it. @returns whether the button was pressed
 bool path_input(const Frame& frame, const char* id, std::string& path, const char* hint);
 

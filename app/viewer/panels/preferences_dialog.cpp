@@ -12,15 +12,6 @@
 namespace spia::viewer {
 namespace {
 
-void row(const char* label)
-{
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(label);
-    ImGui::TableNextColumn();
-}
-
 /// One of two, side by side.
 template <class T> void either(const Frame& frame, const char* first, T one, const char* second, T other, T& chosen)
 {
@@ -33,9 +24,9 @@ template <class T> void either(const Frame& frame, const char* first, T one, con
 
 void interface_rows(Frame& frame, Preferences& edited)
 {
-    row("Theme");
+    form_row("Theme");
     either(frame, "Dark", true, "Light", false, edited.dark);
-    row("Interface size");
+    form_row("Interface size");
     ImGui::SetNextItemWidth(110 * frame.ui.scale);
     if (ImGui::BeginCombo("##size", fmt::format("{} %", edited.interface_percent).c_str())) {
         for (const int percent : {75, 90, 100, 110, 125, 150, 175, 200})
@@ -43,10 +34,10 @@ void interface_rows(Frame& frame, Preferences& edited)
                 edited.interface_percent = percent;
         ImGui::EndCombo();
     }
-    row("Lengths in");
+    form_row("Lengths in");
     either(frame, "mm", LengthUnit::mm, "inch", LengthUnit::inch, edited.lengths);
     tooltip("On the screen and in reports. Exported files have a unit of their own.");
-    row("Mouse as in");
+    form_row("Mouse as in");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##mouse", title(edited.mouse))) {
         for (const MouseStyle style : all_mouse_styles)
@@ -55,7 +46,7 @@ void interface_rows(Frame& frame, Preferences& edited)
         ImGui::EndCombo();
     } else
         tooltip("How the mouse turns, pans and zooms; its gestures are in the list of F1");
-    row("Field colours");
+    form_row("Field colours");
     constexpr std::pair<std::optional<ColourMap>, const char*> maps[] = {
         {std::nullopt, "Automatic: blue to orange about 0, else viridis"},
         {ColourMap::viridis, "Viridis"},
@@ -93,7 +84,7 @@ void chosen_length(Frame& frame, const char* label, const char* id, std::optiona
 void part_rows(Frame& frame, PreferenceChoices& choices)
 {
     Preferences& edited = choices.edited;
-    row("Grade");
+    form_row("Grade");
     const Grade* now = edited.material.empty() ? nullptr : grade_called(*frame.state.grades, edited.material);
     const std::string none = "None chosen: mild_steel is assumed";
     ImGui::SetNextItemWidth(-1);
@@ -111,10 +102,10 @@ void part_rows(Frame& frame, PreferenceChoices& choices)
         }
         ImGui::EndCombo();
     }
-    row("Thickness");
+    form_row("Thickness");
     chosen_length(frame, "of all parts", "##thickness", edited.thickness_mm, choices.thickness_mm, edited.lengths,
                   {.mm = "%.4g"}, {1e-3, 1e3});
-    row("Surface");
+    form_row("Surface");
     chosen_length(frame, "fitted within", "##tolerance", edited.tolerance_mm, choices.tolerance_mm, edited.lengths,
                   {.mm = "%.4g", .inch = "%.3g"}, {1e-6, 1e3});
     tooltip("Largest distance from the part; without it the surface runs through the nodes of the grid");

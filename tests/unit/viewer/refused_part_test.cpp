@@ -31,6 +31,14 @@ struct RefusedPart : testing::Test {
         return int(std::count_if(state.messages.begin(), state.messages.end(),
                                  [](const Message& m) { return m.severity == Severity::error && !m.dismissed; }));
     }
+    /// Of the refused part; -1: the doctor has none of that kind.
+    int finding(Fault fault) const
+    {
+        const auto& all = state.refused->doctor.findings;
+        const auto at = std::find_if(all.begin(), all.end(), [&](const Finding& f) { return f.fault == fault; });
+        return at == all.end() ? -1 : int(at - all.begin());
+    }
+    Eigen::Vector3d place_of(int number) const { return state.refused->doctor.findings[size_t(number)].place[0]; }
     /// Two rectangles that do not touch: half the triangles each.
     std::filesystem::path two_pieces()
     {
@@ -56,20 +64,18 @@ TEST_F(RefusedPart, IsShownWithItsFaultsAndTheViewGoesToEach)
     ASSERT_EQ(shown.layers.size(), 1u);
     EXPECT_EQ(shown.layers[0].mesh->triangle.cols(), state.refused->mesh.triangles());
 
-    const auto& findings = state.refused->doctor.findings;
-    const auto pieces = std::find_if(findings.begin(), findings.end(),
-                                     [](const Finding& f) { return f.fault == Fault::several_components; });
-    ASSERT_NE(pieces, findings.end());
-    apply(ShowFault{int(pieces - findings.begin()), 0});
+    const int pieces = finding(Fault::several_components);
+    ASSERT_GE(pieces, 0);
+    apply(ShowFault{pieces, 0});
     ASSERT_TRUE(state.fault);
-    EXPECT_EQ(state.fault->place, pieces->place[0]);
+    EXPECT_EQ(state.fault->place, place_of(pieces));
     const glm::dvec3 target = state.view.camera[size_t(View::part)].target;
-    EXPECT_EQ(Eigen::Vector3d(target.x, target.y, target.z), pieces->place[0]);
+    EXPECT_EQ(Eigen::Vector3d(target.x, target.y, target.z), place_of(pieces));
     EXPECT_EQ(scene(View::part, state, cache).labels.size(), 1u);
 
-    apply(ShowFault{int(pieces - findings.begin()), 1});
+    apply(ShowFault{pieces, 1});
     EXPECT_EQ(errors(), 2); // there is one place only
-    apply(ShowFault{int(findings.size()), 0});
+    apply(ShowFault{int(state.refused->doctor.findings.size()), 0});
     EXPECT_EQ(errors(), 3);
     const auto camera = state.view.camera;
     apply(HideFault{});
@@ -227,13 +233,11 @@ TEST_F(RefusedPart, OpenedBesideAPartIsShownOnRequestAndThePartComesBack)
     EXPECT_TRUE(shows_refused(state));
     EXPECT_EQ(scene(View::part, state, cache).layers[0].mesh->triangle.cols(), state.refused->mesh.triangles());
     EXPECT_EQ(examined(state), state.refused.get());
-    const auto& findings = state.refused->doctor.findings;
-    const auto pieces = std::find_if(findings.begin(), findings.end(),
-                                     [](const Finding& f) { return f.fault == Fault::several_components; });
-    ASSERT_NE(pieces, findings.end());
-    apply(ShowFault{int(pieces - findings.begin()), 0});
+    const int pieces = finding(Fault::several_components);
+    ASSERT_GE(pieces, 0);
+    apply(ShowFault{pieces, 0});
     ASSERT_TRUE(state.fault);
-    EXPECT_EQ(state.fault->place, pieces->place[0]);
+    EXPECT_EQ(state.fault->place, place_of(pieces));
     EXPECT_EQ(state.view.camera[size_t(View::surface)], cameras[size_t(View::surface)]) << "shows the part";
     model.hover(View::part, {300, 200}, {600, 400});
     EXPECT_FALSE(state.hovered) << "no face of the part is there";
