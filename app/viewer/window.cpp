@@ -10,32 +10,26 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
-#include <set>
 
-#include "app/viewer/animation.h"
 #include "app/viewer/gl_window.h"
-#include "app/viewer/model/file_writer.h"
 #include "app/viewer/model/frame_times.h"
-#include "app/viewer/model/grades.h"
-#include "app/viewer/model/html_report.h"
 #include "app/viewer/model/kept_work.h"
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/recent_files.h"
 #include "app/viewer/model/script_player.h"
 #include "app/viewer/model/state_report.h"
 #include "app/viewer/panels/gui_frame.h"
-#include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/ui.h"
-#include "app/viewer/pictures.h"
+#include "app/viewer/preference_keeper.h"
 #include "app/viewer/render/file_textures.h"
-#include "app/viewer/render/picture_file.h"
 #include "app/viewer/render/renderer.h"
 #include "app/viewer/render/view_images.h"
 #include "app/viewer/versions.h"
 #include "app/viewer/views/views.h"
+#include "app/viewer/window_files.h"
+#include "app/viewer/window_report.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
-#include "engine/forming/material_library.h"
 
 namespace spia::viewer {
 namespace {
@@ -48,7 +42,6 @@ public:
         : options_(options), window_(options.width, options.height, true), gui_(window_.get()),
           model_(options.assets, [] { glfwPostEmptyEvent(); })
     {
-        take_preferences();
         ui_.scale = wanted_scale();
         ui_.fonts = load_fonts(ui_.scale);
         if (!ui_.fonts.missing.empty())
@@ -71,8 +64,7 @@ public:
         int settle = 3;
         while (!quit_) {
             const bool was_moving = moving();
-            const bool moves =
-                !script_.ended() || !queue_.empty() || !pictures_.empty() || animation_ || settle > 0 || finishing();
+            const bool moves = !script_.ended() || !queue_.empty() || files_.drawing() || settle > 0 || finishing();
             if (options_.follow && !moves && (ui_.busy || !was_moving))
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
@@ -110,7 +102,7 @@ public:
                 settle = frames_to_settle;
             }
         }
-        writer_.wait();
+        files_.wait();
         follow_files();
         if (!options_.report.empty())
             write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -125,49 +117,6 @@ public:
     }
 
 private:
-    /// Those of the user; a script begins with the standard ones, so that it does the same everywhere.
-    void take_preferences()
-    {
-        if (options_.script.empty()) {
-            KeptPreferences kept = read_preferences();
-            if (!kept.preferences.material.empty() &&
-                !grade_called(*model_.state().grades, kept.preferences.material)) {
-                kept.left_out.push_back(fmt::format("A preference was left out: there is no grade \"{}\" any more.",
-                                                    kept.preferences.material));
-                kept.preferences.material.clear();
-            }
-            left_out_ = std::move(kept.left_out);
-            model_.apply(SetPreferences{kept.preferences});
-        }
-        kept_preferences_ = model_.state().preferences;
-        if (options_.light) { // this time
-            ViewSettings settings = model_.state().view;
-            settings.dark = false;
-            model_.apply(SetViewSettings{settings});
-            forced_light_ = true;
-        }
-    }
-
-    /// What was changed of them, in their dialog or by a key, is kept at once.
-    void follow_preferences()
-    {
-        if (!model_.busy()) // else the part that is being opened would take the messages away
-            for (std::string& text : std::exchange(left_out_, {}))
-                model_.say(Severity::warning, std::move(text));
-        Preferences now = model_.state().preferences;
-        forced_light_ &= !now.dark;
-        if (forced_light_)
-            now.dark = kept_preferences_.dark;
-        if (now == kept_preferences_ || !options_.script.empty())
-            return;
-        kept_preferences_ = now;
-        try {
-            keep_preferences(now);
-        } catch (const std::exception& error) {
-            model_.say(Severity::warning, fmt::format("The preferences are not kept: {}.", error.what()));
-        }
-    }
-
     float wanted_scale() const
     {
         return window_.content_scale() * float(model_.state().preferences.interface_percent) / 100;
@@ -236,7 +185,7 @@ private:
     /// Whether --exit waits for nothing any more, and the last frames are drawn.
     bool finishing() const
     {
-        return options_.exit && script_.ended() && !model_.busy() && !writer_.busy() && !animation_ && queue_.empty();
+        return options_.exit && script_.ended() && !model_.busy() && !files_.busy() && queue_.empty();
     }
 
     void frame()
@@ -318,7 +267,7 @@ private:
             ui_.keys_later.erase(ui_.keys_later.begin());
         }
         ui_.path = GlWindow::take_path();
-        if (!pictures_.empty()) // a picture shows what hides its labels, however busy the machine is
+        if (files_.pictures_wait()) // a picture shows what hides its labels, however busy the machine is
             model_.pickers().picker(model_.state().document.session, View::part);
         const ViewSettings seen = model_.state().view;
         workbench(now);
@@ -329,11 +278,10 @@ private:
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
         if (options_.follow) {
-            texts_ = texts_on_screen(*ImGui::GetDrawData());
-            marked_ = marked_item();
+            on_screen_.texts = texts_on_screen(*ImGui::GetDrawData());
+            on_screen_.marked = marked_item();
         }
-        take_pictures(width, height);
-        follow_animation();
+        files_.draw(width, height, !images_.any_late());
         const double busy = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         times_.all.push_back(busy);
         if (solving)
@@ -343,7 +291,7 @@ private:
         glfwSwapBuffers(window_.get());
         for (Action& action : queue_.take()) {
             if (options_.follow)
-                pushed_.emplace(viewer::name(action));
+                on_screen_.pushed.emplace(viewer::name(action));
             if (auto* settings = std::get_if<SetViewSettings>(&action)) { // a panel changes what it means to change
                 ViewSettings merged = model_.state().view;
                 take_changes(seen, settings->view, merged);
@@ -354,7 +302,7 @@ private:
         if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown())
             model_.gesture_ended();
         follow_part();
-        follow_preferences();
+        preferences_.follow(model_);
         follow_answer();
     }
 
@@ -374,7 +322,7 @@ private:
     /// kept, and what a script looks at, never is coarse.
     bool moving() const
     {
-        return software_ && !options_.exit && script_.ended() && pictures_.empty() &&
+        return software_ && !options_.exit && script_.ended() && !files_.pictures_wait() &&
                (ui_.busy || ImGui::GetTime() < moved_at_ + seconds_to_stand_still);
     }
     void follow_cameras()
@@ -413,17 +361,11 @@ private:
             const bool opens = std::holds_alternative<OpenPart>(action) || std::holds_alternative<OpenProject>(action);
             if (opens)
                 sample_next_ = std::exchange(opening_sample_, false);
-            if (const auto* picture = std::get_if<Screenshot>(&action))
-                pictures_.push_back(*picture);
-            else if (const auto* wanted = std::get_if<WriteReport>(&action))
-                write_report(*wanted);
-            else if (const auto* animated = std::get_if<SaveAnimation>(&action))
-                begin_animation(*animated);
-            else if (std::get_if<Quit>(&action))
+            if (std::get_if<Quit>(&action))
                 quit_ = true;
             else if (opens && !options_.exit)
                 kept_.open(model_, action);
-            else
+            else if (!files_.take(action))
                 model_.apply(action);
             if (std::holds_alternative<SaveProject>(action) && !model_.state().unsaved) {
                 kept_.forget();
@@ -434,89 +376,6 @@ private:
         }
     }
 
-    /// At the end of a frame, when the window shows what the actions before have changed.
-    void take_pictures(int width, int height)
-    {
-        if (images_.any_late())
-            return;
-        for (const Screenshot& wanted : std::exchange(pictures_, {}))
-            try {
-                Picture picture = wanted.view ? view_picture(wanted)
-                                  : wanted.width > 0 && wanted.height > 0
-                                      ? picture_of_window(renderer_, model_, cache_, ui_, {width, height}, wanted.width,
-                                                          wanted.height)
-                                      : GlWindow::picture(width, height);
-                writer_.later(wanted.file,
-                              [file = wanted.file, picture = std::move(picture)] { write_png(file, picture); });
-            } catch (const std::exception& error) {
-                model_.say(Severity::error, error.what());
-            }
-    }
-
-    void begin_animation(const SaveAnimation& wanted)
-    {
-        if (animation_)
-            throw InputError("Wait for the animation that is being made, or cancel it.");
-        animation_ = std::make_unique<Animation>(wanted, model_.state(), [] { glfwPostEmptyEvent(); });
-        ui_.animation = AnimationRun{};
-    }
-
-    /// A picture of it a frame, until it is written.
-    void follow_animation()
-    {
-        if (!animation_)
-            return;
-        GlWindow::news() = true;
-        try {
-            if (ui_.animation && ui_.animation->cancelling)
-                animation_->cancel();
-            animation_->draw_next(renderer_, model_);
-            ui_.animation->fraction = animation_->fraction();
-            if (!animation_->ended())
-                return;
-            const auto files = animation_->take();
-            if (files.empty())
-                model_.say(Severity::hint, "The animation was cancelled; nothing was written.");
-            else if (files.size() == 1)
-                model_.say(Severity::done, fmt::format("Wrote {}", files[0].string()));
-            else
-                model_.say(Severity::done, fmt::format("Wrote {} pictures, {} to {}", files.size(), files[0].string(),
-                                                       files.back().filename().string()));
-        } catch (const std::exception& error) {
-            model_.say(Severity::error, error.what());
-        }
-        animation_.reset();
-        ui_.animation.reset();
-    }
-
-    Picture view_picture(const Screenshot& wanted)
-    {
-        const ImVec2 size = ui_.view_size[size_t(*wanted.view)];
-        return picture_of_view(
-            renderer_, model_, model_.state(), cache_, *wanted.view, wanted.width > 0 ? wanted.width : int(size.x),
-            wanted.height > 0 ? wanted.height : int(size.y), {wanted.legend, wanted.labels, !wanted.transparent});
-    }
-
-    void write_report(const WriteReport& wanted)
-    {
-        const Document& document = model_.state().document;
-        if (!document.session.blank)
-            throw InputError("There is nothing to report yet: unfold the part first.");
-        if (shows_refused(model_.state()))
-            throw InputError("Go back to the part first, in the step Part: the view shows the file that was refused.");
-        ReportOptions options = wanted.options;
-        if (const std::string stale = out_of_date(document); !stale.empty())
-            options.remarks = stale + (options.remarks.empty() ? "" : "\n" + options.remarks);
-        std::vector<std::string> doubts;
-        for (const Doubt& doubt : find_doubts(document, wanted.options.lengths))
-            doubts.push_back(doubt.text);
-        writer_.later(wanted.file, [file = wanted.file, session = as_made(document), options = std::move(options),
-                                    doubts = std::move(doubts),
-                                    pictures = report_pictures(renderer_, model_, cache_, wanted.options)] {
-            write_html_report(file, session, png_files(pictures), options, doubts);
-        });
-    }
-
     /// What has been written meanwhile, and what is to be.
     void follow_files()
     {
@@ -525,13 +384,8 @@ private:
             ui_.left_work = {kept_.offer()->text, kept_.offer()->saved};
             GlWindow::news() = true;
         }
-        for (const FileWriter::Ended& ended : writer_.take_ended()) {
-            if (ended.error.empty())
-                model_.say(Severity::done, fmt::format("Wrote {}", ended.file.string()));
-            else
-                model_.say(Severity::error, ended.error);
+        if (files_.follow())
             GlWindow::news() = true;
-        }
     }
 
     /// A new part belongs into the list of recent files.
@@ -564,12 +418,12 @@ private:
     /// One step of the script per frame; at its end, what was asked for on the command line.
     void next_step()
     {
-        if (!queue_.empty() || !pictures_.empty() || animation_ || writer_.busy())
+        if (!queue_.empty() || files_.busy())
             return;
         if (script_.ended()) {
             if (finishing() && ++idle_frames_ > 4) {
                 if (!options_.screenshot.empty()) {
-                    pictures_.push_back({std::exchange(options_.screenshot, {}), {}, 0, 0});
+                    files_.later({std::exchange(options_.screenshot, {}), {}, 0, 0});
                     idle_frames_ = 0;
                 } else
                     quit_ = true;
@@ -600,36 +454,8 @@ private:
         json["frames"] = FrameTimes::figures(times_.all);
         json["frames_while_solving"] = FrameTimes::figures(times_.solving);
         json["frames_while_turning"] = FrameTimes::figures(times_.turning);
-        json["window"] = window_json();
+        json["window"] = window_report(ui_, model_.state().view.maximised, on_screen_);
         return json;
-    }
-
-    /// What only the window knows: its size, the texts it shows, which actions were pushed, where the pictures of the views and the items of the steps lie, the mouse as the last frame saw it. Pixels.
-    Json window_json() const
-    {
-        const auto pair = [](ImVec2 v) { return Json{v.x, v.y}; };
-        const ImGuiIO& io = ImGui::GetIO();
-        const std::optional<View> only = model_.state().view.maximised;
-        Json views = Json::object();
-        for (const View view : all_views)
-            if (!only || *only == view)
-                views[std::string(name(view))] = {{"at", pair(ui_.view_from[size_t(view)])},
-                                                  {"size", pair(ui_.view_size[size_t(view)])}};
-        Json items = Json::object();
-        for (const auto& [name, place] : ui_.items)
-            items[name] = {{"at", pair(place[0])}, {"size", pair({place[1].x - place[0].x, place[1].y - place[0].y})}};
-        Json texts = Json::array();
-        for (const ScreenText& text : texts_)
-            texts.push_back({{"text", text.text}, {"at", pair(text.at)}, {"size", pair(text.size)}});
-        return {{"size", pair(io.DisplaySize)},
-                {"texts", texts},
-                {"marked", marked_ ? Json{{"at", pair((*marked_)[0])}, {"to", pair((*marked_)[1])}} : Json(nullptr)},
-                {"pushed", pushed_},
-                {"focus", ui_.focus ? Json(name(*ui_.focus)) : Json(nullptr)},
-                {"views", views},
-                {"items", items},
-                {"mouse", ImGui::IsMousePosValid() ? pair(io.MousePos) : Json(nullptr)},
-                {"buttons", {io.MouseDown[0], io.MouseDown[1], io.MouseDown[2]}}};
     }
 
     WindowOptions options_;
@@ -641,29 +467,23 @@ private:
     GlWindow window_;
     ImGuiContextOwner gui_;
     ViewerModel model_;
+    PreferenceKeeper preferences_{model_, !options_.script.empty(), options_.light};
     Renderer renderer_;
     bool software_ = renderer_.in_software();
     std::array<Camera, 4> cameras_;
     double moved_at_ = -seconds_to_stand_still; ///< of ImGui's clock: a camera was another one in the frame before
     ViewImages images_{renderer_};
     FileTextures textures_;
-    std::unique_ptr<Animation> animation_; ///< that is being made
     SceneCache cache_;
     ActionQueue queue_;
     Ui ui_;
     std::optional<bool> dark_;
     ScriptPlayer script_;
-    std::vector<Screenshot> pictures_;
-    FileWriter writer_{[] { glfwPostEmptyEvent(); }};
+    WindowFiles files_{renderer_, model_, cache_, ui_};
     KeptWork kept_{[] { glfwPostEmptyEvent(); }};
     std::shared_ptr<const PartFile> known_part_;
     FrameTimes times_;
-    std::vector<ScreenText> texts_;               ///< of the last frame, with --follow
-    std::optional<std::array<ImVec2, 2>> marked_; ///< likewise
-    std::set<std::string, std::less<>> pushed_;   ///< names of the actions so far, with --follow
-    Preferences kept_preferences_;                ///< in their file
-    std::vector<std::string> left_out_;           ///< of the preferences, still to be said
-    bool forced_light_ = false;                   ///< by the command line, not by the user's choice
+    OnScreen on_screen_; ///< with --follow
     size_t actions_done_ = 0;
     int idle_frames_ = 0, failed_frames_ = 0, exit_code_ = 0;
     int known_document_ = 0;
