@@ -281,7 +281,7 @@ private:
             on_screen_.texts = texts_on_screen(*ImGui::GetDrawData());
             on_screen_.marked = marked_item();
         }
-        files_.draw(width, height, !images_.any_late());
+        files_.draw(width, height, !drawing && !images_.any_late()); // the foot tells of the frame before
         const double busy = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         times_.all.push_back(busy);
         if (solving)
