@@ -166,12 +166,18 @@ void Hands::menu_by_keys(const std::string& title, const std::string& entry, con
     // One step at a time: the mark has moved before the next key; at an end of the row it turns round.
     const auto go_to = [&](const std::string& line, const char* on, const char* back) {
         const auto until = Clock::now() + std::chrono::seconds(60); // pressing keys is no waiting
-        for (const char* key = on; !sees_marked(line);) {
+        const auto stays_at = [&] { // a key that came late would move it on
+            if (!sees_marked(line))
+                return false;
+            viewer_.rest();
+            return sees_marked(line);
+        };
+        for (const char* key = on; !stays_at();) {
             if (Clock::now() > until)
                 throw Error("\"" + line + "\" is not reached by the keys " + on + " and " + back);
             const Json before = viewer_.report()["window"]["marked"];
             keys(key);
-            const auto moved_by = Clock::now() + std::chrono::seconds(1);
+            const auto moved_by = Clock::now() + std::chrono::seconds(3); // 1 s was too short on a loaded machine
             while (viewer_.report()["window"]["marked"] == before && Clock::now() < moved_by)
                 viewer_.rest();
             if (viewer_.report()["window"]["marked"] == before)
