@@ -17,7 +17,7 @@ declare -A seconds_of_the_solver=([1366x768]="60 592 228 24") # are never the sa
 failed=0
 for size in 1366x768 800x600; do
     rm -f dark.png light.png
-    xvfb-run -a -s "-screen 0 1600x1000x24" "$viewer" --script "$here/scripts/pictures.json" \
+    xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" "$viewer" --script "$here/scripts/pictures.json" \
         --width "${size%x*}" --height "${size#*x}"
     for theme in dark light; do
         mv "$theme.png" "$size-$theme.png"

@@ -9,7 +9,7 @@ export XDG_CONFIG_HOME="$scratch/config" XDG_STATE_HOME="$scratch/state" LIBGL_A
 cd "$(dirname "$0")/../.."
 rm -f "$scratch/code"
 # xvfb-run's own exit code is another one where it cannot clean up behind itself.
-xvfb-run -a -s "-screen 0 3840x2160x24" sh -c '"$@"; echo $? >"$0"' "$scratch/code" \
+xvfb-run -a -s "-screen 0 3840x2160x24 -noreset" sh -c '"$@"; echo $? >"$0"' "$scratch/code" \
     "$viewer" --report "$scratch/report.json" --screenshot "$scratch/window.png" --exit "$@" || true
 code=$(cat "$scratch/code")
 [ "$code" -eq "${EXPECTED_EXIT:-0}" ] || { echo "exit code $code"; exit 1; }
