@@ -97,8 +97,8 @@ FitShortfall find_shortfall(const NurbsSurface& surface, const TriMesh& mesh, co
     };
     const auto degrees = [](double angle) { return angle * 180 / M_PI; };
     const std::string far =
-        fmt::format("the surface deviates by {:.3g} mm where {:.3g} mm are allowed, at ({:.1f}, {:.1f}, {:.1f})", left,
-                    options.tolerance, where.x(), where.y(), where.z());
+        fmt::format("the surface deviates by {:.3g} mm where {:.3g} mm are allowed, at ({:.1f}, {:.1f}, {:.1f} mm)",
+                    left, options.tolerance, where.x(), where.y(), where.z());
     if (edge.angle >= notable && edge.angle >= 0.5 * corner.angle) {
         result.reason = FitShortfall::Reason::sharp_edge;
         result.a = edge.a;

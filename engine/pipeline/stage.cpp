@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/blank_chart.h"
 #include "engine/pipeline/session.h"
+#include "engine/pipeline/usual_tolerance.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/stepped_blank.h"
 
@@ -155,8 +156,8 @@ void make_surface(Session& session, const Progress& progress)
     SurfaceStage stage;
     DeviationOptions options;
     options.part_faces = filled.part_triangles;
+    options.tolerance = session.options.tolerance.value_or(usual_tolerance);
     if (session.options.tolerance) {
-        options.tolerance = *session.options.tolerance;
         FitResult fitted = fit_within_tolerance(session, progress.part(0, remeshed ? 0.6 : 1));
         stage.result.surface = std::move(fitted.surface);
         stage.result.u = std::move(fitted.u);

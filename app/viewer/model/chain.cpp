@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/fit_choice.h"
+#include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {
@@ -129,7 +130,7 @@ std::string out_of_date(const Document& document)
                                                           : session.grid != nullptr);
     return there ? fmt::format(
                        "Out of date from the step \"{}\" on: options have changed since these results were computed.",
-                       name(*stale))
+                       heading(*stale))
                  : "";
 }
 

@@ -2,9 +2,12 @@
 
 #include <fmt/core.h>
 
+#include "app/viewer/model/crack_verdict.h"
 #include "app/viewer/model/html_text.h"
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/report_limits.h"
 #include "app/viewer/model/report_tables.h"
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
@@ -33,12 +36,19 @@ std::string remarks_html(const std::string& remarks)
     return remarks.empty() ? "" : fmt::format("<p class=\"remarks\">{}</p>\n", escaped(remarks));
 }
 
-std::string all_doubts(const Session& session, const std::vector<std::string>& doubts)
+std::string all_doubts(const Session& session, const std::vector<std::string>& doubts, LengthUnit lengths)
 {
     std::string text;
     for (const std::string& each : doubts.empty() ? shortcomings(session) : doubts)
-        text += fmt::format("<p class=\"note\"><b>Caution:</b> {}</p>\n", escaped(sentence(in_viewer_words(each))));
+        text += fmt::format("<p class=\"note\"><b>Caution:</b> {}</p>\n",
+                            escaped(sentence(in_shown_lengths(in_viewer_words(each), lengths))));
     return text.empty() ? "" : fmt::format("<section class=\"notes\">\n{}</section>\n", text);
+}
+
+std::string crack_words(const Session& session, LengthUnit lengths)
+{
+    const CrackVerdict verdict = crack_verdict(session, lengths);
+    return verdict.text.empty() ? "" : fmt::format("<p class=\"note plain\">{}</p>\n", escaped(verdict.text));
 }
 
 std::string pictures_html(const std::vector<ReportPicture>& pictures)
@@ -67,7 +77,8 @@ void write_html_report(const std::filesystem::path& file, const Session& session
     const std::string name = session.file.filename().string();
     const ReportTables& wanted = options.tables;
     std::string html = header(session, options.title) + remarks_html(options.remarks) +
-                       tiles(session, figures, options.lengths) + all_doubts(session, doubts);
+                       tiles(session, figures, options.lengths) + all_doubts(session, doubts, options.lengths) +
+                       crack_words(session, options.lengths);
     if (wanted.key_figures)
         html += key_figures(session, figures, options.lengths);
     if (wanted.worst_spots)
@@ -75,9 +86,9 @@ void write_html_report(const std::filesystem::path& file, const Session& session
     if (wanted.assumptions)
         html += assumptions(session, options.lengths);
     if (wanted.solver)
-        html += solving(session);
+        html += solving(session, options.lengths);
     if (wanted.repairs)
-        html += repairs(*session.part);
+        html += repairs(*session.part, options.lengths);
     html += pictures_html(pictures);
     html += fmt::format("<footer>Made by {} from {}. Lengths in {}, stresses in MPa, strains logarithmic.</footer>\n",
                         escaped(program_name()), escaped(session.file.string()),

@@ -1,11 +1,14 @@
 #include "app/viewer/model/lights.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/export_check.h"
 #include "app/viewer/model/lengths.h"
 #include "app/viewer/model/number_text.h"
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/state.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/coons/cell_quality.h"
@@ -85,18 +88,30 @@ void add_shortcomings(ChainStep step, const Session& upto, const Document& docum
         }
 }
 
+/// A part that is hardly larger than its sheet is thick, or of no size that sheet parts have: its unit is likely another.
 void judge_size(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
 {
     const PartFile& part = *document.session.part;
-    const double diagonal = bounding_diagonal(part.mesh);
-    if (document.session.options.read.unit) // it was said
+    const SessionOptions& options = document.session.options;
+    const double diagonal = bounding_diagonal(part.mesh), thickness = options.flatten.thickness;
+    const auto unit = likelier_unit(part, diagonal, thickness);
+    const bool thick = diagonal < least_size_in_thicknesses * thickness;
+    if (!thick && (!unit || options.read.unit)) // that was said
         return;
-    if (const auto unit = likelier_unit(part, diagonal))
-        doubts.push_back(
-            {ChainStep::part,
-             fmt::format("The part is {} across, which is unlikely for a sheet part.", plain_length(diagonal, lengths)),
-             "Check the length unit of the file.", fmt::format("Read it in {}", name(*unit)),
-             Remedy::read_in_other_unit});
+    Doubt doubt{
+        ChainStep::part,
+        thick ? fmt::format(
+                    "The part is {} across and the sheet {} thick: a sheet is at least {:.0f} times as large as "
+                    "it is thick.",
+                    plain_length(diagonal, lengths), thickness_text(thickness, lengths), least_size_in_thicknesses)
+              : fmt::format("The part is {} across, which is unlikely for a sheet part.",
+                            plain_length(diagonal, lengths)),
+        thick ? "Check the length unit of the file and the thickness." : "Check the length unit of the file."};
+    if (unit) {
+        doubt.button = fmt::format("Read it in {}", name(*unit));
+        doubt.remedy = Remedy::read_in_other_unit;
+    }
+    doubts.push_back(std::move(doubt));
 }
 
 void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
@@ -140,19 +155,58 @@ void judge_cells(const Document& document, std::vector<Doubt>& doubts)
     doubts.push_back(std::move(doubt));
 }
 
+/// What the engine says of a fit that has not reached its tolerance has the click that answers it.
+void answer_shortfall(const Document& document, const SurfaceStage& surface, LengthUnit lengths, Doubt& doubt)
+{
+    const SessionOptions& options = document.session.options;
+    const double reached = reached_tolerance(surface);
+    doubt.next = fmt::format("Or raise the tolerance to {}.", length_text(reached, lengths, 3));
+    switch (surface.fit->shortfall.reason) {
+    case FitShortfall::Reason::sharp_edge:
+    case FitShortfall::Reason::outline_corner:
+        if (!options.patches) {
+            doubt.button = "Use several patches";
+            doubt.remedy = Remedy::several_patches;
+            return;
+        }
+        break;
+    case FitShortfall::Reason::data:
+        if (!options.patches) {
+            doubt.button = fmt::format("Make the grid of {} cells", finer_cells(options.grid));
+            doubt.remedy = Remedy::finer_grid;
+            return;
+        }
+        break;
+    default:
+        doubt.button = fmt::format("Allow {} control points", more_control_points(options.max_control_points));
+        doubt.remedy = Remedy::more_control_points;
+        return;
+    }
+    doubt.next = "";
+    doubt.button = fmt::format("Raise the tolerance to {}", length_text(reached, lengths, 3));
+    doubt.remedy = Remedy::looser_tolerance;
+}
+
 void judge_distance(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
 {
     const SurfaceStage& surface = *document.session.surface;
-    if (surface.fit) // the engine says whether that is reached
+    if (surface.fit) { // the engine says whether that is reached
+        for (Doubt& doubt : doubts)
+            if (!surface.fit->reached && doubt.text == sentence(in_viewer_words(surface.fit->shortfall.text)))
+                answer_shortfall(document, surface, lengths, doubt);
         return;
-    const double off = surface.deviation.max();
-    if (off <= usual_tolerance)
+    }
+    const FitVerdict verdict = fit_verdict(document.session);
+    if (verdict.fit == Fit::within)
         return;
-    doubts.push_back({ChainStep::surface,
-                      fmt::format("The surface deviates from the part by up to {}; a usual tolerance is {}.",
-                                  plain_length(off, lengths), length_text(usual_tolerance, lengths, 3)),
-                      "", fmt::format("Fit it within {}", length_text(usual_tolerance, lengths, 3)),
-                      Remedy::fit_within_tolerance});
+    doubts.push_back(
+        {ChainStep::surface,
+         fmt::format("The surface deviates from the part by up to {}, on {} of its area by more than a usual "
+                     "tolerance, {}.",
+                     length_text(verdict.greatest, lengths, 3), area_share(verdict.beyond),
+                     length_text(verdict.tolerance, lengths, 3)),
+         "", fmt::format("Fit it within {}", length_text(verdict.tolerance, lengths, 3)),
+         Remedy::fit_within_tolerance});
 }
 
 /// Whether the normal only vanishes at a corner: on a smooth outline the grid has no angle there, which CAD does not mind.
@@ -175,7 +229,7 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
         text = fmt::format("The surface may have a fold: {}.", unsuited(certificate).value_or(""));
     else if (const double turned = surface.deviation.normal.turned; turned > 0)
         text = fmt::format("The surface folds: on {} of its area the normal is opposite to that of the part.",
-                           turned < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100 * turned));
+                           area_share(turned));
     else
         return;
     if (document.session.options.patches) {
@@ -185,18 +239,6 @@ void judge_folds(const Document& document, std::vector<Doubt>& doubts)
     doubts.push_back({ChainStep::surface, text, "Drag the corners to sharp corners of the blank, or:",
                       fmt::format("Make the grid of {} cells", finer_cells(document.session.options.grid)),
                       Remedy::finer_grid});
-}
-
-const char* heading(Stage stage)
-{
-    switch (stage) {
-    case Stage::read: return "Part";
-    case Stage::solve: return "Unfold";
-    case Stage::grid:
-    case Stage::lift: return "Corners and grid";
-    case Stage::fit: return "NURBS surface";
-    }
-    return "";
 }
 
 /// The first step of the list that has no good result; empty: none.
@@ -240,14 +282,31 @@ int finer_cells(const GridOptions& grid)
 
 double wanted_tolerance(const SessionOptions& options) { return options.tolerance.value_or(usual_tolerance); }
 
-std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal)
+int more_control_points(int most)
+{
+    constexpr int greatest = 4'000'000; // as SetFit takes
+    return most > greatest / 2 ? greatest : 2 * most;
+}
+
+double reached_tolerance(const SurfaceStage& surface)
+{
+    const double left = surface.deviation.max();
+    if (!(left > 0))
+        return usual_tolerance;
+    const double digit = std::pow(10, std::floor(std::log10(left)) - 1);
+    return std::ceil(left / digit) * digit;
+}
+
+std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal, double thickness)
 {
     constexpr double small = 5, large = 20'000; // mm, as read_part() says
-    if (!(diagonal > 0) || (diagonal >= small && diagonal <= large) || (part.cad && part.cad->unit_stated))
+    const bool likely = diagonal >= small && diagonal <= large && diagonal >= least_size_in_thicknesses * thickness;
+    if (!(diagonal > 0) || likely || (part.cad && part.cad->unit_stated))
         return std::nullopt;
     for (const LengthUnit unit : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::inch}) {
         const double other = diagonal / millimetres(part.unit) * millimetres(unit);
-        if (other >= 4 * small && other <= large)
+        if (unit != part.unit && other >= std::max(4 * small, 2 * least_size_in_thicknesses * thickness) &&
+            other <= large)
             return unit;
     }
     return std::nullopt;
@@ -284,6 +343,10 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);
         judge_distance(document, lengths, doubts);
         judge_folds(document, doubts);
+    }
+    for (Doubt& doubt : doubts) { // the engine speaks of mm
+        doubt.text = in_shown_lengths(doubt.text, lengths);
+        doubt.next = in_shown_lengths(doubt.next, lengths);
     }
     std::stable_sort(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) { return a.step < b.step; });
     return doubts;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/viewer/model/document.h"
+#include "engine/pipeline/usual_tolerance.h"
 
 /// What stands between a result and a green light.
 namespace spia::viewer {
@@ -24,7 +25,10 @@ enum class Remedy {
     propose_steps,
     harmonic_grid,
     finer_grid,
-    fit_within_tolerance
+    fit_within_tolerance,
+    looser_tolerance, ///< as large as the deviation that is left
+    more_control_points,
+    several_patches
 };
 
 /// Something that is poorer than it should be: why, and the next click.
@@ -55,10 +59,15 @@ DoubtsOf doubts_of(const Document& document, LengthUnit lengths);
 /// @param lengths  in which they are told; the engine tells its own in mm
 std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths = LengthUnit::mm);
 
-/// How far a surface may be from the part where no tolerance was asked for, mm: what CAD of sheet parts is usually held to.
-inline constexpr double usual_tolerance = 0.1;
 /// The tolerance that was asked for, else the usual one; mm.
 double wanted_tolerance(const SessionOptions& options);
+/// What a fit that has not reached its tolerance does reach, rounded up to two digits; mm.
+double reached_tolerance(const SurfaceStage& surface);
+/// How many the next try may have.
+int more_control_points(int most);
+/// A sheet is at least so many times as large as it is thick: the bound of thin plate theory [Timoshenko and Woinowsky-Krieger 1959],
+/// below it a body is no sheet whose thickness could be left out of its shape. It is the same in every unit.
+inline constexpr double least_size_in_thicknesses = 10;
 
 /// Cells of the next finer grid, see Remedy::finer_grid.
 int finer_cells(const GridOptions& grid);
@@ -66,8 +75,8 @@ int finer_cells(const GridOptions& grid);
 /// Of a cell that isogeometric analysis can still live with; below it the map is nearly singular.
 inline constexpr double least_scaled_jacobian = 0.1;
 
-/// The unit that would make a sheet part of it; nothing if its size is a likely one already.
-std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal);
+/// The unit that would make a sheet part of it; nothing if its size is a likely one already, also beside its thickness (mm).
+std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal, double thickness);
 
 /// What the light at the foot of the window says.
 struct Readiness {

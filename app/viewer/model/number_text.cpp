@@ -26,7 +26,7 @@ std::string plain_number(double value)
 
 std::string percent_range(const std::array<double, 2>& share)
 {
-    const std::string least = figure_text(100 * share[0], 1, true), greatest = figure_text(100 * share[1], 1, true);
+    const std::string least = figure_text(100 * share[0], 1), greatest = figure_text(100 * share[1], 1);
     return least == greatest ? least + " %" : fmt::format("{} to {} %", least, greatest);
 }
 

@@ -10,7 +10,7 @@ std::string figure_text(double value, int decimals, bool sign = false);
 /// Three significant digits at least and no exponent within 1e-4 to 1e6: 0.0123, 12.3, 1380.
 std::string plain_number(double value);
 
-/// Of two shares in percent: "-25.1 to +23.6 %", "0 to +1.2 %", "0 %".
+/// Of two shares in percent: "-25.1 to 23.6 %", "0 to 1.2 %", "0 %".
 std::string percent_range(const std::array<double, 2>& share);
 
 } // namespace spia::viewer

@@ -42,7 +42,7 @@ std::vector<Action> actions_of(const Doubt& doubt, const Document& document)
         if (!document.session.part)
             return {};
         const PartFile& part = *document.session.part;
-        const auto unit = likelier_unit(part, bounding_diagonal(part.mesh));
+        const auto unit = likelier_unit(part, bounding_diagonal(part.mesh), options.flatten.thickness);
         return unit ? std::vector<Action>{SetUnit{std::string(name(*unit))}} : std::vector<Action>{};
     }
     case Remedy::show_zones:
@@ -65,6 +65,19 @@ std::vector<Action> actions_of(const Doubt& doubt, const Document& document)
         fit.tolerance = usual_tolerance;
         return {SetFit{fit}};
     }
+    case Remedy::looser_tolerance: {
+        if (!document.session.surface)
+            return {};
+        FitChoice fit = fit_choice(options);
+        fit.tolerance = reached_tolerance(*document.session.surface);
+        return {SetFit{fit}};
+    }
+    case Remedy::more_control_points: {
+        FitChoice fit = fit_choice(options);
+        fit.max_control_points = more_control_points(fit.max_control_points);
+        return {SetFit{fit}};
+    }
+    case Remedy::several_patches: return {SetPatches{LayoutOptions{}}};
     }
     return {};
 }

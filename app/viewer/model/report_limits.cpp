@@ -6,6 +6,7 @@
 #include "app/viewer/model/face_values.h"
 #include "app/viewer/model/html_text.h"
 #include "app/viewer/model/lengths.h"
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/svg_chart.h"
 #include "app/viewer/model/zone_look.h"
 #include "engine/exchange/text_encoding.h"
@@ -109,9 +110,10 @@ std::string limits_section(const Session& session, LengthUnit lengths)
     const LimitsResult& limits = *session.limits;
     std::string text =
         "<section class=\"whole\"><h2>Forming limits</h2>\n" + strain_diagram(limits, session.blank->face);
-    text += fmt::format("<p>{}.</p>\n", limits.curve ? escaped(limits.curve->formula) : "No forming limit curve");
+    text += fmt::format("<p>{}.</p>\n", limits.curve ? escaped(in_shown_lengths(limits.curve->formula, lengths))
+                                                     : "No forming limit curve");
     for (const std::string& note : limits.notes)
-        text += fmt::format("<p class=\"note plain\">{}</p>\n", escaped(note));
+        text += fmt::format("<p class=\"note plain\">{}</p>\n", escaped(in_shown_lengths(note, lengths)));
     return text + zone_table(limits) + spot_table(limits, *session.part, lengths) + "</section>\n";
 }
 

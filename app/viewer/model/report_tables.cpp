@@ -7,6 +7,7 @@
 #include "app/viewer/model/face_values.h"
 #include "app/viewer/model/html_text.h"
 #include "app/viewer/model/lengths.h"
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/svg_chart.h"
 #include "engine/exchange/text_encoding.h"
 #include "engine/pipeline/certificate_report.h"
@@ -101,12 +102,12 @@ std::string equations(const SolveReport& report)
     return "";
 }
 
-std::string repairs_in_words(const DoctorReport& doctor)
+std::string repairs_in_words(const DoctorReport& doctor, LengthUnit lengths)
 {
     std::string text;
     for (const Finding& finding : doctor.findings)
         if (finding.severity == spia::Severity::repaired)
-            text += (text.empty() ? "" : "; ") + finding.text;
+            text += (text.empty() ? "" : "; ") + in_shown_lengths(finding.text, lengths);
     return text.empty() ? "none" : text;
 }
 
@@ -346,7 +347,7 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     rows +=
         row("Equations", session.options.steps && !session.options.steps->polish ? session.blank->report.reason
                                                                                  : equations(session.blank->report));
-    rows += row("Repairs of the mesh", repairs_in_words(session.part->doctor));
+    rows += row("Repairs of the mesh", repairs_in_words(session.part->doctor, lengths));
     return facts("Assumptions", rows);
 }
 
@@ -362,34 +363,35 @@ static std::string solver_iterations(const Session& session)
 }
 
 /// What each step did.
-static std::string steps_of_blank(const UnfoldRun& run)
+static std::string steps_of_blank(const UnfoldRun& run, LengthUnit lengths)
 {
     std::string rows;
     for (size_t k = 0; k < run.states.size(); ++k) {
         const UnfoldState& state = run.states[k];
         rows +=
             row(fmt::format("{}  {}", k + 1, state.name),
-                fmt::format("{}, {}, {} s", state.plain,
+                fmt::format("{}, {}, {} s", in_shown_lengths(state.plain, lengths),
                             state.converged ? "converged" : "not converged: " + state.reason, fixed(state.seconds, 1)));
     }
     return facts("The steps of the blank", rows);
 }
 
-std::string solving(const Session& session)
+std::string solving(const Session& session, LengthUnit lengths)
 {
     const auto& steps = session.options.steps;
     if (steps && !steps->polish)
-        return steps_of_blank(*steps->run);
-    return (steps ? steps_of_blank(*steps->run) : "") + solver_iterations(session);
+        return steps_of_blank(*steps->run, lengths);
+    return (steps ? steps_of_blank(*steps->run, lengths) : "") + solver_iterations(session);
 }
 
-std::string repairs(const PartFile& part)
+std::string repairs(const PartFile& part, LengthUnit lengths)
 {
     std::string rows;
     for (const Finding& finding : part.doctor.findings)
-        rows += row(finding.severity == spia::Severity::repaired ? "Repaired" : "Noted", finding.text);
+        rows += row(finding.severity == spia::Severity::repaired ? "Repaired" : "Noted",
+                    in_shown_lengths(finding.text, lengths));
     for (const std::string& note : part.notes)
-        rows += row("Noted", note);
+        rows += row("Noted", in_shown_lengths(note, lengths));
     return rows.empty() ? "" : facts("Input part", rows);
 }
 

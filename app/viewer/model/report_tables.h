@@ -16,8 +16,8 @@ std::string thinnest_places(const Session& session, LengthUnit lengths = LengthU
 /// What was taken for granted, asked for and given up: material, sheet, direction, friction, method, equations, repairs.
 std::string assumptions(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// How the solver got there, with its residuals and the hardening curve.
-std::string solving(const Session& session);
+std::string solving(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// The part as it was read.
-std::string repairs(const PartFile& part);
+std::string repairs(const PartFile& part, LengthUnit lengths = LengthUnit::mm);
 
 } // namespace spia::viewer

@@ -50,6 +50,8 @@ void ViewerModel::say(Severity severity, std::string text, Subject subject)
 {
     Message message{severity, std::move(text)};
     message.subject = std::move(subject);
+    if (severity == Severity::error && message.subject.kind == Subject::Kind::none)
+        message.subject = about_refusal(state_); // what could not be done is of the past once something else is
     say(std::move(message));
 }
 

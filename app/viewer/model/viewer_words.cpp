@@ -43,6 +43,18 @@ std::string in_viewer_words(std::string text)
     return text;
 }
 
+const char* heading(Stage stage)
+{
+    switch (stage) {
+    case Stage::read: return "Part";
+    case Stage::solve: return "Unfold";
+    case Stage::grid:
+    case Stage::lift: return "Corners and grid";
+    case Stage::fit: return "NURBS surface";
+    }
+    return "";
+}
+
 std::string load_words(const FaceRegion& region, LengthUnit lengths)
 {
     if (region.contact) {

@@ -8,6 +8,9 @@ namespace spia::viewer {
 /// What the engine advises, with the viewer's buttons in place of the flags of the command line.
 std::string in_viewer_words(std::string text);
 
+/// What the panel of steps calls a stage.
+const char* heading(Stage stage);
+
 /// With a capital letter at its beginning, unless that is a name: of a file or a folder, or what stands before a colon.
 std::string as_sentence(std::string text);
 /// The same with a full stop at its end.

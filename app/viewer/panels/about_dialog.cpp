@@ -15,9 +15,7 @@ void about_dialog(Frame& frame)
     ImGui::PushFont(frame.ui.fonts.heading);
     ImGui::TextUnformatted(versions.empty() ? "SPIA" : (versions[0].first + " " + versions[0].second).c_str());
     ImGui::PopFont();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted("From a stamped sheet-metal part to its flat blank, its strains and its NURBS surface.");
-    ImGui::PopTextWrapPos();
+    wrapped("From a stamped sheet-metal part to its flat blank, its strains and its NURBS surface.");
     muted(frame, "Free software under the GNU General Public License, version 3 or later, without any warranty.\n"
                  "Licence: GPL-3.0-or-later");
     ImGui::Dummy({0, 4 * frame.ui.scale});

@@ -31,4 +31,11 @@ const GridFigures& grid_figures(Frame& frame)
                                    [&] { return grid_figures(*session.grid, session.blank->blank); });
 }
 
+const CrackVerdict& crack_verdict(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    return frame.ui.charts.cracks.of({session.blank, session.limits, frame.lengths()},
+                                     [&] { return crack_verdict(session, frame.lengths()); });
+}
+
 } // namespace spia::viewer

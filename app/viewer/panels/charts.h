@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/viewer/model/crack_verdict.h"
 #include "app/viewer/model/face_values.h"
 #include "app/viewer/model/figures.h"
 #include "app/viewer/model/point_cloud.h"
@@ -36,6 +37,7 @@ struct Charts {
     Memo<PartFigures, std::shared_ptr<const PartFile>> part, refused;
     Memo<SheetFigures, Blank> sheet;
     Memo<GridFigures, std::shared_ptr<const GridStage>, Blank> grid;
+    Memo<CrackVerdict, Blank, Limits, LengthUnit> cracks;
 };
 
 /// Of the results there are; the part, the blank, the grid must be there.
@@ -44,6 +46,8 @@ const PartFigures& part_figures(Frame& frame);
 const PartFigures& examined_figures(Frame& frame);
 const SheetFigures& sheet_figures(Frame& frame);
 const GridFigures& grid_figures(Frame& frame);
+/// Whether the sheet will crack.
+const CrackVerdict& crack_verdict(Frame& frame);
 
 /// A place of the section plot under the mouse, to be marked in the views.
 struct SectionMark {

@@ -3,6 +3,8 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cfloat>
+#include <fmt/core.h>
+#include <imgui_internal.h> // CloseButton
 
 #include "app/viewer/model/suggested_files.h"
 #include "app/viewer/panels/text_input.h"
@@ -28,6 +30,21 @@ bool begin_modal(const Frame& frame, const char* title, bool appears, ImGuiWindo
     return false;
 }
 
+/// The x of a dialog does what Escape does in it, each dialog in its own way.
+static void close_button(const Frame& frame)
+{
+    ImGuiWindow* window = ImGui::GetCurrentWindow();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float side = ImGui::GetFontSize();
+    const ImVec2 at{window->Pos.x + window->Size.x - style.FramePadding.x - side - style.WindowBorderSize,
+                    window->Pos.y + style.FramePadding.y};
+    ImGui::PushClipRect(window->Pos, {window->Pos.x + window->Size.x, window->Pos.y + window->Size.y}, false);
+    if (ImGui::CloseButton(window->GetID("#CLOSE"), {at.x - style.FramePadding.x, at.y - style.FramePadding.y}))
+        frame.ui.keys.push_back({GLFW_KEY_ESCAPE, 0});
+    ImGui::PopClipRect();
+    frame.ui.items["close dialog"] = {at, {at.x + side, at.y + side}};
+}
+
 bool begin_dialog(const Frame& frame, const char* title, bool appears, float width, bool urgent)
 {
     if (appears || frame.ui.dialogs.shows(title)) { // else it would be the place and size of the next window
@@ -38,6 +55,7 @@ bool begin_dialog(const Frame& frame, const char* title, bool appears, float wid
     }
     if (!begin_modal(frame, title, appears, ImGuiWindowFlags_AlwaysAutoResize, nullptr, urgent))
         return false;
+    close_button(frame);
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of the window
     return true;
 }
@@ -147,14 +165,29 @@ void follow(std::string& path, std::string& suggested, const std::string& sugges
 
 void old_results_banner(Frame& frame)
 {
+    const JobView& job = frame.state.job;
+    if (job.running && !frame.model.exporting()) {
+        ImGui::TextUnformatted(job.title.c_str());
+        ImGui::SameLine();
+        muted(frame, job.cancelling ? "Stopping..." : engine_words(frame, job.step));
+        const float cancel = ImGui::CalcTextSize("Stop").x + 2 * ImGui::GetStyle().FramePadding.x;
+        ImGui::ProgressBar(float(job.fraction),
+                           {ImGui::GetContentRegionAvail().x - cancel - ImGui::GetStyle().ItemSpacing.x, 0},
+                           fmt::format("{:.0f} %", 100 * job.fraction).c_str());
+        ImGui::SameLine();
+        ImGui::BeginDisabled(job.cancelling);
+        if (ImGui::Button("Stop"))
+            frame.actions.push(CancelJob{});
+        ImGui::EndDisabled();
+        ImGui::Dummy({0, 4 * frame.ui.scale});
+        return;
+    }
     const std::string text = out_of_date(frame.state.document);
     if (text.empty())
         return;
     coloured(palette_of(frame.state.view.dark).warning, text);
-    if (ImGui::Button("Update all first")) {
-        frame.actions.push(RunTo{Stage::fit});
-        ImGui::CloseCurrentPopup();
-    }
+    if (ImGui::Button("Update all first"))
+        frame.actions.push(RunTo{Stage::fit}); // the dialog stays and shows how far it is
     ImGui::Dummy({0, 4 * frame.ui.scale});
 }
 

@@ -51,7 +51,8 @@ void choose_project_name(Frame& frame);
 /// @param suggested what the path was set to last; as long as the user has typed no other, it follows the part
 void follow(std::string& path, std::string& suggested, const std::string& suggestion);
 
-/// A warning if the results are older than the options, with a way to make them anew first, which closes the dialog.
+/// A warning if the results are older than the options, with a way to make them anew first; while a job runs how far it is. The dialog
+/// stays.
 void old_results_banner(Frame& frame);
 
 } // namespace spia::viewer

@@ -20,16 +20,17 @@ void shortcuts_window(Frame& frame)
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
         const MouseStyle style = frame.state.view.mouse;
         constexpr const char* rows[][2] = {
-            {"Left button", "what the tool does"},
+            {"Left button", "uses the tool"},
             {"Shift, Ctrl", "picking adds, takes away"},
             {"View cube", "a click looks from there, a drag turns"},
             {"Double click on a title", "one view, four views"},
-            {"F4, Shift + F4", "the next view, the one before has the keyboard; a click gives it, too"},
+            {"F4, Shift + F4", "give the keyboard to the next view, the one before; a click in a view does so, too"},
             {"Arrows, Page up, down", "turn and zoom the view that has the keyboard; Shift: pan"},
-            {"Return", "in a view reached by F4: click with the tool at the cross; Corners: the next corner"},
-            {"Arrows with Corners", "in the blank: right, left by a vertex, up, down to the next sharp turn"},
-            {"Alt", "the menus: arrows go through them, Return takes"},
-            {"Arrows, Tab, Space, Return", "in panels: go, next field, press, take"},
+            {"Return", "in a view reached by F4: uses the tool at the cross; Corners: the next corner"},
+            {"Arrows with Corners",
+             "move the corner along the outline of the blank: right, left to the next vertex, up, down to the next sharp corner"},
+            {"Alt", "opens the menus: arrows move, Return chooses"},
+            {"Arrows, Tab, Space, Return", "in panels: move, next field, press a button, accept what is typed"},
             {"V P B L U R N", "tools: look, face, box, lasso, brush, flood, smooth"},
             {"D G W C", "tools: vertex, outline, line, corners"},
             {"O X M K", "tools: probe, section, measure, shape"},
@@ -66,9 +67,8 @@ void unsaved_dialog(Frame& frame)
 {
     if (!frame.ui.held || !begin_dialog(frame, "Unsaved changes", true, 420, true))
         return;
-    ImGui::PushTextWrapPos(0);
-    ImGui::Text("Your changes to %s are not saved in a project.", frame.state.document.session.file.filename().c_str());
-    ImGui::PopTextWrapPos();
+    wrapped(fmt::format("Your changes to {} are not saved in a project.",
+                        frame.state.document.session.file.filename().string()));
     const auto go_on = [&] {
         frame.ui.confirmed = true;
         frame.actions.push(*std::exchange(frame.ui.held, std::nullopt));
@@ -102,9 +102,7 @@ void recovery_dialog(Frame& frame)
         return;
     if (!begin_dialog(frame, "Unsaved work", true, 440))
         return;
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(left->text.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped(left->text);
     figure(frame, "Autosaved", left->saved);
     const std::filesystem::path& now = frame.state.document.session.file;
     if (frame.state.document.session.part && !frame.ui.sample)

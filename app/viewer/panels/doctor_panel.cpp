@@ -41,7 +41,8 @@ void list_of_places(Frame& frame, int number, const Finding& finding)
     clipper.Begin(places, line);
     while (clipper.Step())
         for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
-            const std::string label = fmt::format("{}   {}##{}", k + 1, finding.what[size_t(k)], k);
+            const std::string label =
+                fmt::format("{}   {}##{}", k + 1, engine_words(frame, finding.what[size_t(k)]), k);
             if (ImGui::Selectable(label.c_str(), k == entry) && k != entry)
                 frame.actions.push(ShowFault{number, k});
         }
@@ -226,7 +227,8 @@ void deck_gauge(Frame& frame, const PartFile& part)
 /// One line each.
 void reading_notes(Frame& frame, const std::vector<std::string>& notes)
 {
-    for (const std::string& text : notes) {
+    for (const std::string& note : notes) {
+        const std::string text = engine_words(frame, note);
         constexpr size_t most = 300; // letters: a deck can have many keywords that are not read
         const size_t end = text.size() > most ? text.rfind(' ', most) : text.npos;
         const std::string shown = end == text.npos ? text : text.substr(0, end) + " ...";
@@ -304,14 +306,10 @@ void doctor_panel(Frame& frame)
         for (const int i : order) {
             const Finding& finding = findings[size_t(i)];
             ImGui::PushID(i);
-            ImGui::PushTextWrapPos(0);
-            if (finding.severity == spia::Severity::fatal)
-                ImGui::TextColored(p.error, "%s", as_sentence(finding.text).c_str());
-            else
-                ImGui::TextUnformatted(as_sentence(finding.text).c_str());
-            ImGui::PopTextWrapPos();
+            coloured(finding.severity == spia::Severity::fatal ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text),
+                     as_sentence(engine_words(frame, finding.text)));
             if (!finding.advice.empty())
-                muted(frame, as_sentence(in_viewer_words(finding.advice)));
+                muted(frame, as_sentence(engine_words(frame, finding.advice)));
             show_buttons(frame, i, finding);
             fix_button(frame, finding);
             ImGui::Dummy({0, 2 * frame.ui.scale});

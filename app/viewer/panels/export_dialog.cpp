@@ -7,6 +7,7 @@
 
 #include "app/viewer/model/names.h"
 #include "app/viewer/panels/dialog_parts.h"
+#include "app/viewer/panels/lights.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/error.h"
@@ -32,46 +33,44 @@ ExportChoices::Planned planned_files(const Session& session, const ExportChoices
     return planned;
 }
 
-/// What else the surface is poorer for; empty: nothing.
-std::string surface_doubts(const Frame& frame)
-{
-    std::string text;
-    for (const Doubt& doubt : frame.state.doubts ? *frame.state.doubts : std::vector<Doubt>())
-        if (doubt.step == ChainStep::surface)
-            text += " " + doubt.text;
-    return text;
-}
-
-/// How well the surface fits, the louder the worse.
-void deviation_banner(const Frame& frame, const FitVerdict& verdict, double tolerance)
+/// How well the surface fits and how much is held against the result, the louder the worse.
+void verdict_banner(const Frame& frame, const ExportVerdict& verdict)
 {
     const Palette p = palette_of(frame.state.view.dark);
-    const bool loud = verdict.fit == Fit::far_off;
-    const std::string besides = verdict.fit == Fit::within ? surface_doubts(frame) : "";
-    const ImVec4 colour = verdict.fit == Fit::within && besides.empty() ? p.good : loud ? p.error : p.warning;
-    const char* headline = verdict.fit == Fit::none ? "No surface"
-                           : verdict.fit == Fit::within && !besides.empty()
-                               ? "The surface is within tolerance but has faults"
-                           : verdict.fit == Fit::within ? "The surface is within tolerance"
-                           : loud                       ? "The surface is far from the part"
-                                                        : "The surface is out of tolerance";
-    const std::string words = text(verdict, tolerance, frame.lengths()) + besides;
-    const float s = frame.ui.scale, pad = (loud ? 14 : verdict.fit == Fit::beyond ? 11 : 8) * s, bar = 5 * s;
-    const float large = loud ? 1.35f : verdict.fit == Fit::beyond ? 1.15f : 1.f;
+    const bool loud = verdict.kind == ExportVerdict::Kind::bad, warns = verdict.kind == ExportVerdict::Kind::warning;
+    const ImVec4 colour = loud ? under_white(p.error) : warns ? p.warning : p.good;
+    const float s = frame.ui.scale, pad = (loud ? 12 : 8) * s, bar = 5 * s;
+    const float large = loud ? 1.3f : 1.f;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, wrap = width - 2 * pad - bar;
+    const float width = ImGui::GetContentRegionAvail().x, room = width - 2 * pad - bar;
     ImFont* bold = frame.ui.fonts.bold;
-    const float head = bold->FontSize * large, gap = 3 * s;
-    const float height = 2 * pad + head + gap + ImGui::CalcTextSize(words.c_str(), nullptr, false, wrap).y;
+    ImGui::PushFont(bold);
+    const std::string headline = broken(verdict.headline, room / large);
+    const float head = ImGui::CalcTextSize(headline.c_str()).y * large, letter = bold->FontSize * large;
+    ImGui::PopFont();
+    const std::string words = broken(verdict.text, room);
+    const float gap = 3 * s, height = 2 * pad + head + gap + ImGui::CalcTextSize(words.c_str()).y;
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    const ImVec4 ground(colour.x, colour.y, colour.z, loud ? 0.92f : verdict.fit == Fit::beyond ? 0.2f : 0.12f);
+    const ImVec4 ground(colour.x, colour.y, colour.z, loud ? 1.f : 0.12f);
     draw->AddRectFilled(at, {at.x + width, at.y + height}, ink(ground), 4 * s);
     draw->AddRectFilled(at, {at.x + bar, at.y + height}, ink(colour), 4 * s, ImDrawFlags_RoundCornersLeft);
     const ImU32 text_ink = loud ? IM_COL32(255, 255, 255, 255) : ImGui::GetColorU32(ImGuiCol_Text);
-    draw->AddText(bold, head, {at.x + bar + pad, at.y + pad}, loud ? text_ink : ink(colour), headline);
-    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + bar + pad, at.y + pad + head + gap}, text_ink,
-                  words.c_str(), nullptr, wrap);
+    draw->AddText(bold, letter, {at.x + bar + pad, at.y + pad}, loud ? text_ink : ink(colour), headline.c_str());
+    draw->AddText({at.x + bar + pad, at.y + pad + head + gap}, text_ink, words.c_str());
     ImGui::Dummy({width, height});
+}
+
+/// What is held against the result, each with its way out; scrolls where it is long. @returns whether a click asked to see it
+bool list_of_doubts(Frame& frame)
+{
+    const float most = 118 * frame.ui.scale;
+    float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the list"), most);
+    begin_scrolled(frame, "held against it", std::min(height, most));
+    const float top = ImGui::GetCursorPosY();
+    const bool looks = all_doubt_rows(frame);
+    height = ImGui::GetCursorPosY() - top;
+    ImGui::EndChild();
+    return looks;
 }
 
 bool format_box(std::vector<std::string>& formats, const char* format, const char* text)
@@ -104,16 +103,17 @@ template <size_t n> void boxes(const Frame& frame, const std::array<std::pair<co
 void iga_formats_boxes(const Frame& frame, std::vector<std::string>& formats)
 {
     ImGui::PushFont(frame.ui.fonts.bold);
-    ImGui::TextUnformatted("Isogeometric analysis");
+    ImGui::TextUnformatted("Analysis directly on the NURBS surface (IGA)");
     ImGui::PopFont();
     const std::array<std::array<const char*, 3>, 4> each = {
         {{"gismo", "G+Smo XML  surface, thickness, plastic strain",
-          "Three files with the same basis: the patches with their interfaces and boundary, the thickness, the plastic strain."},
+          "Three files: the surface with its patches and borders, the thickness, the plastic strain."},
          {"mfem", "MFEM NURBS mesh  thickness, plastic strain",
-          "A NURBS mesh v1.0 with the surface in space, and a grid function each for thickness and plastic strain."},
-         {"geopdes", "GeoPDEs text  the surface", "NURBS text v2.1, also read by octave-nurbs. Without fields."},
+          "The surface as a NURBS mesh (v1.0), thickness and plastic strain in a file each."},
+         {"geopdes", "GeoPDEs text  the surface",
+          "The surface as NURBS text (v2.1), also read by octave-nurbs; without thickness and strain."},
          {"iga-k", "LS-DYNA *IGA_SHELL  mean thickness",
-          "*IGA_2D_NURBS_XYZ, *IGA_FACE_XYZ, *IGA_SHELL with section, part and an elastic material. The section has the mean thickness of the surface; without plastic strain."}}};
+          "*IGA_2D_NURBS_XYZ, *IGA_FACE_XYZ and *IGA_SHELL with section, part and an elastic material. One thickness for the whole surface, the mean; without plastic strain."}}};
     for (const auto& [format, label, explanation] : each) {
         format_box(formats, format, label);
         tooltip(explanation);
@@ -165,18 +165,18 @@ void formats_column(Frame& frame, ExportChoices& choices)
     format_box(formats, "iges", "IGES  the NURBS surface for CAD");
     format_box(formats, "step", "STEP AP242  the NURBS surface for CAD");
     ImGui::EndDisabled();
-    if (format_box(formats, "glb", "GLB  scene with the fields as colours")) {
+    if (format_box(formats, "glb", "GLB  3D scene, results as colours")) {
         ImGui::Indent(indent);
         boxes(frame, std::array{std::pair{"Part", &glb.part}, std::pair{"Blank", &glb.blank},
-                                std::pair{"Quads", &glb.quad_mesh}, std::pair{"Surface", &glb.surface},
+                                std::pair{"Quad mesh", &glb.quad_mesh}, std::pair{"Surface", &glb.surface},
                                 std::pair{"Control net", &glb.control_net}});
         ImGui::Unindent(indent);
     }
-    format_box(formats, "vtu", "VTU  all fields, for ParaView");
+    format_box(formats, "vtu", "VTU  all results, for ParaView");
     format_box(formats, "dxf", "DXF  outline of the blank");
     if (format_box(formats, "csv", "CSV  tables")) {
         ImGui::Indent(indent);
-        boxes(frame, std::array{std::pair{"Fields per vertex", &csv.fields}, std::pair{"Outline", &csv.outline},
+        boxes(frame, std::array{std::pair{"Results per vertex", &csv.fields}, std::pair{"Outline", &csv.outline},
                                 std::pair{"Zones per face", &csv.faces}});
         ImGui::Unindent(indent);
     }
@@ -207,7 +207,7 @@ void files_list(const Frame& frame, const ExportChoices::Planned& planned)
 {
     const Palette p = palette_of(frame.state.view.dark);
     if (!planned.problem.empty()) {
-        coloured(p.error, planned.problem);
+        coloured(p.error, engine_words(frame, planned.problem));
         return;
     }
     const auto replaced = std::count(planned.exists.begin(), planned.exists.end(), true);
@@ -234,8 +234,10 @@ bool outcome_of_export(Frame& frame)
     const auto& outcome = frame.state.exported;
     if (!outcome) {
         ImGui::TextUnformatted("Writing the files");
-        ImGui::ProgressBar(float(frame.state.job.fraction), {-1, 0},
-                           fmt::format("{:.0f} %  {}", 100 * frame.state.job.fraction, frame.state.job.step).c_str());
+        ImGui::ProgressBar(
+            float(frame.state.job.fraction), {-1, 0},
+            fmt::format("{:.0f} %  {}", 100 * frame.state.job.fraction, engine_words(frame, frame.state.job.step))
+                .c_str());
         if (primary_button(frame, frame.state.job.cancelling ? "Stopping..." : "Cancel the export",
                            !frame.state.job.cancelling) ||
             pressed(frame, GLFW_KEY_ESCAPE))
@@ -250,7 +252,7 @@ bool outcome_of_export(Frame& frame)
                  fmt::format("{} {} written", outcome->files.size(), outcome->files.size() == 1 ? "file" : "files"));
     ImGui::PopFont();
     if (!outcome->error.empty())
-        coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), outcome->error);
+        coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), engine_words(frame, outcome->error));
     else if (!outcome->files.empty()) {
         muted(frame, outcome->files[0].parent_path().string());
         for (const fs::path& file : outcome->files)
@@ -281,19 +283,11 @@ void export_dialog(Frame& frame)
     }
     old_results_banner(frame);
     const float s = frame.ui.scale;
-    const FitVerdict verdict = choices.verdict.of({session.surface, choices.tolerance},
-                                                  [&] { return fit_verdict(session, choices.tolerance); });
-    deviation_banner(frame, verdict, choices.tolerance);
-    if (verdict.fit != Fit::none) {
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted("Tolerance");
-        ImGui::SameLine(110 * s);
-        ImGui::SetNextItemWidth(110 * s);
-        const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
-        if (length_inputs(frame, unit.c_str(), &choices.tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"}))
-            choices.tolerance = std::clamp(choices.tolerance, 1e-6, 1e6);
-        tooltip("Allowed distance between surface and part; affects this warning only");
-    }
+    const FitVerdict& fit = choices.verdict.of({session.surface}, [&] { return fit_verdict(session); });
+    const ExportVerdict verdict = export_verdict(frame.state, fit);
+    verdict_banner(frame, verdict);
+    if (verdict.doubts > 0 && list_of_doubts(frame))
+        ImGui::CloseCurrentPopup(); // to see the views
     ImGui::Separator();
 
     const OutputOptions before = choices.options;
@@ -344,13 +338,13 @@ void export_dialog(Frame& frame)
         return std::find(choices.formats.begin(), choices.formats.end(), format) != choices.formats.end();
     };
     const bool doubtful =
-        verdict.fit == Fit::far_off && (wants("iges") || wants("step") ||
-                                        std::any_of(iga_formats().begin(), iga_formats().end(),
-                                                    [&](const std::string& format) { return wants(format.c_str()); }));
+        fit.fit == Fit::far_off && (wants("iges") || wants("step") ||
+                                    std::any_of(iga_formats().begin(), iga_formats().end(),
+                                                [&](const std::string& format) { return wants(format.c_str()); }));
     choices.asked &= doubtful;
     const bool busy = frame.model.busy();
     if (busy)
-        muted(frame, "A job is running; export is possible when it has finished.");
+        muted(frame, "Files can be written as soon as the running job has ended.");
     if (choices.asked)
         coloured(palette_of(frame.state.view.dark).error,
                  "The exported surface does not represent the part. Click once more to export it anyway.");

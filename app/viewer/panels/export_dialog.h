@@ -18,8 +18,7 @@ struct ExportChoices {
     std::string folder, suggested; ///< see follow()
     std::vector<std::string> formats = {"iges", "step", "glb"};
     OutputOptions options;
-    double tolerance = usual_tolerance; ///< mm, of the surface from the part
-    bool sent = false;                  ///< the files are being written, or what became of them is shown
+    bool sent = false;  ///< the files are being written, or what became of them is shown
     bool asked = false; ///< "Export" was pressed although the surface is far off; the next click exports it
 
     /// The files to come, and which of them are there already.
@@ -31,7 +30,7 @@ struct ExportChoices {
     Memo<Planned, std::string, std::vector<std::string>, OutputOptions, std::shared_ptr<const FlattenResult>,
          std::shared_ptr<const LiftResult>, std::shared_ptr<const SurfaceStage>>
         planned;
-    Memo<FitVerdict, std::shared_ptr<const SurfaceStage>, double> verdict;
+    Memo<FitVerdict, std::shared_ptr<const SurfaceStage>> verdict;
 };
 
 void export_dialog(Frame& frame);

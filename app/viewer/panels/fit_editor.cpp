@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/chain.h"
+#include "app/viewer/model/export_check.h"
 #include "app/viewer/model/fit_cost.h"
 #include "app/viewer/model/lights.h"
 #include "app/viewer/model/viewer_words.h"
@@ -24,7 +25,7 @@ void fit_editor(Frame& frame, FitChoice fit)
     tooltip(
         patches
             ? "Otherwise within 1/1000 of the part's diagonal"
-            : "Least-squares fit with knots added only where needed. Otherwise the surface interpolates the nodes of the grid");
+            : "The surface is fitted to the part with as few control points as the tolerance allows. Otherwise it runs through the nodes of the grid");
     if (fit.tolerance) {
         ImGui::SetNextItemWidth(width);
         const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
@@ -50,25 +51,34 @@ void fit_editor(Frame& frame, FitChoice fit)
             frame.actions.push(SetFit{fit});
         return;
     }
-    static constexpr const char* names[] = {"averaged knots", "clamped", "natural"};
+    static constexpr const char* names[] = {"free", "along the part", "natural"};
     int ends = int(fit.ends);
     ImGui::SetNextItemWidth(width);
-    if (ImGui::Combo("Ends", &ends, names, 3)) {
+    if (ImGui::Combo("Borders", &ends, names, 3)) {
         fit.ends = CurveEnds(ends);
         if (fit.ends == CurveEnds::natural)
             fit.degree_u = fit.degree_v = 3;
         changed = true;
     }
     tooltip(
-        "Averaged knots and clamped ends (with estimated tangents) stay accurate up to the border; natural ends (cubic only) are less accurate there");
+        "How the surface runs out at its borders. Free: with the knots averaged from the data. Along the part: with the slope estimated from the part (clamped). Both are accurate up to the border. Natural: without curvature at the border (degree 3 only), less accurate there.");
     if (fit.tolerance) {
         bool corrected = fit.parameters == FitParameters::corrected;
-        if (ImGui::Checkbox("Correct parameters", &corrected)) {
+        if (ImGui::Checkbox("Fewer control points", &corrected)) {
             fit.parameters = corrected ? FitParameters::corrected : FitParameters::blank;
             changed = true;
         }
         tooltip(
-            "Fits the part with fewer knots, but surface parameters no longer correspond to positions on the blank");
+            "Lets points slide along the surface while it is fitted (parameter correction): it then needs fewer control points, but its lines u and v no longer are those of the blank");
+    }
+    if (fit.tolerance) {
+        ImGui::SetNextItemWidth(width);
+        constexpr int least = 16, greatest = 4'000'000; // as SetFit takes
+        if (typed_integer(frame, "Control points, at most", fit.max_control_points)) {
+            fit.max_control_points = std::clamp(fit.max_control_points, least, greatest);
+            changed = true;
+        }
+        tooltip("The fit ends there even if the tolerance is not reached");
     }
     if (changed)
         frame.actions.push(SetFit{fit});
@@ -76,19 +86,17 @@ void fit_editor(Frame& frame, FitChoice fit)
 
 void fit_figures(Frame& frame, const SurfaceStage& surface)
 {
-    if (!surface.fit)
-        return;
+    const FitVerdict verdict = fit_verdict(frame.state.document.session);
     const Palette p = palette_of(frame.state.view.dark);
-    ImGui::PushStyleColor(ImGuiCol_Text, surface.fit->reached ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.warning);
-    if (surface.patches)
-        figure(frame, "Tolerance",
-               fmt::format("{}: {}", length_text(surface.fit->tolerance, frame.lengths(), 3),
-                           surface.fit->reached ? "met" : "not met"));
-    else
-        figure(frame, "Within tolerance", fmt::format("{:.2f} % of the area", 100 * surface.deviation.within()));
+    ImGui::PushStyleColor(ImGuiCol_Text,
+                          verdict.fit == Fit::within ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.warning);
+    figure(frame, ("Beyond " + length_text(verdict.tolerance, frame.lengths(), 3)).c_str(),
+           verdict.fit == Fit::within ? "nowhere" : area_share(verdict.beyond) + " of the area");
     ImGui::PopStyleColor();
-    if (!surface.patches)
-        figure(frame, "Knots inserted", fmt::format("{} + {}", surface.fit->knots_u, surface.fit->knots_v));
+    tooltip(surface.fit ? "Where the surface is farther from the part than the tolerance it was fitted within"
+                        : "Where the surface is farther from the part than a usual tolerance");
+    if (surface.fit && !surface.patches)
+        figure(frame, "Added lines u + v", fmt::format("{} + {}", surface.fit->knots_u, surface.fit->knots_v));
 }
 
 } // namespace spia::viewer

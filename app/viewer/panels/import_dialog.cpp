@@ -304,8 +304,7 @@ void unit_choice(Frame& frame, const FileItems& items)
     }
     ImGui::EndDisabled();
     if (!ImGui::IsPopupOpen("##Combo", ImGuiPopupFlags_AnyPopupId))
-        tooltip(stated ? "The length unit is stated in the file; lengths are converted to mm"
-                       : "Length unit of the coordinates in the file");
+        tooltip(stated ? "The length unit is stated in the file" : "Length unit of the coordinates in the file");
 }
 
 void skin_choice(ImportChoices& choices)
@@ -326,7 +325,7 @@ void length_field(const Frame& frame, const char* label, std::string& text, bool
 {
     if (!sound)
         ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).error);
-    text_input(label, text, false, "found");
+    text_input(label, text, false, "automatic");
     if (!sound)
         ImGui::PopStyleColor();
     tooltip(help);
@@ -354,12 +353,12 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
             length_field(
-                frame, in_unit("Gaps up to", frame.lengths()).c_str(), choices.sewing, sewing,
-                "Gaps between faces up to this width are closed. Empty: chosen from the gaps found; 0: none are closed.");
+                frame, in_unit("Close gaps up to", frame.lengths()).c_str(), choices.sewing, sewing,
+                "Gaps between faces up to this width are closed. Empty: the program chooses, from the gaps it finds; 0: none are closed.");
             ImGui::TableNextColumn();
             ImGui::SetNextItemWidth(width);
             length_field(frame, in_unit("Chord height", frame.lengths()).c_str(), choices.deflection, deflection,
-                         "Largest distance between triangles and faces. Empty: 1/2000 of the diagonal.");
+                         "Largest distance of the triangles from the CAD faces. Empty: 1/2000 of the part's diagonal.");
         }
         ImGui::EndTable();
     }
@@ -399,7 +398,7 @@ void notes_line(const Frame& frame, const FileItems& items)
         return;
     std::string all, line;
     for (const std::string& note : items.notes) {
-        const std::string text = as_sentence(in_viewer_words(note));
+        const std::string text = as_sentence(engine_words(frame, note));
         all += (all.empty() ? "" : "\n") + text;
         line += (line.empty() ? "" : ". ") + text;
     }
@@ -418,7 +417,7 @@ void progress_or_failure(Frame& frame, const FileListing& listing)
 {
     const float s = frame.ui.scale;
     if (!listing.failure.empty()) {
-        coloured(palette_of(frame.state.view.dark).error, as_sentence(in_viewer_words(listing.failure)));
+        coloured(palette_of(frame.state.view.dark).error, as_sentence(engine_words(frame, listing.failure)));
         return;
     }
     muted(frame, listing.step.empty() ? "Reading the contents of the file" : as_sentence(listing.step));

@@ -5,6 +5,7 @@
 #include "app/viewer/model/comparison.h"
 #include "app/viewer/model/cut_order.h"
 #include "app/viewer/model/measuring.h"
+#include "app/viewer/model/number_text.h"
 #include "app/viewer/model/statistics.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "app/viewer/panels/surface_step.h"
@@ -37,7 +38,32 @@ std::string value_here(const Frame& frame, double value) { return value_text(val
 /// The same number without its unit.
 std::string number_here(const Frame& frame, double value)
 {
-    return value_text(as_shown(unit(frame), frame.lengths()).factor * value, "");
+    return unit(frame) == "%" ? figure_text(value, 1)
+                              : value_text(as_shown(unit(frame), frame.lengths()).factor * value, "");
+}
+
+/// Whether it will crack: what everyone asks first.
+void crack_line(Frame& frame)
+{
+    using Kind = CrackVerdict::Kind;
+    const CrackVerdict& verdict = crack_verdict(frame);
+    if (verdict.kind == Kind::none)
+        return;
+    const Palette p = palette_of(frame.state.view.dark);
+    const ImVec4 colour = is_old(frame.state, View::part)  ? p.muted
+                          : verdict.kind == Kind::cracks   ? p.error
+                          : verdict.kind == Kind::at_limit ? p.warning
+                          : verdict.kind == Kind::safe     ? p.good
+                                                           : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    coloured(colour, verdict.text);
+    tooltip(
+        verdict.kind == Kind::unknown
+            ? "Choose or give a curve in Forming limits below, or points of one with the material."
+            : "Greatest engineering major strain, as a share of the forming limit curve at the same minor strain. The zones are in "
+              "Forming limits below.");
+    if (verdict.face >= 0 && verdict.kind != Kind::safe && small_button(frame, "Show the place"))
+        frame.actions.push(FlyTo{verdict.face});
+    ImGui::Dummy({0, 2 * frame.ui.scale});
 }
 
 void field_section(Frame& frame)
@@ -63,8 +89,7 @@ void field_section(Frame& frame)
                 changed = true;
             }
             ImGui::EndDisabled();
-            if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-                ImGui::SetTooltip("%s", std::string(field.help).c_str());
+            tooltip(std::string(field.help));
         }
         ImGui::EndCombo();
     }
@@ -78,7 +103,7 @@ void field_section(Frame& frame)
     tooltip("One colour per face: the values that are compared with limits");
     ImGui::EndDisabled();
     display.per_face = per_face == 1;
-    static constexpr const char* maps[] = {"automatic colours", "viridis", "diverging", "grey"};
+    static constexpr const char* maps[] = {"automatic colours", "blue to yellow", "blue to orange", "grey"};
     int map = display.map ? int(*display.map) + 1 : 0;
     ImGui::SetNextItemWidth(-1);
     if (ImGui::Combo("##map", &map, maps, 4)) {
@@ -147,7 +172,7 @@ void histogram_section(Frame& frame)
     if (ImGui::IsItemHovered()) {
         const size_t k = std::min(h.share.size() - 1, size_t(std::max(0.f, (ImGui::GetMousePos().x - at.x) / width)));
         const double step = (h.greatest - h.least) / double(h.share.size());
-        ImGui::SetTooltip("%s to %s: %.2f %% of the area", number_here(frame, h.least + double(k) * step).c_str(),
+        ImGui::SetTooltip("%s to %s: %.1f %% of the area", number_here(frame, h.least + double(k) * step).c_str(),
                           value_here(frame, h.least + double(k + 1) * step).c_str(), 100 * h.share[k]);
     }
     ImGui::PushFont(frame.ui.fonts.small);
@@ -217,7 +242,7 @@ void measurements_section(Frame& frame)
         if (ImGui::Selectable(fmt::format("M{}   {}", k + 1, text_of(each, frame.lengths())).c_str(), false, 0,
                               {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
             frame.actions.push(FlyTo{each.at.front().face});
-        tooltip("Click to look at it in every view");
+        tooltip("Click to zoom to it in all views");
         ImGui::SameLine();
         if (ImGui::SmallButton("x"))
             frame.actions.push(RemoveMeasurement{int(k)});
@@ -249,7 +274,7 @@ void vertex_distance(Frame& frame)
         return;
     figure(frame, "Distance on the blank", fixed_length(*distance->on_blank, frame.lengths(), 2));
     figure(frame, "Part minus blank",
-           fmt::format("{}  ({:+.2f} %)",
+           fmt::format("{}  ({:+.1f} %)",
                        fixed_length(distance->on_part - *distance->on_blank, frame.lengths(), 2, true),
                        100 * (distance->on_part / *distance->on_blank - 1)));
 }
@@ -277,7 +302,7 @@ void cut_through_vertices(Frame& frame)
         tooltip(
             "Splits the surface into patches that meet along the straight lines between these vertices on the blank");
     else
-        muted(frame, why);
+        muted(frame, engine_words(frame, why));
 }
 
 /// Offered for four picked vertices; where they are no corners it says why.
@@ -303,7 +328,7 @@ void vertices_as_corners(Frame& frame)
     if (why.empty())
         tooltip("Uses them as the corners of the grid, in their order along the outline");
     else
-        muted(frame, why);
+        muted(frame, engine_words(frame, why));
 }
 
 void vertices_section(Frame& frame)
@@ -382,9 +407,9 @@ void looks_section(Frame& frame)
     bool changed = ImGui::Checkbox("Rotate 3D views together", &view.linked);
     changed |= ImGui::Checkbox("Triangle edges", &view.edges);
     changed |= ImGui::Checkbox("Feature lines", &view.features);
-    changed |= ImGui::Checkbox("Show part below quads", &view.part_under_quads);
-    changed |= ImGui::Checkbox("Colour quads by quality", &view.quad_quality);
-    changed |= surface_look_combo(frame, view.surface_look);
+    changed |= ImGui::Checkbox("Show the part under the quad mesh", &view.part_under_quads);
+    changed |= ImGui::Checkbox("Colour the quad mesh by quality", &view.quad_quality);
+    changed |= surface_look_combo(view.surface_look);
     changed |= ImGui::Checkbox("Control net", &view.control_net);
     if (changed)
         frame.actions.push(SetViewSettings{view});
@@ -409,6 +434,7 @@ void inspect_panel(Frame& frame)
         muted(frame, "Open a part to inspect it: thinning, strains, stresses, deviation.");
     } else {
         old_figures_note(frame);
+        crack_line(frame);
         field_section(frame);
         vertices_section(frame);
         measurements_section(frame);

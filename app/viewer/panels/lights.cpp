@@ -8,7 +8,8 @@
 namespace spia::viewer {
 namespace {
 
-void doubt_row(Frame& frame, const Doubt& doubt)
+/// @returns whether a click asked to see something in the views
+bool doubt_row(Frame& frame, const Doubt& doubt)
 {
     coloured(palette_of(frame.state.view.dark).warning, doubt.text);
     if (!doubt.next.empty())
@@ -16,14 +17,15 @@ void doubt_row(Frame& frame, const Doubt& doubt)
     const Document& document = frame.state.document;
     const bool shown = shown_by(doubt.remedy) == document.display.field;
     if (doubt.button.empty() || shown)
-        return;
+        return false;
     ImGui::BeginDisabled(frame.model.busy());
-    if (small_button(frame, doubt.button.c_str())) {
-        for (Action& action : actions_of(doubt, document))
-            frame.actions.push(std::move(action));
-    }
+    const bool pressed = small_button(frame, doubt.button.c_str());
     note_place(frame, doubt.button);
     ImGui::EndDisabled();
+    if (pressed)
+        for (Action& action : actions_of(doubt, document))
+            frame.actions.push(std::move(action));
+    return pressed && shown_by(doubt.remedy);
 }
 
 const char* name_of(ChainStep step)
@@ -54,6 +56,22 @@ void list_of_doubts(Frame& frame)
         return;
     if (doubts(frame).empty())
         ImGui::CloseCurrentPopup();
+    all_doubt_rows(frame);
+    ImGui::EndPopup();
+}
+
+} // namespace
+
+Status light(const Frame& frame, ChainStep step, Status made)
+{
+    const bool doubted =
+        std::any_of(doubts(frame).begin(), doubts(frame).end(), [&](const Doubt& doubt) { return doubt.step == step; });
+    return made == Status::done && doubted ? Status::poor : made;
+}
+
+bool all_doubt_rows(Frame& frame)
+{
+    bool looks = false;
     std::optional<ChainStep> last;
     for (size_t k = 0; k < doubts(frame).size(); ++k) {
         const Doubt& doubt = doubts(frame)[k];
@@ -66,19 +84,10 @@ void list_of_doubts(Frame& frame)
         }
         last = doubt.step;
         ImGui::PushID(int(k));
-        doubt_row(frame, doubt);
+        looks |= doubt_row(frame, doubt);
         ImGui::PopID();
     }
-    ImGui::EndPopup();
-}
-
-} // namespace
-
-Status light(const Frame& frame, ChainStep step, Status made)
-{
-    const bool doubted =
-        std::any_of(doubts(frame).begin(), doubts(frame).end(), [&](const Doubt& doubt) { return doubt.step == step; });
-    return made == Status::done && doubted ? Status::poor : made;
+    return looks;
 }
 
 void doubt_rows(Frame& frame, ChainStep step)

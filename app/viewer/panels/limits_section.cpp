@@ -3,6 +3,7 @@
 
 #include "app/viewer/model/face_values.h"
 #include "app/viewer/model/number_text.h"
+#include "app/viewer/model/viewer_words.h"
 #include "app/viewer/model/zone_look.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
@@ -16,7 +17,7 @@ using Source = LimitsOptions::Source;
 /// Where the curve comes from.
 void curve_input(Frame& frame, LimitsChoice& choice)
 {
-    constexpr std::pair<Source, const char*> sources[] = {{Source::automatic, "Curve: by the metal"},
+    constexpr std::pair<Source, const char*> sources[] = {{Source::automatic, "Curve: of the material"},
                                                           {Source::keeler_brazier, "Curve: Keeler-Brazier"},
                                                           {Source::points, "Curve: from a table..."},
                                                           {Source::none, "No curve"}};
@@ -36,8 +37,8 @@ void curve_input(Frame& frame, LimitsChoice& choice)
         ImGui::EndCombo();
     }
     tooltip(
-        "By the metal: Keeler-Brazier for steel, none for others. A table has two columns, minor and major strain; its "
-        "heading says engineering or true.");
+        "Of the material: its own points where it has some, else Keeler-Brazier (from thickness and n) for steel and none for other "
+        "metals. A table has two columns, minor and major strain; its heading says engineering or true.");
 }
 
 /// A share that is typed in percent. @returns whether it was changed
@@ -62,14 +63,14 @@ void settings(Frame& frame)
     if (choice.curve == Source::keeler_brazier || (choice.curve == Source::automatic && limits && limits->curve)) {
         double n = choice.n.value_or(0);
         ImGui::SetNextItemWidth(86 * frame.ui.scale);
-        if (typed_number(frame, "n", n, choice.n ? "%.4g" : "of material"))
+        if (typed_number(frame, "Hardening exponent n", n, choice.n ? "%.4g" : "of material"))
             choice.n = n > 0 ? std::optional(std::min(n, 1.)) : std::nullopt;
-        tooltip("Hardening exponent for Keeler-Brazier; 0: that of the material");
+        tooltip("For the curve of Keeler-Brazier; 0: that of the material");
     }
     double margin = choice.margin.value_or(limits ? limits->settings.margin : ZoneOptions{}.margin);
     if (percent_input(
             frame, "Required margin", margin,
-            "Percentage points of engineering major strain below the curve that count as marginal; the upper half counts as at risk"))
+            "What is to be left up to the curve, in percentage points of engineering major strain. Less counts as marginal, less than half of it as at risk."))
         choice.margin = margin;
     percent_input(frame, "Allowed thinning", choice.max_thinning, "Of the initial thickness");
     percent_input(frame, "Allowed thickening", choice.max_thickening, "Of the initial thickness");
@@ -88,7 +89,8 @@ void zone_rows(Frame& frame, const LimitsResult& limits)
         if (share.faces == 0)
             continue;
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const std::string figures = fmt::format("{:.1f} %   {}", 100 * share.share, share.faces);
+        const std::string figures =
+            fmt::format("{:.1f} %   {} {}", 100 * share.share, share.faces, share.faces == 1 ? "face" : "faces");
         ImGui::PushID(int(zone));
         if (ImGui::Selectable("##zone", false)) {
             std::vector<int> faces;
@@ -158,7 +160,7 @@ void spots(Frame& frame, const LimitsResult& limits)
             spot.face, at[0], at[1], at[2], length_word(frame.lengths()), spot.strain_major, spot.strain_minor,
             figure_text(100 * spot.thinning, 1), spot.region_faces, area.factor * spot.region_area_mm2, area.unit));
         ImGui::TableNextColumn();
-        right_aligned(margin ? figure_text(100 * *margin, 1) : "-");
+        right_aligned(margin ? figure_text(100 * *margin, 1) + " %" : "-");
         ImGui::TableNextColumn();
         right_aligned(figure_text(100 * spot.thinning, 1) + " %");
     }
@@ -178,10 +180,13 @@ void limits_section(Frame& frame)
     if (!session.limits)
         return;
     const LimitsResult& limits = *session.limits;
-    if (limits.curve)
-        figure(frame, "FLC0", fmt::format("{:.1f} %", 100 * engineering_strain(limits.curve->at_plane_strain())));
+    if (limits.curve) {
+        figure(frame, "Limit at plane strain",
+               fmt::format("{:.1f} %", 100 * engineering_strain(limits.curve->at_plane_strain())));
+        tooltip("FLC0: engineering major strain at which the sheet begins to neck where it does not change its width");
+    }
     for (const std::string& note : limits.notes)
-        muted(frame, note);
+        muted(frame, as_sentence(engine_words(frame, note)));
     zone_rows(frame, limits);
     if (frame.state.document.display.field != Field::zone && small_button(frame, "Show the zones")) {
         FieldDisplay display = frame.state.document.display;

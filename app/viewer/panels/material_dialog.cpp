@@ -46,7 +46,7 @@ void test_inputs(Frame& frame, MaterialFitOptions& options)
     ImGui::SetNextItemWidth(110 * frame.ui.scale);
     if (typed_number(frame, "MPa##young", young, options.test.young_MPa ? "%.6g" : "of the test"))
         options.test.young_MPa = young > 0 ? std::optional(std::clamp(young, 1e3, 1e6)) : std::nullopt;
-    tooltip("0: the slope of the first rows of the test");
+    tooltip("0: from the slope of the first rows of the test");
     labelled("r0, r45, r90");
     double r[] = {options.r0, options.r45, options.r90};
     ImGui::SetNextItemWidth(-1);
@@ -56,7 +56,7 @@ void test_inputs(Frame& frame, MaterialFitOptions& options)
         options.r90 = std::clamp(r[2], 1e-3, 99.);
     }
     tooltip(
-        "Lankford coefficients along, at 45 degrees to and across the rolling direction: a tensile curve does not hold them");
+        "r-values (Lankford coefficients) along, at 45\u00b0 to and across the rolling direction; a tensile curve does not contain them");
 }
 
 /// Every law with its error; a click takes it.
@@ -65,9 +65,9 @@ void law_table(const Frame& frame, const MaterialFit& fit, MaterialFitOptions& o
     if (!ImGui::BeginTable("laws", 3, ImGuiTableFlags_RowBg))
         return;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 1 * frame.ui.scale});
-    ImGui::TableSetupColumn("law", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("rms error", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("fit", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("Law", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("Error, rms", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("Fitted to the test", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
     for (size_t k = 0; k < fit.fits.size(); ++k) {
         const LawFit& law = fit.fits[k];
@@ -97,7 +97,7 @@ void curve_plot(const Frame& frame, const MaterialFit& fit)
     const TensileTest& test = fit.test;
     const double last = 1.4 * test.plastic_strain[test.plastic_strain.size() - 1];
     const StressPlot plot = stress_plot(frame, 130 * s, last, flow_stress(fit.material.hardening, last).stress,
-                                        "true stress, MPa, over plastic strain; points: the test");
+                                        "true stress, MPa, over true plastic strain; points: the test");
     const Eigen::Index each = std::max<Eigen::Index>(1, test.plastic_strain.size() / 60);
     for (Eigen::Index k = 0; k < test.plastic_strain.size(); k += each)
         ImGui::GetWindowDrawList()->AddCircleFilled(plot.place(test.plastic_strain[k], test.stress_MPa[k]), 2.2f * s,
@@ -155,12 +155,13 @@ void material_dialog(Frame& frame)
     const MaterialChoices::Outcome& outcome = outcome_of(choices);
     if (outcome.fit) {
         const TensileTest& test = outcome.fit->test;
-        ImGui::TextUnformatted(fmt::format("E {:.0f} MPa {}, Rp0.2 {:.1f} MPa, Rm {:.1f} MPa, uniform strain {:.3f}",
-                                           test.young_MPa, test.measured_young ? "measured" : "given",
-                                           test.proof_stress_MPa, test.tensile_strength_MPa, test.uniform_strain)
-                                   .c_str());
+        ImGui::TextUnformatted(
+            fmt::format("E = {:.0f} MPa ({}), Rp0.2 = {:.1f} MPa, Rm = {:.1f} MPa, uniform true strain {:.3f}",
+                        test.young_MPa, test.measured_young ? "measured" : "given", test.proof_stress_MPa,
+                        test.tensile_strength_MPa, test.uniform_strain)
+                .c_str());
         for (const std::string& note : test.notes)
-            muted(frame, as_sentence(note));
+            muted(frame, as_sentence(engine_words(frame, note)));
         law_table(frame, *outcome.fit, choices.options);
         curve_plot(frame, *outcome.fit);
     } else
@@ -178,7 +179,7 @@ void material_dialog(Frame& frame)
         ImGui::EndTable();
     }
     const bool ready = outcome.fit && (for_editor || !choices.file.empty());
-    const Answer answer = answer_buttons(frame, for_editor ? "Take it into the editor" : "Save and use it", ready,
+    const Answer answer = answer_buttons(frame, for_editor ? "Open in the material editor" : "Save and use it", ready,
                                          palette_of(frame.state.view.dark).accent);
     if (ready && (answer == Answer::yes || (enter_pressed(frame) && !choose_table && !choose_file))) {
         if (for_editor) {

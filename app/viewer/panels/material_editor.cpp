@@ -166,7 +166,7 @@ void plot(Frame& frame, const Shown& shown, float height)
     for (const FlowCurve& curve : curves)
         for (const double stress : curve.stress_MPa)
             most = std::max(most, stress);
-    const StressPlot axes = stress_plot(frame, height, last_strain, most, "true stress, MPa, over plastic strain");
+    const StressPlot axes = stress_plot(frame, height, last_strain, most, "true stress, MPa, over true plastic strain");
     const bool dark = frame.state.view.dark;
     const float s = frame.ui.scale;
     const ImVec2 mouse = ImGui::GetMousePos();
@@ -210,7 +210,7 @@ void plot(Frame& frame, const Shown& shown, float height)
     ImGui::GetWindowDrawList()->AddCircleFilled(axes.place(strain, stress), 4 * s, line_colour(*nearest, dark, 1));
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(grade.material->name.c_str());
-    ImGui::TextUnformatted(fmt::format("{:.0f} MPa at strain {:.3f}", stress, strain).c_str());
+    ImGui::TextUnformatted(fmt::format("{:.0f} MPa at a plastic strain of {:.3f}", stress, strain).c_str());
     ImGui::EndTooltip();
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         editor.shown = grade.reference;
@@ -224,11 +224,11 @@ void details(Frame& frame, const Shown& shown, Material& material, const std::ve
     MaterialEditor& editor = frame.ui.materials;
     if (!shown.whole) {
         coloured(palette_of(frame.state.view.dark).error, shown.grade ? shown.grade->problem : "");
-        muted(frame, "Mend the file with a text editor, or remove it.");
+        muted(frame, "Correct the file with a text editor, or remove it.");
         return;
     }
     if (!editor.problem.empty())
-        coloured(palette_of(frame.state.view.dark).error, editor.problem);
+        coloured(palette_of(frame.state.view.dark).error, engine_words(frame, editor.problem));
     const GradeFigures& figures = editor.figures.of({shown.material}, [&] { return grade_figures(shown.material); });
     changed = material_fields(frame, material, shown.editable, faults, figures);
 }
@@ -320,7 +320,7 @@ void buttons(Frame& frame, const Shown& shown, bool sound)
     if (!shown.editable)
         tooltip("Built-in grades stay as they are: copy one as your own");
     else if (can_save && !sound)
-        tooltip("Mend what is marked red first");
+        tooltip("Correct what is marked red first");
 }
 
 /// A draft that has become a file is none any more.

@@ -154,12 +154,15 @@ void sheet_fields(Frame& frame, Fields& fields, const GradeFigures& figures)
     fields.name();
     fields.number("young_MPa", "Young's modulus", "MPa", m.young_MPa);
     fields.number("poisson", "Poisson's ratio", "-", m.poisson);
-    fields.number("density_kg_m3", "Density", "kg/m\u00b3", m.density_kg_m3, "Has no part in the shape of the blank");
-    fields.number("r0", "r0", "-", m.r0, "Lankford coefficient along the rolling direction");
-    fields.number("r45", "r45", "-", m.r45, "Lankford coefficient at 45\u00b0 to the rolling direction");
-    fields.number("r90", "r90", "-", m.r90, "Lankford coefficient across the rolling direction");
-    figure(frame, "r mean, (r0 + 2 r45 + r90) / 4", fmt::format("{:.3f}", figures.normal_anisotropy));
-    figure(frame, "delta r, (r0 - 2 r45 + r90) / 2", fmt::format("{:+.3f}", figures.planar_anisotropy));
+    fields.number("density_kg_m3", "Density", "kg/m\u00b3", m.density_kg_m3,
+                  "Kept with the material; the shape of the blank does not depend on it");
+    fields.number("r0", "r0", "-", m.r0, "r-value (Lankford coefficient) along the rolling direction");
+    fields.number("r45", "r45", "-", m.r45, "r-value (Lankford coefficient) at 45\u00b0 to the rolling direction");
+    fields.number("r90", "r90", "-", m.r90, "r-value (Lankford coefficient) across the rolling direction");
+    figure(frame, "r mean", fmt::format("{:.3f}", figures.normal_anisotropy));
+    tooltip("(r0 + 2 r45 + r90) / 4: the larger, the less the sheet becomes thin");
+    figure(frame, "delta r", fmt::format("{:+.3f}", figures.planar_anisotropy));
+    tooltip("(r0 - 2 r45 + r90) / 2: 0 where the sheet draws in alike in all directions, else a cup has ears");
     if (!m.source.empty()) {
         muted(frame, "Source: " + m.source);
     }
@@ -195,13 +198,15 @@ void hardening_fields(Frame& frame, Fields& fields, const GradeFigures& figures)
     const auto sigma0 = [&](double& x) { fields.number("hardening/sigma0_MPa", "Initial stress", "MPa", x); };
     const auto swift = [&](Swift& law) {
         fields.number("hardening/K_MPa", "K", "MPa", law.K_MPa);
-        fields.number("hardening/e0", "e0", "-", law.e0, "Strain before the test");
+        fields.number("hardening/e0", "e0", "-", law.e0, "Plastic strain that the sheet has before the test");
         fields.number("hardening/n", "n", "-", law.n, "Hardening exponent");
     };
     const auto voce = [&](Voce& law) {
         sigma0(law.sigma0_MPa);
         fields.number("hardening/sigma_sat_MPa", "Saturation stress", "MPa", law.sigma_sat_MPa);
-        fields.number("hardening/c", "c", "-", law.c, "Rate at which it saturates, per unit strain");
+        fields.number(
+            "hardening/c", "c", "-", law.c,
+            "How fast the stress approaches its saturation: with c = 10 two thirds of the way at a strain of 0.1");
     };
     Hardening& hardening = fields.material.hardening;
     if (auto* only_swift = std::get_if<Swift>(&hardening)) {
@@ -266,11 +271,11 @@ void limit_fields(Frame& frame, Fields& fields)
     int chosen = now;
     ImGui::BeginDisabled(!fields.editable());
     ImGui::SetNextItemWidth(-1);
-    ImGui::Combo("##limit", &chosen, "By the metal\0Keeler-Brazier, n given\0Measured points\0");
+    ImGui::Combo("##limit", &chosen, "Of the metal\0Keeler-Brazier, n given\0Measured points\0");
     ImGui::EndDisabled();
     tooltip(
-        "By the metal: Keeler-Brazier for steel with n of the law, no curve for other metals. Taken where the forming "
-        "limits are set to \"By the metal\".");
+        "Of the metal: Keeler-Brazier for steel with the n of the hardening curve, no curve for other metals. Used where the "
+        "forming limits are set to \"Curve: of the material\".");
     const double thickness = frame.state.document.session.options.flatten.thickness;
     if (chosen != now) {
         const double uniform = std::clamp(uniform_strain(fields.material.hardening, 0.99), 0.05, 0.21);
@@ -299,7 +304,9 @@ void limit_fields(Frame& frame, Fields& fields)
     } else
         muted(frame, "Keeler-Brazier for steel with the n of the law; no curve for other metals.");
     if (const std::string flc0 = limit_words(limit, thickness, fields.material.name); !flc0.empty())
-        figure(frame, limit.minor.empty() ? ("FLC0 at " + thickness_text(thickness, frame.lengths())).c_str() : "FLC0",
+        figure(frame,
+               limit.minor.empty() ? ("Limit at plane strain, " + thickness_text(thickness, frame.lengths())).c_str()
+                                   : "Limit at plane strain",
                flc0);
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/first_steps.h"
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {
@@ -9,16 +10,16 @@ namespace {
 
 constexpr float dot = 18; ///< room before a message, at content scale 1
 
-std::string more_label(size_t more) { return fmt::format("{} more...", more); }
+std::string more_label(size_t more) { return more > 0 ? fmt::format("{} more...", more) : "Whole text..."; }
 
 /// With the gap before them.
-float buttons_width(const Frame& frame, size_t more)
+float buttons_width(const Frame& frame, bool more_button, size_t more)
 {
     const ImGuiStyle& style = ImGui::GetStyle();
     const auto width = [&](const std::string& label) {
         return ImGui::CalcTextSize(label.c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
     };
-    return width("Dismiss") + (more > 0 ? width(more_label(more)) : 0) + 4 * frame.ui.scale;
+    return width("Dismiss") + (more_button ? width(more_label(more)) : 0) + 4 * frame.ui.scale;
 }
 
 void message_row(Frame& frame, const Message& message)
@@ -32,9 +33,7 @@ void message_row(Frame& frame, const Message& message)
     ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5 * frame.ui.scale, at.y + ImGui::GetTextLineHeight() / 2},
                                                 4 * frame.ui.scale, ink(colour));
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + dot * frame.ui.scale);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(message.text.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped(in_shown_lengths(message.text, frame.lengths()));
 }
 
 /// How long a message stays, seconds; what is wrong stays until it is dismissed.
@@ -47,7 +46,7 @@ double lifetime(Severity severity)
     }
 }
 
-/// Those to be seen now: what was just done, then the gravest first, of these the newest.
+/// Those to be seen now, the newest first.
 std::vector<Message> current(Frame& frame)
 {
     std::vector<Message> shown;
@@ -68,12 +67,6 @@ std::vector<Message> current(Frame& frame)
         shown.push_back(*message);
     }
     frame.ui.message_since = std::move(since);
-    std::stable_sort(shown.begin(), shown.end(), [](const Message& a, const Message& b) {
-        const auto rank = [](const Message& m) {
-            return m.severity == Severity::done ? 10 : int(m.severity); // it goes by itself
-        };
-        return rank(a) > rank(b);
-    });
     return shown;
 }
 
@@ -113,10 +106,13 @@ MessageStrip message_strip(Frame& frame, float width)
     add_first_steps(frame, all);
     float left = room;
     for (Message& message : all) {
-        const float wrap = width - buttons_width(frame, all.size()) - dot * frame.ui.scale - 2 * style.WindowPadding.x;
-        left -= ImGui::CalcTextSize(message.text.c_str(), nullptr, false, std::max(wrap, 60.f)).y;
+        const float wrap =
+            width - buttons_width(frame, true, all.size()) - dot * frame.ui.scale - 2 * style.WindowPadding.x;
+        const std::string lines = broken(in_shown_lengths(message.text, frame.lengths()), std::max(wrap, 60.f));
+        left -= ImGui::CalcTextSize(lines.c_str()).y;
         if (!strip.shown.empty() && left < 0)
             break;
+        strip.cut |= left < 0; // the only one
         left -= style.ItemSpacing.y;
         strip.shown.push_back(std::move(message));
     }
@@ -132,13 +128,16 @@ void draw_messages(Frame& frame, const MessageStrip& strip)
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_PopupBg));
     draw->AddLine(at, {at.x + size.x, at.y}, ink(palette_of(frame.state.view.dark).line));
-    const float buttons = buttons_width(frame, strip.more);
+    const bool unfolds = strip.more > 0 || strip.cut;
+    const float buttons = buttons_width(frame, unfolds, strip.more);
     ImGui::BeginChild("texts", {ImGui::GetContentRegionAvail().x - buttons, 0});
     for (const Message& message : strip.shown)
         message_row(frame, message);
     ImGui::EndChild();
+    if (strip.cut)
+        tooltip(in_shown_lengths(strip.shown.front().text, frame.lengths()));
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ImGui::GetStyle().ItemSpacing.x);
-    if (strip.more > 0) {
+    if (unfolds) {
         if (ImGui::SmallButton(more_label(strip.more).c_str()))
             frame.ui.show_messages = true;
         ImGui::SameLine();

@@ -48,8 +48,8 @@ void interface_rows(Frame& frame, Preferences& edited)
         tooltip("How the mouse turns, pans and zooms; its gestures are in the list of F1");
     form_row("Field colours");
     constexpr std::pair<std::optional<ColourMap>, const char*> maps[] = {
-        {std::nullopt, "Automatic: blue to orange about 0, else viridis"},
-        {ColourMap::viridis, "Viridis"},
+        {std::nullopt, "Automatic: blue to orange about 0, else blue to yellow"},
+        {ColourMap::viridis, "Blue to yellow (viridis)"},
         {ColourMap::diverging, "Blue to orange"},
         {ColourMap::grey, "Grey"}};
     const auto chosen =

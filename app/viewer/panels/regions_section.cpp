@@ -97,7 +97,8 @@ void edit_region(Frame& frame, int number, const FaceRegion& region)
     if (edited.name.empty() && !ImGui::IsAnyItemActive())
         edited.name = region.name;
     const float gap = 4 * frame.ui.scale, done = ImGui::CalcTextSize("ok").x + 2 * ImGui::GetStyle().FramePadding.x,
-                kind_width = 92 * frame.ui.scale;
+                kind_width =
+                    ImGui::CalcTextSize("material").x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
     ImGui::SetNextItemWidth(
         std::max(40 * frame.ui.scale, ImGui::GetContentRegionAvail().x - done - kind_width - 2 * gap));
     if (std::exchange(edited.appears, false))
@@ -139,7 +140,8 @@ void region_row(Frame& frame, int number, const FaceRegion& region)
         ImGui::CalcTextSize("edit").x + ImGui::CalcTextSize("x").x + 4 * style.FramePadding.x + 2 * style.ItemSpacing.x;
     const float row = std::max(20 * frame.ui.scale, ImGui::GetContentRegionAvail().x - buttons);
     const std::string label =
-        fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)], region.faces.size());
+        fmt::format("{}  ({}, {})##row", region.name, kinds[int(region.kind)],
+                    region.faces.size() == 1 ? "1 face" : fmt::format("{} faces", region.faces.size()));
     bool edit = false;
     ImGui::AlignTextToFramePadding();
     if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {row, 0})) {
@@ -204,7 +206,7 @@ void regions_section(Frame& frame)
     if (made)
         return coloured(p.muted, "Select other faces to make another region.");
     int kind = int(frame.ui.region_kind);
-    ImGui::SetNextItemWidth(90 * frame.ui.scale);
+    item_for("material");
     if (ImGui::Combo("##kind", &kind, kinds, int(std::size(kinds))))
         frame.ui.region_kind = RegionKind(kind);
     ImGui::SameLine();

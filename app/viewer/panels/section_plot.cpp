@@ -95,12 +95,13 @@ void section_plot(Frame& frame)
             const bool zero = std::abs(value) < 1e-9 * (y.greatest - y.least);
             if (zero)
                 draw->AddLine(line, {to.x, line.y}, ink(p.muted));
-            if (k % ((y.intervals + 3) / 4) == 0 || zero) {
-                const std::string text = fmt::format("{:.4g}", zero ? 0 : value);
-                draw->AddText(
-                    {line.x - 5 * s - ImGui::CalcTextSize(text.c_str()).x, line.y - ImGui::GetTextLineHeight() / 2},
-                    ink(p.muted), text.c_str());
-            }
+        }
+        for (const double value : axis_numbers(y, 5)) {
+            const ImVec2 line = place(0, value);
+            const std::string text = fmt::format("{:.4g}", value);
+            draw->AddText(
+                {line.x - 5 * s - ImGui::CalcTextSize(text.c_str()).x, line.y - ImGui::GetTextLineHeight() / 2},
+                ink(p.muted), text.c_str());
         }
         const std::string far = length_text(length, frame.lengths());
         const char* words = frame.state.document.section->on_blank ? "along the cut of the blank" : "along the cut";

@@ -66,7 +66,7 @@ bool target_editor(Frame& frame, int number, ChangeStep& edited)
     const int now = int(kind_of(target));
     int wanted = now;
     bool changed = false;
-    ImGui::SetNextItemWidth(190 * frame.ui.scale);
+    wide_item("Target");
     if (ImGui::Combo("Target", &wanted, names, 4) && wanted != now) {
         const double before = double(std::min(size_t(number), steps_done(document)));
         target = suggested_target(TargetKind(wanted),
@@ -141,7 +141,7 @@ void region_combo(Frame& frame, const char* label, int& chosen, const std::strin
     const int first = other.empty() ? 0 : -1;
     const auto text = [&](int k) { return k < 0 ? other : words(document.regions[size_t(k)].name); };
     chosen = std::clamp(chosen, first, int(document.regions.size()) - 1);
-    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    wide_item(label);
     if (!ImGui::BeginCombo(label, text(chosen).c_str()))
         return;
     for (int k = first; k < int(document.regions.size()); ++k) {

@@ -30,11 +30,11 @@ ImVec4 status_colour(const Palette& p, StepStatus status)
                                                                                                            : p.muted;
 }
 
-/// With a sign, but for what is nothing when rounded.
+/// One decimal, but for what is nothing when rounded.
 std::string percent(double share)
 {
     const double tenths = std::round(1000 * share) / 10;
-    return tenths == 0 ? "0" : fmt::format("{:+.1f}", tenths);
+    return tenths == 0 ? "0" : fmt::format("{:.1f}", tenths);
 }
 
 /// Below them a figure is nothing when rounded as it is here.
@@ -74,7 +74,7 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
         const StepFigures& figures = document.unfolding->figure[number];
         const UnfoldState& after = document.unfolding->run.states[number];
         const bool bad = figures.hinge && figures.hinge->bad;
-        muted(frame, figures_words(after.plain, figures, frame.lengths()));
+        muted(frame, figures_words(engine_words(frame, after.plain), figures, frame.lengths()));
         tooltip(
             "Target; equivalent strain and thinning of the moving faces; offset and angle of the target at the hinge to the fixed faces. Values that round to 0 are left out.");
         if (bad) {
@@ -91,9 +91,9 @@ void figures_line(Frame& frame, size_t number, StepStatus status)
         if (after.friction_share < 1)
             coloured(p.warning, fmt::format("{:.2g} % of its friction", 100 * after.friction_share));
         if (status == StepStatus::poor)
-            coloured(p.warning, "Not converged: " + after.reason);
+            coloured(p.warning, "Not converged: " + engine_words(frame, after.reason));
     } else if (status == StepStatus::failed)
-        coloured(p.error, as_sentence(in_viewer_words(document.unfolding->run.failure)));
+        coloured(p.error, as_sentence(engine_words(frame, document.unfolding->run.failure)));
     else
         coloured(status_colour(p, status), status_words(status));
     ImGui::PopStyleVar();

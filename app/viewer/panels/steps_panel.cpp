@@ -68,9 +68,7 @@ void part_step(Frame& frame)
         frame.actions.push(SetUnit{units[unit]});
     ImGui::EndDisabled();
     tooltip(stated ? "The length unit is stated in the file" : "Length unit of the file");
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(session.file.filename().string().c_str());
-    ImGui::PopTextWrapPos();
+    wrapped(session.file.filename().string());
     refused_notice(frame);
     const Eigen::Vector3d size = part_figures(frame).size / millimetres(frame.lengths());
     figure(frame, "Triangles", fmt::format("{}", part.mesh.triangles()));
@@ -215,9 +213,23 @@ void unfold_step(Frame& frame)
     figure(frame, "Equivalent strain",
            sheet.strain_equivalent > 0 ? "up to " + figure_text(sheet.strain_equivalent, 3) : "0");
     if (!of_steps || steps->polish)
-        figure(frame, "Steps",
-               fmt::format("{} + {} in {:.2g} s", flat.report.energy.size(), flat.report.newton.size(),
+        figure(frame, "Solved in",
+               fmt::format("{} iterations, {:.2g} s", flat.report.energy.size() + flat.report.newton.size(),
                            flat.report.seconds));
+}
+
+/// How the grid came about.
+std::string route_words(GridRoute route)
+{
+    switch (route) {
+    case GridRoute::coons: return "Coons";
+    case GridRoute::smoothed_coons: return "Coons, smoothed";
+    case GridRoute::harmonic: return "harmonic";
+    case GridRoute::opened: return "harmonic, opened";
+    case GridRoute::untangled: return "harmonic, folds removed";
+    case GridRoute::wound: return "along the winding";
+    }
+    return "";
 }
 
 void grid_step(Frame& frame)
@@ -270,12 +282,12 @@ void grid_step(Frame& frame)
         changed = true;
     }
     tooltip(
-        "Coons: Coons patch, smoothed where cells fold. Harmonic: harmonic map, without folded cells. Automatic: Coons, or harmonic where it folds");
+        "Coons: lines blended between opposite sides, smoothed where cells fold. Harmonic: lines as heat would flow from side to side, without folded cells. Automatic: Coons, or harmonic where that folds");
     if (grid.method != GridMethod::harmonic) {
         ImGui::SetNextItemWidth(width);
         changed |= typed_integer(frame, "Smoothing", grid.smoothing, 10);
         grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
-        tooltip("Maximum number of Laplacian smoothing sweeps over a Coons patch with folded cells");
+        tooltip("How often the nodes of a Coons grid with folded cells are smoothed at most");
     }
     double percent = 100 * grid.to_bends;
     ImGui::SetNextItemWidth(width);
@@ -293,17 +305,17 @@ void grid_step(Frame& frame)
         const GridResult& result = session.grid->result;
         const Palette p = palette_of(frame.state.view.dark);
         figure(frame, "Cells", fmt::format("{} x {}", result.planar.columns, result.planar.rows));
-        figure(frame, "Way", std::string(name(result.route)));
+        figure(frame, "Method used", route_words(result.route));
         ImGui::PushStyleColor(ImGuiCol_Text,
                               result.quality.folded_cells ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
         figure(frame, "Folded cells", fmt::format("{}", result.quality.folded_cells));
         ImGui::PopStyleColor();
         const GridFigures& figures = *quality;
         ImGui::PushStyleColor(ImGuiCol_Text, sliver ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-        figure(frame, "Worst scaled Jacobian", fmt::format("{:.3f}", figures.scaled_jacobian));
+        figure(frame, "Sharpest cell (1 is best)", fmt::format("{:.3f}", figures.scaled_jacobian));
         ImGui::PopStyleColor();
-        tooltip("1 in a rectangle, 0 where a cell folds");
-        figure(frame, "In cell (column, row)", fmt::format("{}, {}", figures.column, figures.row));
+        tooltip("Scaled Jacobian: 1 in a rectangle, 0 where a cell folds");
+        figure(frame, "It is in column, row", fmt::format("{}, {}", figures.column, figures.row));
         tooltip(
             "Cell with the smallest value, counted from 0: column from corner 1 to 2, row from corner 1 to 4. It is circled in the quad mesh.");
         std::string lengths;
@@ -330,7 +342,7 @@ void surface_step(Frame& frame)
     }
     fit_editor(frame, fit_choice(session.options));
     ViewSettings view = frame.state.view;
-    if (surface_look_combo(frame, view.surface_look))
+    if (surface_look_combo(view.surface_look))
         frame.actions.push(SetViewSettings{view});
     surface_figures(frame, *session.surface);
     shape_editor(frame);

@@ -55,15 +55,19 @@ void draw_axes(const Frame& frame, const Axes& axes, ImDrawList* draw)
         const double value = axes.minor.least + (axes.minor.greatest - axes.minor.least) * k / axes.minor.intervals;
         const ImVec2 low = axes.place(value, axes.major.least);
         draw->AddLine(low, {low.x, axes.high.y}, ink(p.line));
-        if (k % ((axes.minor.intervals + 3) / 4) == 0)
-            label({std::min(low.x, axes.high.x - 8 * s), low.y + 2 * s}, number(value), 0.5f, 0);
+    }
+    for (const double value : axis_numbers(axes.minor, 5)) {
+        const ImVec2 low = axes.place(value, axes.major.least);
+        label({std::min(low.x, axes.high.x - 8 * s), low.y + 2 * s}, number(value), 0.5f, 0);
     }
     for (int k = 0; k <= axes.major.intervals; ++k) {
         const double value = axes.major.least + (axes.major.greatest - axes.major.least) * k / axes.major.intervals;
         const ImVec2 low = axes.place(axes.minor.least, value);
         draw->AddLine(low, {axes.high.x, low.y}, ink(p.line));
-        if (k % ((axes.major.intervals + 4) / 5) == 0)
-            label({low.x - 4 * s, low.y}, number(value), 1, 0.5f);
+    }
+    for (const double value : axis_numbers(axes.major, 6)) {
+        const ImVec2 low = axes.place(axes.minor.least, value);
+        label({low.x - 4 * s, low.y}, number(value), 1, 0.5f);
     }
     const float line = ImGui::GetTextLineHeight();
     label({(axes.low.x + axes.high.x) / 2, axes.low.y + 2 * s + line}, "minor strain", 0.5f, 0);
@@ -166,7 +170,7 @@ void strain_diagram(Frame& frame)
         return;
     const bool open = ImGui::CollapsingHeader("Strain diagram", ImGuiTreeNodeFlags_DefaultOpen);
     tooltip(
-        "Each point is a face: major over minor logarithmic strain. Red line: forming limit, dashed: margin. Red points: above the limit or, without a curve, beyond the valid range of the hardening curve. Click a point to select its face, drag a box to select several.");
+        "Each point is a face: greatest (major) over smallest (minor) strain in the sheet, logarithmic. Red line: forming limit, dashed: required margin. Red points: above the limit or, without a curve, strained beyond the range of the hardening curve. Click a point to select its face, drag a box to select several.");
     if (!open)
         return;
     const SheetFields& face = document.session.blank->face;

@@ -39,21 +39,24 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
     const Palette p = palette_of(frame.state.view.dark);
     const auto why_not = unsuited(certificate);
     ImGui::PushStyleColor(ImGuiCol_Text, why_not ? p.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-    figure(frame, "For analysis", why_not ? "not proved" : "no folds (proved)");
+    figure(frame, "Folds", why_not ? "perhaps, not proved" : "none (proved)");
     ImGui::PopStyleColor();
-    tooltip(why_not ? *why_not
+    tooltip(why_not ? engine_words(frame, *why_not)
                     : "The surface normal never vanishes or flips; proved by the Bezier coefficients of every span");
     if (certificate.patch.empty())
         return;
     const size_t sharp = worst(certificate, [](const PatchCertificate& c) { return -c.least_scaled; });
-    figure(frame, "Least scaled Jacobian",
+    figure(frame, "Sharpest cell (1 is best)",
            fmt::format("{:.3f}", certificate.patch[sharp].least_scaled) + of_patch(certificate, sharp));
-    tooltip("Sine of the angle between the parameter lines: 1 is best, 0 is degenerate");
+    tooltip(
+        "Least scaled Jacobian: sine of the angle between the lines u and v. 1: at right angles, 0: the cell has collapsed");
     const size_t flat = worst(certificate, [](const PatchCertificate& c) { return c.condition; });
-    figure(frame, "Condition, worst", value_text(certificate.patch[flat].condition, "") + of_patch(certificate, flat));
-    tooltip("1 for square spans, large for long or skewed spans");
+    figure(frame, "Most distorted cell (1 is best)",
+           value_text(certificate.patch[flat].condition, "") + of_patch(certificate, flat));
+    tooltip("Condition of the map from the square to the cell: 1 for a square one, large for long or skewed ones");
     const size_t slim = worst(certificate, [](const PatchCertificate& c) { return c.aspect; });
-    figure(frame, "Span aspect, worst", value_text(certificate.patch[slim].aspect, "") + of_patch(certificate, slim));
+    figure(frame, "Longest cell, length to width",
+           value_text(certificate.patch[slim].aspect, "") + of_patch(certificate, slim));
     if (certificate.interfaces.empty())
         return;
     figure(frame, "Joints of patches", fmt::format("{}", certificate.interfaces.size()));
@@ -61,7 +64,7 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
     figure(frame, "Gaps", certificate.leak.empty() ? "none (exact)" : "yes");
     ImGui::PopStyleColor();
     tooltip(certificate.leak.empty() ? "Neighbouring patches share the knots and control points of their common side"
-                                     : certificate.leak);
+                                     : engine_words(frame, certificate.leak));
     double angle = 0;
     for (const InterfaceCertificate& joint : certificate.interfaces)
         angle = std::max(angle, joint.greatest_angle);
@@ -130,12 +133,12 @@ void shape_editor(Frame& frame)
     }
 }
 
-bool surface_look_combo(const Frame& frame, SurfaceLook& look)
+bool surface_look_combo(SurfaceLook& look)
 {
     static constexpr const char* names[] = {"one colour",    "deviation",      "tolerance band",    "patches",
                                             "zebra stripes", "mean curvature", "Gaussian curvature"};
     int chosen = int(look);
-    ImGui::SetNextItemWidth(150 * frame.ui.scale);
+    item_for("Gaussian curvature");
     const bool changed = ImGui::Combo("Colours", &chosen, names, IM_ARRAYSIZE(names));
     tooltip("Colours of the NURBS surface. Zebra stripes break at kinks and bend sharply where the curvature jumps.");
     look = SurfaceLook(chosen);
@@ -211,10 +214,10 @@ void surface_figures(Frame& frame, const SurfaceStage& surface)
                fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
     }
     const auto length = [&](double mm) { return length_text(mm, frame.lengths(), 3); };
-    figure(frame, "Deviation, max", length(surface.deviation.max()));
-    figure(frame, "rms",
+    figure(frame, "Deviation, greatest", length(surface.deviation.max()));
+    figure(frame, "Deviation, rms",
            length(std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
-    figure(frame, "95 % within",
+    figure(frame, "On 95 % of the area within",
            length(std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
     fit_figures(frame, surface);
     if (!frame.state.shape_dragged)

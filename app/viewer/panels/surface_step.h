@@ -8,7 +8,7 @@ void patches_editor(Frame& frame);
 
 /// What the colours of the surface say.
 /// @returns whether it was changed, in `look`
-bool surface_look_combo(const Frame& frame, SurfaceLook& look);
+bool surface_look_combo(SurfaceLook& look);
 
 /// The lattice around the surface and the picked handles: how it is deformed.
 void shape_editor(Frame& frame);

@@ -1,5 +1,6 @@
 #include "app/viewer/panels/theme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -44,12 +45,30 @@ Fonts load_fonts(float scale)
     return fonts;
 }
 
+double contrast(const ImVec4& a, const ImVec4& b)
+{
+    const auto linear = [](float c) { return c <= 0.03928f ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    const auto luminance = [&](const ImVec4& c) {
+        return 0.2126 * linear(c.x) + 0.7152 * linear(c.y) + 0.0722 * linear(c.z);
+    };
+    const double first = luminance(a) + 0.05, second = luminance(b) + 0.05;
+    return std::max(first, second) / std::min(first, second);
+}
+
+ImVec4 under_white(const ImVec4& colour)
+{
+    ImVec4 ground(colour.x, colour.y, colour.z, 1);
+    while (contrast(ground, {1, 1, 1, 1}) < readable)
+        ground.x *= 0.98f, ground.y *= 0.98f, ground.z *= 0.98f;
+    return ground;
+}
+
 Palette palette_of(bool dark)
 {
     if (dark)
-        return {rgb(0x4c8dff), rgb(0x5cb977), rgb(0xe0a53c), rgb(0xf0695f),
+        return {rgb(0x5c98ff), rgb(0x5cb977), rgb(0xe0a53c), rgb(0xf0695f),
                 rgb(0x8e97a6), rgb(0x1d2127), rgb(0x343b46)};
-    return {rgb(0x1f63d8), rgb(0x20803f), rgb(0xa86a00), rgb(0xc4342a), rgb(0x667080), rgb(0xf4f5f7), rgb(0xd3d8e0)};
+    return {rgb(0x1f63d8), rgb(0x20803f), rgb(0x966000), rgb(0xc4342a), rgb(0x667080), rgb(0xf4f5f7), rgb(0xd3d8e0)};
 }
 
 void apply_theme(bool dark, float scale)

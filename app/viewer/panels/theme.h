@@ -18,6 +18,13 @@ Fonts load_fonts(float scale);
 /// Colours and spacing of all widgets.
 void apply_theme(bool dark, float scale);
 
+/// What text needs against its ground to be read [WCAG 2.1, level AA].
+inline constexpr double readable = 4.5;
+/// Contrast of two opaque colours, 1 to 21 [WCAG 2.1, relative luminance].
+double contrast(const ImVec4& a, const ImVec4& b);
+/// The colour, or as much darker that white letters on it can be read.
+ImVec4 under_white(const ImVec4& colour);
+
 /// Colours with a meaning.
 struct Palette {
     ImVec4 accent, good, warning, error, muted, panel, line;

@@ -124,7 +124,7 @@ void tool_options(Frame& frame, const BarStyle& style)
     bool changed = false;
     ImGui::SetNextItemWidth(style.slider);
     if (settings.tool == Tool::shape) {
-        ImGui::SetNextItemWidth(std::max(style.slider, 122 * frame.ui.scale));
+        item_for("control points");
         int kind = int(settings.handles);
         if (ImGui::Combo("##handles", &kind, "control points\0lattice\0")) {
             settings.handles = HandleKind(kind);
@@ -134,8 +134,7 @@ void tool_options(Frame& frame, const BarStyle& style)
         return;
     }
     if (settings.tool == Tool::measure) {
-        ImGui::SetNextItemWidth(
-            std::clamp(ImGui::GetContentRegionAvail().x, 90 * frame.ui.scale, 176 * frame.ui.scale));
+        item_for("Radius of three places");
         if (ImGui::BeginCombo("##measure", title(settings.measure))) {
             for (const MeasureKind kind : {MeasureKind::distance, MeasureKind::angle, MeasureKind::faces,
                                            MeasureKind::circle, MeasureKind::rounding})

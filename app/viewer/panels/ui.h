@@ -222,8 +222,9 @@ void dialogs(Frame& frame);
 void comparison_section(Frame& frame);
 /// The newest messages below the views, which end where they begin; what only confirms goes by itself.
 struct MessageStrip {
-    std::vector<Message> shown; ///< the gravest first
+    std::vector<Message> shown; ///< the newest first
     size_t more = 0;            ///< that have no room
+    bool cut = false;           ///< nor has the end of the newest
     float height = 0;           ///< pixels; 0: there are none
 };
 MessageStrip message_strip(Frame& frame, float width);

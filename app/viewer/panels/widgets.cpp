@@ -3,9 +3,13 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <imgui_internal.h> // ClearActiveID
 
+#include "app/viewer/model/shown_lengths.h"
+#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/wrapped_text.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 
@@ -21,7 +25,8 @@ bool small_button(const Frame& frame, const char* label)
 
 bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const ImVec4& colour)
 {
-    const auto shade = [&](float f) { return ImVec4(colour.x * f, colour.y * f, colour.z * f, 1); };
+    const ImVec4 ground = under_white(colour);
+    const auto shade = [&](float f) { return ImVec4(ground.x * f, ground.y * f, ground.z * f, 1); };
     ImGui::PushStyleColor(ImGuiCol_Button, shade(0.9f));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(1));
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(0.8f));
@@ -201,6 +206,43 @@ void begin_scrolled(const Frame& frame, const char* name, float height)
     ImGui::BeginChild(name, {0, height}, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NavFlattened);
     ImGui::PopStyleVar();
+    const int documents = frame.model.documents(); // another part begins at the top
+    if (std::exchange(*ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("documents"), documents), documents) !=
+        documents)
+        ImGui::SetScrollY(0);
+}
+
+std::string broken(const std::string& text, float room)
+{
+    const ImFont* font = ImGui::GetFont();
+    const float size = ImGui::GetFontSize(), slack = 1; // pixels; else ImGui would break a full line once more
+    return broken_at_spaces(text, room - slack, [&](std::string_view piece) {
+        return font->CalcTextSizeA(size, FLT_MAX, 0, piece.data(), piece.data() + piece.size()).x;
+    });
+}
+
+void wrapped(const std::string& text)
+{
+    ImGui::PushTextWrapPos(0); // of words that are wider by themselves, such as paths
+    ImGui::TextUnformatted(broken(text, ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::PopTextWrapPos();
+}
+
+std::string engine_words(const Frame& frame, std::string text)
+{
+    return in_shown_lengths(in_viewer_words(std::move(text)), frame.lengths());
+}
+
+void wide_item(const char* label)
+{
+    const float taken = ImGui::CalcTextSize(label, nullptr, true).x + ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::SetNextItemWidth(std::max(1.f, ImGui::GetContentRegionAvail().x - taken));
+}
+
+void item_for(const char* longest)
+{
+    const float wide = ImGui::CalcTextSize(longest).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
+    ImGui::SetNextItemWidth(std::min(wide, ImGui::GetContentRegionAvail().x));
 }
 
 void muted(const Frame& frame, const std::string& text) { coloured(palette_of(frame.state.view.dark).muted, text); }
@@ -208,9 +250,7 @@ void muted(const Frame& frame, const std::string& text) { coloured(palette_of(fr
 void coloured(const ImVec4& colour, const std::string& text)
 {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped(text);
     ImGui::PopStyleColor();
 }
 
@@ -233,8 +273,9 @@ void tooltip(const std::string& text)
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-    ImGui::TextUnformatted(text.c_str());
+    const float room = ImGui::GetFontSize() * 24;
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room); // of words that are wider by themselves, such as paths
+    ImGui::TextUnformatted(broken(text, room).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }

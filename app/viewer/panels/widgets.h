@@ -17,9 +17,22 @@ enum class Status { nothing, done, poor, stale, failed };
 /// Heading of a step with its number and a mark of how it stands.
 void step_heading(const Frame& frame, int number, const char* title, Status status);
 
-/// A part of a panel that scrolls, its text clear of the scroll bar; end it with ImGui::EndChild().
+/// A part of a panel that scrolls, its text clear of the scroll bar; another part begins at its top. End it with ImGui::EndChild().
 /// @param height  pixels; negative: what it leaves below
 void begin_scrolled(const Frame& frame, const char* name, float height);
+
+/// A text in lines of this width (pixels), broken at spaces only; see model/wrapped_text.h.
+std::string broken(const std::string& text, float room);
+/// A text as wide as there is room; the one way in which texts wrap.
+void wrapped(const std::string& text);
+
+/// What the engine says, in the viewer's words and in the unit of the screen.
+std::string engine_words(const Frame& frame, std::string text);
+
+/// The next item, whose label stands behind it, is as wide as the panel lets it: for choices whose texts are long.
+void wide_item(const char* label);
+/// The next item, a choice, is wide enough for the longest of its texts, as far as there is room for it.
+void item_for(const char* longest);
 
 /// A small grey line; wraps.
 void muted(const Frame& frame, const std::string& text);

@@ -67,8 +67,9 @@ void status_bar(Frame& frame)
                            fmt::format("{:.0f} %", 100 * state.job.fraction).c_str());
         ImGui::SameLine();
         ImGui::TextColored(p.muted, "%s",
-                           state.job.cancelling ? "cancelling..."
-                                                : fmt::format("{}    Esc cancels", state.job.step).c_str());
+                           state.job.cancelling
+                               ? "cancelling..."
+                               : fmt::format("{}    Esc cancels", engine_words(frame, state.job.step)).c_str());
         return;
     }
     if (frame.ui.animation) {

@@ -63,6 +63,24 @@ RoundRange round_range(double least, double greatest, int intervals, bool about_
     }
 }
 
+std::vector<double> axis_numbers(const RoundRange& range, int most)
+{
+    const double step = (range.greatest - range.least) / range.intervals;
+    std::vector<double> numbers;
+    for (int every = 1; every <= std::max(1, range.intervals); ++every) {
+        if (!is_round(every * step))
+            continue;
+        numbers.clear();
+        const double first = std::ceil(range.least / (every * step) - 1e-6),
+                     last = std::floor(range.greatest / (every * step) + 1e-6);
+        for (double k = first; k <= last; ++k)
+            numbers.push_back(k * every * step + 0.); // whole steps from 0
+        if (int(numbers.size()) <= most)
+            break;
+    }
+    return numbers;
+}
+
 double least_range(Field field, double size) { return noise(field, size); }
 
 /// The values, or a range around them that is long enough to be coloured.
@@ -183,6 +201,8 @@ std::string value_text(double value, std::string_view unit, LengthUnit lengths)
         return "no value";
     if (unit == info(Field::zone).unit)
         return zone_words(Zone(std::clamp(int(std::lround(value)), 0, zone_count - 1)));
+    if (unit == "%") // one precision wherever it is said
+        return figure_text(value, 1) + " %";
     const ShownUnit as = as_shown(unit, lengths);
     const std::string number = plain_number(as.factor * value);
     if (unit.empty())

@@ -21,6 +21,11 @@ struct RoundRange {
 /// @param about_zero  as far below 0 as above
 RoundRange round_range(double least, double greatest, int intervals = 0, bool about_zero = false);
 
+/// The values of a range that numbers are written at: round ones a round step (1, 2, 2.5 or 5 times a power of ten) apart, with 0 among
+/// them where the range has it.
+/// @param most  how many there is room for, 2 at least
+std::vector<double> axis_numbers(const RoundRange& range, int most);
+
 /// The shortest range that a field is coloured over, in its unit: values that differ by less are noise(), and colours would make a
 /// landscape of it.
 /// @param size of the part, mm

@@ -1,5 +1,7 @@
 #include "app/viewer/views/fault_scene.h"
 
+#include "app/viewer/model/lengths.h"
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 
@@ -69,7 +71,8 @@ void add_shown_fault(Scene& scene, const ViewerState& state)
         scene.points.push_back(dots(place, colour, size));
     const Finding& finding = part->doctor.findings[size_t(state.fault->finding)];
     const auto entry = size_t(state.fault->entry);
-    const std::string what = entry < finding.what.size() ? ": " + finding.what[entry] : "";
+    const std::string what =
+        entry < finding.what.size() ? ": " + in_shown_lengths(finding.what[entry], state.preferences.lengths) : "";
     scene.labels.push_back(
         {state.fault->place, std::string(name(finding.fault)) + what, palette::text(state.view.dark)});
 }

@@ -15,7 +15,32 @@ namespace {
 
 constexpr size_t most_regions = FaceMarks::region; // more share the last colour
 
+/// mm, of the flat sheet at a face: that of the last piece of a tailored blank that covers it.
+double flat_thickness(const ViewerState& state, int face)
+{
+    double thickness = state.document.made_with.flatten.thickness;
+    for (const TailoredPiece& piece : state.document.made_with.flatten.process.tailored)
+        if (std::find(piece.faces.begin(), piece.faces.end(), face) != piece.faces.end())
+            thickness = piece.thickness;
+    return thickness;
+}
+
 } // namespace
+
+std::string extreme_words(const ViewerState& state, int face, double value, bool greatest)
+{
+    const FieldDisplay& display = state.document.display;
+    const LengthUnit lengths = state.preferences.lengths;
+    const std::string said = value_text(value, info(display.field).unit, lengths);
+    const bool thinning = display.field == Field::thinning;
+    if (display.difference || (!thinning && display.field != Field::thickness))
+        return fmt::format("{} {}", greatest ? "max" : "min", said);
+    const char* word = greatest == thinning ? "thinnest" : "thickest";
+    if (!thinning)
+        return fmt::format("{} {}", word, said);
+    return fmt::format("{} {} ({})", word, fixed_length(flat_thickness(state, face) * (1 - value / 100), lengths, 3),
+                       said);
+}
 
 std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& selected,
                                             const std::vector<FaceRegion>& regions)
@@ -161,11 +186,10 @@ void add_watched_places(Scene& scene, const ViewerState& state, const FieldValue
     if (values && display.extremes && display.field != Field::zone && values->said.least >= 0 &&
         here(values->said.least) != here(values->said.greatest)) {
         std::vector<Eigen::Vector3d> places;
-        for (const auto& [word, at] : {std::pair("min", values->said.least), std::pair("max", values->said.greatest)}) {
+        for (const bool greatest : {false, true}) {
+            const int at = greatest ? values->said.greatest : values->said.least;
             places.push_back(centre(at));
-            scene.labels.push_back({places.back(),
-                                    fmt::format("{} {}", word, value_text(here(at), unit, state.preferences.lengths)),
-                                    text});
+            scene.labels.push_back({places.back(), extreme_words(state, at, here(at), greatest), text});
         }
         dots(places, palette::extreme);
     }

@@ -33,6 +33,9 @@ std::vector<SceneLabel> region_labels(const Eigen::Matrix3Xi& triangle, const Ei
 Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3Xi& triangle, int face,
                          const Eigen::Vector3d& barycentric);
 
+/// What stands at the least and the greatest value: "min 0.1", and of thinning and thickness "thinnest 0.620 mm (38.0 %)".
+std::string extreme_words(const ViewerState& state, int face, double value, bool greatest);
+
 /// Dots and texts of the pinned probes and, if asked for, of the least and the greatest value.
 /// @param position 3 by #V of the part, mm: on the part or flat
 void add_watched_places(Scene& scene, const ViewerState& state, const FieldValues* values,

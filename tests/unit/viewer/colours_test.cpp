@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -271,6 +272,38 @@ TEST(SideColours, TellTheFourSidesApartAndAreEquallyLight)
             EXPECT_GT(difference(a, b), 0.15);
             EXPECT_NEAR(a.L, b.L, 0.03);
         }
+}
+
+/// An engineer reads an axis by its round numbers, of which 0 is one.
+TEST(AxisNumbers, AreWholeStepsFromZeroOfARoundLength)
+{
+    for (const auto& [least, greatest] : {std::pair(-0.13, 0.31), std::pair(-0.11, 0.11), std::pair(0., 0.42),
+                                          std::pair(-3.7, 12.), std::pair(-0.7, 0.02), std::pair(-240., 910.)})
+        for (int most = 2; most <= 9; ++most) {
+            const std::vector<double> numbers = axis_numbers(round_range(least, greatest), most);
+            ASSERT_FALSE(numbers.empty());
+            EXPECT_TRUE(std::any_of(numbers.begin(), numbers.end(), [](double each) { return each == 0; }))
+                << least << " to " << greatest << ", " << most;
+            if (numbers.size() < 2)
+                continue;
+            const double step = numbers[1] - numbers[0],
+                         digit = step / std::pow(10, std::floor(std::log10(step) + 1e-9));
+            EXPECT_TRUE(std::abs(digit - 1) < 1e-6 || std::abs(digit - 2) < 1e-6 || std::abs(digit - 2.5) < 1e-6 ||
+                        std::abs(digit - 5) < 1e-6)
+                << step;
+            EXPECT_LE(int(numbers.size()), std::max(most, 3));
+            for (size_t k = 1; k < numbers.size(); ++k)
+                EXPECT_NEAR(numbers[k] - numbers[k - 1], step, 1e-9 * step);
+        }
+}
+
+TEST(AxisNumbers, ThoseOfAStrainDiagramAreTenths) // not 0.3, 0.1, -0.1
+{
+    const std::vector<double> numbers = axis_numbers({-0.1, 0.4, 5}, 4);
+    ASSERT_EQ(numbers.size(), 3u);
+    EXPECT_EQ(numbers[0], 0);
+    EXPECT_NEAR(numbers[1], 0.2, 1e-12);
+    EXPECT_NEAR(numbers[2], 0.4, 1e-12);
 }
 
 } // namespace

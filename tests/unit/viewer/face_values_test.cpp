@@ -161,7 +161,8 @@ TEST(FaceValues, LabelsAndLegendOfASmoothContourSayThemAndThatItIsSmoothed)
         state.document.display.per_face = per_face;
         SceneCache cache;
         const Scene shown = part_scene(state, cache, 600);
-        EXPECT_THAT(texts(shown), testing::IsSupersetOf({"max 25.0 %", "min -12.0 %"})) << per_face;
+        EXPECT_THAT(texts(shown), testing::IsSupersetOf({"thinnest 0.750 mm (25.0 %)", "thickest 1.120 mm (-12.0 %)"}))
+            << per_face;
         ASSERT_TRUE(shown.legend);
         EXPECT_GE(shown.legend->scale.greatest, 25) << per_face;
         EXPECT_EQ(shown.legend->note.find("smoothed") != std::string::npos, !per_face);
@@ -200,8 +201,8 @@ TEST(NumberText, HasNoSignedNothing)
     EXPECT_EQ(plain_number(1381.2), "1381");
     EXPECT_EQ(plain_number(0.01234), "0.0123");
     EXPECT_EQ(percent_range({-0.0001, 0.0002}), "0 %");
-    EXPECT_EQ(percent_range({-0.251, 0.236}), "-25.1 to +23.6 %");
-    EXPECT_EQ(percent_range({0, 0.012}), "0 to +1.2 %");
+    EXPECT_EQ(percent_range({-0.251, 0.236}), "-25.1 to 23.6 %");
+    EXPECT_EQ(percent_range({0, 0.012}), "0 to 1.2 %");
 }
 
 } // namespace

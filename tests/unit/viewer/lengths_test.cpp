@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/views/colour_scale.h"
 
 namespace spia::viewer {
@@ -71,6 +72,34 @@ TEST(Lengths, LegendsAreRoundInInch)
         << step;
     for (const double value : tick_values(scale))
         EXPECT_NEAR(std::stod(tick_text(scale, value)), factor * value, 1e-6) << "no digits are lost";
+}
+
+TEST(Lengths, WhatTheEngineSaysIsToldInTheUnitOfTheScreen)
+{
+    const auto in = [](const char* text) { return in_shown_lengths(text, inch); };
+    EXPECT_EQ(in("the surface deviates by 0.254 mm where 0.1 mm are allowed"),
+              "the surface deviates by 0.01 in where 0.00394 in are allowed");
+    EXPECT_EQ(in("it folds at u = 0.31, v = 0.5 (12.7, 25.4, -2.54 mm)"),
+              "it folds at u = 0.31, v = 0.5 (0.5, 1, -0.1 in)");
+    EXPECT_EQ(in("on 254 of 508 mm of the edge"), "on 10 of 20 in of the edge");
+    EXPECT_EQ(in("a sheet of 25.4 x 50.8 mm."), "a sheet of 1 x 2 in.");
+    EXPECT_EQ(in("1290.32 mm2, 645.16 mm^2 and 64.516 mm\u00b2"), "2 in\u00b2, 1 in\u00b2 and 0.1 in\u00b2");
+    EXPECT_EQ(in("restrains with 120 N/mm, 1200 MPa"), "restrains with 120 N/mm, 1200 MPa");
+    EXPECT_EQ(in("curvature 0.1 1/mm"), "curvature 0.1 1/mm");
+    EXPECT_EQ(in("Opened plate 10 mm.stl, part_12.5 mm"), "Opened plate 10 mm.stl, part_12.5 mm");
+    EXPECT_EQ(in("lengths in mm"), "lengths in mm");
+    EXPECT_EQ(in("the sheet is 50.8 mm thick: is that in mm?"), "the sheet is 2 in thick: is that in inch?");
+    EXPECT_EQ(in_shown_lengths("12.7 mm, 3 mm2", mm), "12.7 mm, 3 mm2");
+}
+
+TEST(Lengths, NoiseOfTheArithmeticIsNothing)
+{
+    EXPECT_EQ(in_shown_lengths("flat (within 6.4e-13 mm)", mm), "flat (within 0 mm)");
+    EXPECT_EQ(in_shown_lengths("flat (within 6.4e-13 mm)", inch), "flat (within 0 in)");
+    EXPECT_EQ(in_shown_lengths("within 2e-05 mm", mm), "within 2e-05 mm");
+    EXPECT_EQ(length_text(6.7e-16, mm), "0 mm");
+    EXPECT_EQ(plain_length(-6.7e-16, inch), "0 in");
+    EXPECT_EQ(length_text(1e-5, mm), "1e-05 mm");
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "app/viewer/model/remedies.h"
+#include "engine/mesh/topology.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/sample_decks.h"
@@ -141,8 +142,8 @@ TEST_F(Lights, CracksAndForbiddenThinningAreAmberAndShowTheirZones)
     model.apply(SetLimits{strict});
     ASSERT_EQ(of(ChainStep::unfold).size(), 1u) << all();
     const Doubt doubt = of(ChainStep::unfold)[0];
-    EXPECT_THAT(doubt.text,
-                HasSubstr(thinner == 1 ? "1 face is thinner" : fmt::format("{} faces exceed the allowed thinning", thinner)));
+    EXPECT_THAT(doubt.text, HasSubstr(thinner == 1 ? "1 face is thinner"
+                                                   : fmt::format("{} faces exceed the allowed thinning", thinner)));
     EXPECT_EQ(shown_by(doubt.remedy), Field::zone);
     press(doubt);
     EXPECT_EQ(document.display.field, Field::zone);
@@ -207,7 +208,7 @@ TEST_F(Lights, AFoldedSurfaceIsAmberHoweverNearItIs)
     surface->certificate.patch.at(0).refusal = Refusal{Refusal::Why::vanishes, {0, 1, {1, 2, 3}}};
     EXPECT_FALSE(says(find_doubts(folded), "fold")) << "at a corner on a smooth outline it has no angle";
     surface->deviation.normal.turned = 0.02;
-    EXPECT_TRUE(says(find_doubts(folded), "2.0 %"));
+    EXPECT_TRUE(says(find_doubts(folded), "2.00 %"));
 }
 
 TEST_F(Lights, ABlankThatHasNotConvergedSaysWhyAndWhatNext)
@@ -227,6 +228,25 @@ TEST_F(Lights, ABlankThatHasNotConvergedSaysWhyAndWhatNext)
     ASSERT_NE(found, doubts.end());
     EXPECT_EQ(found->text, "The residual does not go down.");
     EXPECT_THAT(found->next, HasSubstr("another stamping direction"));
+}
+
+TEST_F(Lights, APartHardlyLargerThanItsSheetIsThickIsDoubtedWhateverWasSaidOfItsUnit)
+{
+    const TriMesh sheet = shapes::rectangle(0.6, 0.45, 8, 6);
+    shapes::write_mesh(folder / "metres.obj", sheet); // in metres, read as if it were mm
+    model.apply(OpenPart{folder / "metres.obj", "mm"});
+    wait();
+    ASSERT_TRUE(document.session.part);
+    ASSERT_EQ(of(ChainStep::part).size(), 1u) << all();
+    const Doubt doubt = of(ChainStep::part)[0];
+    EXPECT_THAT(doubt.text, HasSubstr("the sheet 1 mm thick"));
+    EXPECT_EQ(doubt.button, "Read it in m");
+    press(doubt);
+    EXPECT_TRUE(of(ChainStep::part).empty()) << all();
+    EXPECT_NEAR(bounding_diagonal(document.session.part->mesh), 750 /* of 600 x 450 mm */, 1e-3);
+    model.apply(SetThickness{200}); // of a part 750 mm across
+    ASSERT_EQ(of(ChainStep::part).size(), 1u) << all();
+    EXPECT_THAT(of(ChainStep::part)[0].next, HasSubstr("thickness"));
 }
 
 } // namespace

@@ -129,5 +129,15 @@ TEST_F(Messages, OfAChangeGoWhenItIsUndone)
     EXPECT_EQ(history.now(), before);
 }
 
+TEST_F(Messages, AnErrorThatSpeaksOfNothingElseGoesWithTheNextChange)
+{
+    open();
+    model.apply(OpenPart{folder / "nowhere.obj", ""});
+    wait();
+    EXPECT_TRUE(shows("nowhere.obj"));
+    model.apply(SelectFaces{{1, 2}, PickMode::replace});
+    EXPECT_FALSE(shows("nowhere.obj"));
+}
+
 } // namespace
 } // namespace spia::viewer

@@ -181,7 +181,7 @@ TEST_F(ViewerModelTest, AnOldResultIsSaidToBeOldAndKeepsItsOptions)
     EXPECT_EQ(out_of_date(document), ""); // a step is missing, but what is there is new
     const double before = document.session.options.flatten.thickness;
     model.apply(SetThickness{before / 2});
-    EXPECT_NE(out_of_date(document).find("solve"), std::string::npos);
+    EXPECT_NE(out_of_date(document).find("\"Unfold\""), std::string::npos) << "as the panel calls it";
     EXPECT_EQ(as_made(document).options.flatten.thickness, before);
     EXPECT_EQ(as_made(document).blank, document.session.blank);
 }
