@@ -6,7 +6,7 @@
 namespace spia::viewer {
 namespace {
 
-constexpr ImVec4 white{1, 1, 1, 1}, black{0, 0, 0, 1};
+const ImVec4 white{1, 1, 1, 1}, black{0, 0, 0, 1};
 
 TEST(Theme, ContrastIsThatOfTheRecommendation)
 {
@@ -47,8 +47,9 @@ TEST(Theme, WhiteLettersAreLegibleOnBannersAndColouredButtons)
         for (const ImVec4& colour : {p.accent, p.good, p.warning, p.error}) {
             const ImVec4 ground = under_white(colour);
             EXPECT_GE(contrast(ground, white), readable);
-            if (contrast(colour, white) >= readable)
+            if (contrast(colour, white) >= readable) {
                 EXPECT_EQ(ground.x, colour.x) << "no darker than it must be";
+            }
         }
     }
 }
