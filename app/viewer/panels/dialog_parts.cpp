@@ -56,6 +56,7 @@ bool begin_dialog(const Frame& frame, const char* title, bool appears, float wid
     if (!begin_modal(frame, title, appears, ImGuiWindowFlags_AlwaysAutoResize, nullptr, urgent))
         return false;
     close_button(frame);
+    ImGui::PushID(frame.ui.dialogs.openings());            // no field goes on with what was typed there the last time
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1); // an empty box has nearly the colour of the window
     return true;
 }
@@ -63,6 +64,7 @@ bool begin_dialog(const Frame& frame, const char* title, bool appears, float wid
 void end_dialog()
 {
     ImGui::PopStyleVar();
+    ImGui::PopID();
     ImGui::EndPopup();
 }
 

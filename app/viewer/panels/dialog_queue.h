@@ -33,7 +33,13 @@ public:
     bool shows(const std::string& title) const { return !wanted_.empty() && wanted_.front() == title; }
     /// Whether ImGui has been told to open it; what was before is closed by that.
     bool opened(const std::string& title) const { return opened_ == title; }
-    void open(const std::string& title) { opened_ = title; }
+    void open(const std::string& title)
+    {
+        opened_ = title;
+        ++openings_;
+    }
+    /// How many times a dialog was opened so far.
+    int openings() const { return openings_; }
     bool empty() const { return wanted_.empty(); }
 
     /// To be called for each dialog that is drawn, or waits, in this frame.
@@ -54,6 +60,7 @@ public:
 private:
     std::vector<std::string> wanted_, seen_;
     std::string opened_;
+    int openings_ = 0;
 };
 
 } // namespace spia::viewer

@@ -98,7 +98,8 @@ void FileDialog::open(Purpose purpose, const fs::path& suggestion)
 {
     purpose_ = purpose;
     open_ = appearing_ = true;
-    confirm_ = false;
+    confirm_ = show_all_ = path_active_ = appearing_name_ = taken_ = false;
+    ++openings_;
     new_folder_.reset();
     problem_.clear();
     std::error_code ignored;
@@ -130,6 +131,7 @@ void FileDialog::go_to(const fs::path& folder)
     folder_ = folder.lexically_normal();
     path_text_ = folder_.string();
     entries_.clear();
+    others_ = 0;
     cursor_ = -1;
     confirm_ = false;
     const Wording& words = wording(purpose_);
@@ -140,9 +142,13 @@ void FileDialog::go_to(const fs::path& folder)
         std::error_code ignored;
         const bool is_folder = file.is_directory(ignored);
         const std::string ending = lower(file.path().extension().string());
-        if (!is_folder &&
-            (words.folders || std::find(words.endings.begin(), words.endings.end(), ending) == words.endings.end()))
+        if (!is_folder && words.folders)
             continue;
+        if (!is_folder && std::find(words.endings.begin(), words.endings.end(), ending) == words.endings.end()) {
+            ++others_;
+            if (!show_all_)
+                continue;
+        }
         const std::uintmax_t size = is_folder ? 0 : file.file_size(ignored);
         entries_.push_back({file.path(), is_folder, ignored ? 0 : size}); // a broken link has no size
     }
@@ -272,6 +278,30 @@ void FileDialog::new_folder_row(bool enter)
     }
 }
 
+/// Says how many files are left out, and lets show them; at the right, in the row that says what there is.
+void FileDialog::others_row()
+{
+    if (others_ == 0)
+        return;
+    const std::string text =
+        show_all_ ? "All files" : fmt::format("{} other file{} not shown", others_, others_ == 1 ? " is" : "s are");
+    const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x,
+                width = ImGui::CalcTextSize("Show all files").x + box + ImGui::CalcTextSize(text.c_str()).x +
+                        2 * ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SameLine(std::max(ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x,
+                             ImGui::GetWindowContentRegionMax().x - width));
+    ImGui::TextDisabled("%s", text.c_str());
+    ImGui::SameLine();
+    if (ImGui::Checkbox("Show all files", &show_all_)) {
+        const std::string name = name_, problem = problem_;
+        go_to(folder_);
+        name_ = name;
+        if (problem_.empty())
+            problem_ = problem;
+        appearing_name_ = true; // typing goes on there
+    }
+}
+
 std::optional<fs::path> FileDialog::show(const Frame& frame)
 {
     if (!open_)
@@ -291,6 +321,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         appearing_ = appears && open_;         // and takes the keyboard when it comes
         return std::nullopt;
     }
+    ImGui::PushID(openings_);
     taken_ = false;
     const bool enter = enter_pressed(frame);
     if (!path_active_) {
@@ -307,8 +338,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
     }
     if (ImGui::ArrowButton("up", ImGuiDir_Up))
         go_to(folder_.parent_path());
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("To the folder above");
+    tooltip("To the folder above");
     ImGui::SameLine();
     const bool makes_folders = words.saves || words.folders;
     const float button_width = ImGui::CalcTextSize("New folder").x + 2 * ImGui::GetStyle().FramePadding.x;
@@ -327,8 +357,9 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         new_folder_row(enter);
 
     const float gap = ImGui::GetStyle().ItemSpacing.y;
-    list(frame, ImGui::GetTextLineHeightWithSpacing() + (words.folders ? 0 : ImGui::GetFrameHeightWithSpacing()) +
+    list(frame, ImGui::GetFrameHeightWithSpacing() + (words.folders ? 0 : ImGui::GetFrameHeightWithSpacing()) +
                     answer_buttons_height(frame) + gap);
+    ImGui::AlignTextToFramePadding();
     if (!problem_.empty())
         ImGui::TextColored(palette_of(frame.state.view.dark).error, "%s", problem_.c_str());
     else if (confirm_)
@@ -341,6 +372,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         const auto files = std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.folder; });
         ImGui::TextDisabled("%d %s", int(files), files == 1 ? "file" : "files");
     }
+    others_row();
     if (!words.folders) {
         ImGui::SetNextItemWidth(-1);
         if (focus_name || std::exchange(appearing_name_, false))
@@ -373,6 +405,7 @@ std::optional<fs::path> FileDialog::show(const Frame& frame)
         open_ = false;
         ImGui::CloseCurrentPopup();
     }
+    ImGui::PopID();
     ImGui::EndPopup();
     return chosen;
 }

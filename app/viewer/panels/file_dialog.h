@@ -46,6 +46,7 @@ private:
     void move_cursor(int rows);
     void list(const Frame& frame, float below);
     void new_folder_row(bool enter);
+    void others_row();
     /// Goes to the folder that is typed, if it is another one. @returns whether there is none or it could be done
     bool follow_path_text();
     /// What is chosen now: a folder is entered, a file returned if it can be.
@@ -56,6 +57,9 @@ private:
     std::filesystem::path folder_;
     std::string name_, path_text_, problem_;
     std::vector<Entry> entries_;
+    bool show_all_ = false;                 ///< files of every kind
+    int others_ = 0;                        ///< files in the folder that are of other kinds
+    int openings_ = 0;                      ///< so far: no field keeps what was typed the last time
     std::optional<std::string> new_folder_; ///< its name, while it is being typed
     int cursor_ = -1;                       ///< entry that is chosen; -1: what is typed counts
     bool moved_ = false;                    ///< the cursor, by a key: it is to be seen
