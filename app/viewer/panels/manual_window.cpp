@@ -182,7 +182,9 @@ void contents(Frame& frame, ManualWindow& window)
 {
     const Manual& manual = *window.manual;
     ImGui::SetNextItemWidth(-1);
+    ImGui::PushID(window.openings); // what was typed the last time is gone
     text_input("##search", window.searched, false, "Search the manual");
+    ImGui::PopID();
     ImGui::BeginChild("contents", {0, 0}, false, ImGuiWindowFlags_NoNavInputs);
     const std::vector<ManualPlace> places = places_of(manual, window.searched);
     if (places.empty()) {
@@ -197,11 +199,17 @@ void contents(Frame& frame, ManualWindow& window)
         const ManualPlace& place = places[k];
         ImGui::PushID(int(k));
         const bool here = place.chapter == window.chapter && place.block == window.marked;
-        if (ImGui::Selectable(manual.chapters[place.chapter].title.c_str(), here))
+        // The chapter's name and the words below it are one thing to click on.
+        ImFont* const font = frame.ui.fonts.small;
+        const float wide = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+        const ImVec2 words = font->CalcTextSizeA(font->FontSize, FLT_MAX, wide, place.excerpt.c_str());
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        if (ImGui::Selectable("##place", here, 0, {0, line + words.y + 3 * frame.ui.scale}))
             go_to(window, place.chapter, place.block);
-        ImGui::PushFont(frame.ui.fonts.small);
-        muted(frame, place.excerpt);
-        ImGui::PopFont();
+        ImDrawList* draw = ImGui::GetWindowDrawList();
+        draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), manual.chapters[place.chapter].title.c_str());
+        draw->AddText(font, font->FontSize, {at.x, at.y + line + frame.ui.scale},
+                      ink(palette_of(frame.state.view.dark).muted), place.excerpt.c_str(), nullptr, wide);
         ImGui::PopID();
     }
     ImGui::EndChild();
@@ -259,6 +267,14 @@ void chapter_on_screen(Frame& frame, ManualWindow& window)
 }
 
 } // namespace
+
+void open_manual(ManualWindow& window)
+{
+    window.shown = window.appears = true;
+    window.searched.clear();
+    window.marked = -1;
+    ++window.openings;
+}
 
 void manual_window(Frame& frame)
 {

@@ -17,9 +17,12 @@ struct ManualWindow {
     std::string searched;
     int block = -1;      ///< to be scrolled to in the next frame; -1: none
     int marked = -1;     ///< the one that the search has found
+    int openings = 0;    ///< so far
     bool to_top = false; ///< the chapter has just been chosen
 };
 
+/// Shows it in the next frame, with nothing looked for.
+void open_manual(ManualWindow& window);
 void manual_window(Frame& frame);
 
 } // namespace spia::viewer

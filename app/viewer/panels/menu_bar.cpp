@@ -9,6 +9,19 @@ namespace spia::viewer {
 
 namespace {
 
+/// A key that acts in the view that has the keyboard, for the menu to say so: elsewhere a letter may be typed into a field.
+constexpr const char* in_view(const char* key)
+{
+    constexpr std::pair<char, const char*> words[] = {{'+', "+ in a view"}, {'-', "- in a view"}, {'I', "I in a view"},
+                                                      {'F', "F in a view"}, {'5', "5 in a view"}, {'1', "1 in a view"},
+                                                      {'2', "2 in a view"}, {'3', "3 in a view"}, {'4', "4 in a view"},
+                                                      {'H', "H in a view"}, {'T', "T in a view"}, {'E', "E in a view"}};
+    for (const auto& [letter, text] : words)
+        if (letter == *key)
+            return text;
+    return "";
+}
+
 /// The chain and the steps; what the panel of the steps has as buttons.
 void run_menu(Frame& frame)
 {
@@ -126,11 +139,11 @@ void menu_bar(Frame& frame)
             frame.actions.push(Redo{});
         ImGui::Separator();
         const bool some = !state.document.selected.empty();
-        if (ImGui::MenuItem("Grow selection", "+", false, some))
+        if (ImGui::MenuItem("Grow selection", in_view("+"), false, some))
             frame.actions.push(GrowSelection{});
-        if (ImGui::MenuItem("Shrink selection", "-", false, some))
+        if (ImGui::MenuItem("Shrink selection", in_view("-"), false, some))
             frame.actions.push(ShrinkSelection{});
-        if (ImGui::MenuItem("Invert selection", "I", false, state.document.session.part != nullptr))
+        if (ImGui::MenuItem("Invert selection", in_view("I"), false, state.document.session.part != nullptr))
             frame.actions.push(InvertSelection{});
         if (ImGui::MenuItem("Clear selection", "Esc", false, some || !state.document.vertices.empty()))
             frame.actions.push(ClearSelection{});
@@ -151,9 +164,9 @@ void menu_bar(Frame& frame)
     if (ImGui::BeginMenu("View")) {
         ViewSettings view = state.view;
         bool changed = false;
-        if (ImGui::MenuItem("Fit all", "F"))
+        if (ImGui::MenuItem("Fit all", in_view("F")))
             frame.actions.push(FitView{});
-        if (ImGui::MenuItem("Perspective", "5", view.camera[0].perspective)) {
+        if (ImGui::MenuItem("Perspective", in_view("5"), view.camera[0].perspective)) {
             const bool perspective = !view.camera[0].perspective;
             for (const View v : all_views)
                 if (v != View::blank)
@@ -162,9 +175,12 @@ void menu_bar(Frame& frame)
         }
         if (ImGui::BeginMenu("Look from")) {
             constexpr std::tuple<const char*, const char*, StandardView> looks[] = {
-                {"Top", "1", StandardView::top},      {"Front", "2", StandardView::front},
-                {"Right", "3", StandardView::right},  {"Isometric", "4", StandardView::isometric},
-                {"Bottom", "", StandardView::bottom}, {"Back", "", StandardView::back},
+                {"Top", in_view("1"), StandardView::top},
+                {"Front", in_view("2"), StandardView::front},
+                {"Right", in_view("3"), StandardView::right},
+                {"Isometric", in_view("4"), StandardView::isometric},
+                {"Bottom", "", StandardView::bottom},
+                {"Back", "", StandardView::back},
                 {"Left", "", StandardView::left}};
             for (const auto& [label, key, from] : looks)
                 if (ImGui::MenuItem(label, key))
@@ -184,11 +200,11 @@ void menu_bar(Frame& frame)
             }
         ImGui::Separator();
         mouse_menu(frame);
-        if (ImGui::MenuItem("Clip", "H", view.clip.on, state.document.session.part != nullptr))
+        if (ImGui::MenuItem("Clip", in_view("H"), view.clip.on, state.document.session.part != nullptr))
             toggle_clip(frame);
-        changed |= ImGui::MenuItem("Dark theme", "T", &view.dark);
+        changed |= ImGui::MenuItem("Dark theme", in_view("T"), &view.dark);
         changed |= ImGui::MenuItem("Rotate 3D views together", nullptr, &view.linked);
-        changed |= ImGui::MenuItem("Triangle edges", "E", &view.edges);
+        changed |= ImGui::MenuItem("Triangle edges", in_view("E"), &view.edges);
         changed |= ImGui::MenuItem("Feature lines", nullptr, &view.features);
         ImGui::Separator();
         const bool narrow = is_narrow(ImGui::GetIO().DisplaySize.x, frame.ui.scale);
@@ -203,7 +219,7 @@ void menu_bar(Frame& frame)
     }
     if (ImGui::BeginMenu("Help")) {
         if (ImGui::MenuItem("Manual"))
-            frame.ui.manual.shown = frame.ui.manual.appears = true;
+            open_manual(frame.ui.manual);
         ImGui::MenuItem("Keyboard and mouse", "F1", &frame.ui.show_shortcuts);
         ImGui::MenuItem("Messages", nullptr, &frame.ui.show_messages);
         ImGui::Separator();
