@@ -349,7 +349,8 @@ struct DrawSection {
     glm::dvec2 from{0}, to{0}, size{0};
 };
 struct ClearSection {}; ///< "clear_section"
-/// "add_measurement": kind ("distance", "angle", "faces", "circle", "rounding"), at [{face, barycentric}, ...]: 2, 3, 2, 3 or 1 places
+/// "add_measurement": kind ("distance", "angle", "faces", "circle", "rounding"), at [{face, barycentric}, ...]: 2, 3, 2, 3 or 1 places,
+/// on: the view, whose faces they are on ("part" if not given)
 struct AddMeasurement {
     Measurement measurement;
 };
@@ -385,7 +386,8 @@ struct LookFromSide {
 };
 struct FlyTo {
     int face = 0;
-}; ///< "fly_to": every view shows this face in its middle
+};                  ///< "fly_to": every view shows this face in its middle, with a mark; what is picked stays
+struct HideSpot {}; ///< "hide_spot": the mark of fly_to goes, and the views that were not moved since go back
 struct FlyToVertex {
     int vertex = 0;
 }; ///< "fly_to_vertex": likewise; what is picked stays
@@ -411,6 +413,12 @@ struct Redo {}; ///< "redo"
 struct OpenProject {
     std::filesystem::path file;
 }; ///< "open_project"
+/// "take_opened": the file that is read and waits takes the place of the part, whose work is not saved; without_saving: also where it
+/// still is not
+struct TakeOpened {
+    bool without_saving = false;
+};
+struct DropOpened {}; ///< "drop_opened": it is forgotten, the part stays
 struct SaveProject {
     std::filesystem::path file;
 }; ///< "save_project"; empty: the one it came from
@@ -455,9 +463,9 @@ using Action =
                  ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
                  SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
                  AddMeasurement, RemoveMeasurement, ClearMeasurements, SetDisplay, SetViewSettings, SetPreferences,
-                 FitView, LookFrom, LookFromSide, FlyTo, FlyToVertex, ShowFault, HideFault, ShowRefused, CloseRefused, KeepReference,
-                 DropReference, Undo, Redo, OpenProject, SaveProject, ExportFiles, WriteReport, Screenshot,
-                 SaveAnimation, DismissMessages, Quit>;
+                 FitView, LookFrom, LookFromSide, FlyTo, HideSpot, FlyToVertex, ShowFault, HideFault, ShowRefused,
+                 CloseRefused, KeepReference, DropReference, Undo, Redo, OpenProject, TakeOpened, DropOpened,
+                 SaveProject, ExportFiles, WriteReport, Screenshot, SaveAnimation, DismissMessages, Quit>;
 
 /// Actions to come, in order.
 class ActionQueue {

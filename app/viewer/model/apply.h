@@ -6,6 +6,9 @@
 
 namespace spia::viewer {
 
+/// Names of the changes that are nothing but runs.
+inline constexpr const char* run_names[] = {"Unfold", "Update all"};
+
 /// One call per kind of action. What throws is told to the user by apply().
 struct ViewerModel::Apply {
     ViewerModel& model;
@@ -16,6 +19,10 @@ struct ViewerModel::Apply {
     /// Before every change that undo brings back. @throws InputError while another file is being read, which takes the place of
     /// what would be changed
     void change(std::string name, bool merge = false);
+    /// Runs what a change of options has just asked for: cancelled before it has brought anything, the change is taken back, so that
+    /// options and results agree.
+    /// @param unsaved  whether there was unsaved work before the change
+    void run_of_change(Stage to, const std::string& title, bool unsaved);
     const PartFile& part() const
     {
         if (!session.part)
@@ -159,6 +166,7 @@ struct ViewerModel::Apply {
     void operator()(const LookFrom& action);
     void operator()(const LookFromSide& action);
     void operator()(const FlyTo& action);
+    void operator()(const HideSpot&);
     void operator()(const FlyToVertex& action);
     /// Every view shows the middle of some vertices of the part.
     void look_at(const std::vector<int>& vertices);
@@ -174,6 +182,8 @@ struct ViewerModel::Apply {
     void operator()(const Redo&) { go(&History::redo); }
     void go(void (History::*way)(Document&));
     void operator()(const OpenProject& action);
+    void operator()(const TakeOpened& action);
+    void operator()(const DropOpened&);
     void operator()(const SaveProject& action);
     void operator()(const ExportFiles& action);
     void operator()(const DismissMessages&);

@@ -21,6 +21,16 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
     model.run_to(Stage::read, "Reading the part again");
 }
 
+void ViewerModel::Apply::run_of_change(Stage to, const std::string& title, bool unsaved)
+{
+    const bool begins = !model.chain_job_;
+    model.run_to(to, title);
+    if (begins && model.chain_job_) {
+        model.run_of_change_ = true;
+        model.unsaved_before_ = unsaved;
+    }
+}
+
 void ViewerModel::Apply::operator()(const SetUnit& action)
 {
     const LengthUnit unit = length_unit(action.unit);
@@ -98,7 +108,8 @@ void ViewerModel::Apply::operator()(const RunTo& action)
         return;
     }
     const bool unsaved = state.unsaved;
-    change(action.stage == Stage::solve ? "Unfold" : "Update all");
+    change(action.stage == Stage::solve ? run_names[0] : run_names[1]);
+    state.unsaved = unsaved; // what is computed comes again by one key: it is no work that could be lost
     if (instead) {
         session.options.steps.reset();
         model.say(Severity::hint, "The one-step blank is used again. The blank of the steps is kept with them.");
@@ -183,22 +194,27 @@ void ViewerModel::Apply::operator()(const SetCorner& action)
                 model.run_to(Stage::fit, "Making the grid");
             return;
         }
+    const bool unsaved = state.unsaved;
     change(fmt::format("Move corner {}", action.corner + 1), true);
     if (!action.dragging)
         state.history.close();
     corners[size_t(action.corner)] = in_file;
     session.options.corners = corners;
     model.dragging_ = action.dragging;
-    model.run_to(action.dragging ? Stage::lift : Stage::fit, "Making the grid");
+    if (action.dragging)
+        model.run_to(Stage::lift, "Making the grid");
+    else
+        run_of_change(Stage::fit, "Making the grid", unsaved);
 }
 
 void ViewerModel::Apply::operator()(const ProposeCorners&)
 {
     require_one_patch();
+    const bool unsaved = state.unsaved;
     change("Propose corners");
     session.options.corners.reset();
     if (session.blank)
-        model.run_to(Stage::fit, "Making the grid");
+        run_of_change(Stage::fit, "Making the grid", unsaved);
 }
 
 void ViewerModel::Apply::operator()(const SetGrid& action)
@@ -207,20 +223,22 @@ void ViewerModel::Apply::operator()(const SetGrid& action)
     if (grid.columns < 0 || grid.rows < 0 || grid.columns > 2000 || grid.rows > 2000 || grid.cells < 1 ||
         grid.cells > 2000)
         throw InputError("A grid has from 1 to 2000 cells each way (0: automatic).");
+    const bool unsaved = state.unsaved;
     change("Change grid", true);
     session.options.grid = grid;
     if (session.blank)
-        model.run_to(Stage::fit, "Making the grid");
+        run_of_change(Stage::fit, "Making the grid", unsaved);
 }
 
 void ViewerModel::Apply::operator()(const SetFit& action)
 {
     SessionOptions options = session.options;
     set_fit(options, action.fit);
+    const bool unsaved = state.unsaved;
     change("Change the surface");
     session.options = std::move(options);
     if (session.lifted || (session.blank && session.options.patches))
-        model.run_to(Stage::fit, "Fitting the surface");
+        run_of_change(Stage::fit, "Fitting the surface", unsaved);
 }
 
 void ViewerModel::Apply::operator()(const SetLimits& action)

@@ -1,5 +1,6 @@
 #include "app/viewer/model/apply.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 
 #include "app/viewer/model/recent_files.h"
@@ -11,10 +12,12 @@ void ViewerModel::Apply::go(void (History::*way)(Document&))
 {
     if (model.chain_job_ || model.steps_job_)
         throw InputError("Cancel the running job first; then undo.");
-    if (way == &History::undo ? state.history.undo_name().empty() : state.history.redo_name().empty())
+    const std::string name = way == &History::undo ? state.history.undo_name() : state.history.redo_name();
+    if (name.empty())
         return;
     (state.history.*way)(document);
-    state.unsaved = true;
+    if (std::find(std::begin(run_names), std::end(run_names), name) == std::end(run_names))
+        state.unsaved = true;
     if (state.refused_file)
         return;
     state.refused.reset(); // of another way to read the part
@@ -29,6 +32,22 @@ void ViewerModel::Apply::operator()(const OpenProject& action)
     Opening opening{project.document, {}, left_behind ? project.recovers : action.file, left_behind};
     opening.project = std::move(project);
     begin_with(std::move(opening));
+}
+
+void ViewerModel::Apply::operator()(const TakeOpened& action)
+{
+    if (!model.waiting_)
+        throw InputError("No file is waiting to be opened.");
+    if (state.unsaved && !action.without_saving)
+        return; // saving has failed: the user is asked again
+    state.read_and_waits.reset();
+    model.take_result(std::move(*std::exchange(model.waiting_, std::nullopt)), "Opening");
+}
+
+void ViewerModel::Apply::operator()(const DropOpened&)
+{
+    if (model.waiting_)
+        model.forget_waiting();
 }
 
 void ViewerModel::Apply::operator()(const SaveProject& action)

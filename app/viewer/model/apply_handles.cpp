@@ -3,6 +3,7 @@
 
 #include "app/viewer/model/apply.h"
 #include "app/viewer/model/handles.h"
+#include "app/viewer/model/measuring.h"
 #include "app/viewer/model/picking.h"
 #include "engine/pipeline/deform_file.h"
 
@@ -21,7 +22,8 @@ void ViewerModel::Apply::deform(std::string name, std::optional<Deformation> def
     change(std::move(name), true);
     if (!dragging)
         state.history.close();
-    session = std::move(changed);
+    const Session before = std::exchange(session, std::move(changed));
+    measure_again(document, before);
     state.shape_dragged = dragging;
     document.made_with.deformation = session.options.deformation;
 }

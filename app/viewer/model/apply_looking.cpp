@@ -54,8 +54,22 @@ void ViewerModel::Apply::operator()(const FlyTo& action)
     if (action.face < 0 || action.face >= mesh.triangles())
         throw InputError(fmt::format("The part has no face {}.", action.face));
     const auto t = mesh.triangle.col(action.face);
+    // From spot to spot the way back leads to where the first one was left.
+    const bool on_the_way = state.spot && state.spot->since == state.view.camera;
+    ShownSpot spot{action.face, on_the_way ? state.spot->before : state.view.camera, {}, session.part};
     look_at({t[0], t[1], t[2]});
-    select({action.face}, PickMode::replace, "Go to face");
+    spot.since = state.view.camera;
+    state.spot = std::move(spot);
+}
+
+void ViewerModel::Apply::operator()(const HideSpot&)
+{
+    if (!state.spot)
+        return;
+    for (const View view : all_views)
+        if (state.view.camera[size_t(view)] == state.spot->since[size_t(view)])
+            state.view.camera[size_t(view)] = state.spot->before[size_t(view)];
+    state.spot.reset();
 }
 
 void ViewerModel::Apply::operator()(const FlyToVertex& action)

@@ -30,12 +30,14 @@ void ViewerModel::Apply::end_runs()
         model.steps_job_->cancel();
         model.ending_steps_.push_back(std::move(model.steps_job_));
     }
+    model.forget_waiting();
     model.opening_beside_.reset();
     model.steps_next_ = model.keep_step_ = false;
     model.next_.reset();
     model.next_in_one_step_ = false;
     model.blank_next_.reset();
     model.unsaved_before_.reset();
+    model.run_of_change_ = false;
     model.dragging_ = false;
     state.job = JobView{};
 }

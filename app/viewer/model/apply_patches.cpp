@@ -12,10 +12,11 @@ void ViewerModel::Apply::change_patches(std::string name, std::optional<LayoutOp
     part();
     if (session.options.patches == patches)
         return;
+    const bool unsaved = state.unsaved;
     change(std::move(name));
     session.options.patches = std::move(patches);
     if (session.blank)
-        model.run_to(Stage::fit, session.options.patches ? "Making the patches" : "Making one patch");
+        run_of_change(Stage::fit, session.options.patches ? "Making the patches" : "Making one patch", unsaved);
 }
 
 void ViewerModel::Apply::operator()(const AddCut&)

@@ -226,11 +226,14 @@ void ViewerModel::Apply::operator()(const ClearSection&)
 
 void ViewerModel::Apply::operator()(const AddMeasurement& action)
 {
-    const TriMesh& mesh = part().mesh;
+    part();
     Measurement made = action.measurement;
-    const bool by_region = made.kind == MeasureKind::rounding;
+    const std::shared_ptr<const TriMesh> mesh = measured_mesh(state, made.on);
+    if (!mesh)
+        throw InputError(fmt::format("There is nothing to measure in the view {} yet.", title(made.on)));
+    const bool by_region = made.kind == MeasureKind::rounding && made.on == View::part;
     made.found =
-        std::make_shared<const Measured>(measured(mesh, made, by_region ? &model.pickers_.regions(session) : nullptr));
+        std::make_shared<const Measured>(measured(*mesh, made, by_region ? &model.pickers_.regions(session) : nullptr));
     change("Measure");
     document.measurements.push_back(std::move(made));
 }

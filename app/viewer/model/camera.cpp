@@ -201,6 +201,15 @@ Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margin
     return camera;
 }
 
+Camera between(const Camera& from, const Camera& to, double share)
+{
+    Camera camera = to;
+    camera.target = glm::mix(from.target, to.target, share);
+    camera.turn = glm::normalize(glm::slerp(from.turn, to.turn, share));
+    camera.height = from.height * std::pow(to.height / from.height, share);
+    return camera;
+}
+
 Camera look(Camera camera, StandardView view)
 {
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);

@@ -56,6 +56,8 @@ struct Margins {
 };
 /// Shows all points, as large as the margins allow, without turning. @param point 3 by #points, mm
 Camera fit(Camera camera, const Eigen::Matrix3Xd& point, glm::dvec2 size, Margins margins);
+/// On the way from one camera to another: 0 is the first, 1 the second. Turns by the shortest way, and grows evenly for the eye.
+Camera between(const Camera& from, const Camera& to, double share);
 /// Turns to a standard view about the target.
 Camera look(Camera camera, StandardView view);
 

@@ -10,6 +10,7 @@
 #include "app/viewer/model/process_choice.h"
 #include "app/viewer/model/scene.h"
 #include "app/viewer/model/unfolding_steps.h"
+#include "app/viewer/model/view.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::viewer {
@@ -37,13 +38,13 @@ struct Probe {
     Eigen::Vector3d barycentric{1. / 3, 1. / 3, 1. / 3};
 };
 
-/// What is measured on the part as it is formed.
+/// What is measured, on the part as it is formed or in another picture.
 enum class MeasureKind {
     distance, ///< between two places
     angle,    ///< at the second of three places
     faces,    ///< between two faces: how far the sheet turns from one to the other
     circle,   ///< through three places
-    rounding  ///< the cylinder through the rounded piece of sheet around a place
+    rounding  ///< the cylinder through the rounded piece of sheet around a place, else its curvature there
 };
 std::string_view name(MeasureKind kind);
 size_t places_of(MeasureKind kind); ///< how many are picked
@@ -52,6 +53,7 @@ struct Measured;
 struct Measurement {
     MeasureKind kind = MeasureKind::distance;
     std::vector<Probe> at;
+    View on = View::part;                       ///< whose faces `at` means, see measured_mesh() in measuring.h
     std::shared_ptr<const Measured> found = {}; ///< never null in a document, see measuring.h
 };
 

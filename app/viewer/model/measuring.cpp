@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "app/viewer/model/curvature_at.h"
+#include "app/viewer/model/flat_mesh.h"
 #include "app/viewer/model/lengths.h"
 #include "app/viewer/model/names.h"
 #include "engine/core/error.h"
@@ -129,6 +131,46 @@ double swept(const TriMesh& part, const FaceSet& faces, const CylinderFace& cyli
     return 2 * std::numbers::pi - gap;
 }
 
+double region_size(const TriMesh& part, const FaceSet& faces)
+{
+    Eigen::AlignedBox3d box;
+    for (const int f : faces)
+        for (const int v : part.triangle.col(f))
+            box.extend(part.position.col(v));
+    return box.diagonal().norm();
+}
+
+/// Where the sheet bends but is no cylinder: its radius across the bend at the place that was clicked.
+Measured freeform_bend(const TriMesh& part, const Probe& probe, const FaceSet& region, const char* instead)
+{
+    const CurvatureAt here = curvature_at(part, probe.face, place(part, probe), region);
+    const double most = std::abs(here.curvature[0]), least = std::abs(here.curvature[1]);
+    // What the sheet rises over the patch has to stand out from how far the patch is from the fitted face.
+    const double rise = 0.5 * most * here.reach_mm * here.reach_mm;
+    constexpr double flat = 1e-4; // of the patch's reach: what is read from single precision is no flatter
+    if (rise < std::max(2 * here.distance_mm, flat * here.reach_mm))
+        throw InputError(fmt::format("The sheet is flat here: within {:.3g} mm over a circle of {:.3g} mm. It has no "
+                                     "radius; click where it bends.",
+                                     std::max(rise, here.distance_mm), 2 * here.reach_mm));
+    Measured found;
+    found.value = 1 / most;
+    found.residual = here.distance_mm;
+    constexpr double straight = 100; // times the radius: along the bend nobody sees that it is curved
+    found.more = {
+        {"Measured", {}, fmt::format("curvature here ({})", instead)},
+        {"Radius along the bend", least * straight > most ? std::vector{1 / least} : std::vector<double>{}, "straight"},
+        {"Over a circle of", {2 * here.reach_mm}},
+        {"Farthest from the fit", {here.distance_mm}},
+        {"Fit", {}, fmt::format("{:.1f} % of the rise of {:.3g} mm", 100 * here.distance_mm / rise, rise)},
+        {"Side", {}, here.curvature[0] < 0 ? "outer, bulges" : "inner, hollow"}};
+    const Vector3d middle = here.place + here.normal / here.curvature[0], arm = here.place - middle;
+    const Vector3d axis = here.normal.cross(here.across).normalized();
+    constexpr double half = 60 * degree; // of the circle that lies on the bend
+    found.line = {polyline({middle, here.place}), arc(middle, Eigen::AngleAxisd(-half, axis) * arm, axis, 2 * half)};
+    found.label = here.place;
+    return found;
+}
+
 Measured rounding(const TriMesh& part, const Probe& probe, const RegionSearch& regions)
 {
     const FaceSet faces = regions.smooth_region(probe.face);
@@ -138,27 +180,24 @@ Measured rounding(const TriMesh& part, const Probe& probe, const RegionSearch& r
     for (const double tolerance : tolerances)
         if (!fit)
             fit = fit_binder(part, faces, tolerance);
-    if (!fit)
-        throw InputError(
-            "The sheet around this place is not round: no cylinder goes through it within 1 % of its size. "
-            "Measure the circle through three places instead.");
+    if (!fit || std::holds_alternative<ConeFace>(fit->face))
+        return freeform_bend(part, probe, faces, fit ? "cone" : "no cylinder");
+    if (std::holds_alternative<PlaneFace>(fit->face) && fit->distance_mm > tolerances[0] * region_size(part, faces))
+        return freeform_bend(part, probe, faces, "no cylinder"); // a gentle bend is not flat
     if (std::holds_alternative<PlaneFace>(fit->face))
         throw InputError(
             fmt::format("The sheet around this place is flat (within {:.3g} mm): it has no radius. Click on "
                         "the rounded faces of a bend.",
                         fit->distance_mm));
-    const auto* found_cylinder = std::get_if<CylinderFace>(&fit->face);
-    if (!found_cylinder)
-        throw InputError("The sheet around this place is a cone: its radius changes along it. Measure the circle "
-                         "through three places instead.");
-    const CylinderFace& cylinder = *found_cylinder;
+    const CylinderFace& cylinder = std::get<CylinderFace>(fit->face);
     const Vector3d at = place(part, probe);
     const Vector3d foot = cylinder.origin + cylinder.axis.dot(at - cylinder.origin) * cylinder.axis;
     const double around = swept(part, faces, cylinder);
     Measured found;
     found.value = cylinder.radius;
     found.residual = fit->distance_mm;
-    found.more = {{"Farthest from the cylinder", {fit->distance_mm}},
+    found.more = {{"Measured", {}, "cylinder through the bend"},
+                  {"Farthest from the cylinder", {fit->distance_mm}},
                   {"Turns by", {}, fmt::format("{:.1f} deg", around / degree)},
                   {"Faces", {}, fmt::format("{}", faces.size())},
                   {"Side", {}, cylinder.bulges ? "outer, bulges" : "inner, hollow"}};
@@ -200,11 +239,12 @@ const char* title(MeasureKind kind)
 const char* advice(MeasureKind kind)
 {
     switch (kind) {
-    case MeasureKind::distance: return "Click two places on the part";
-    case MeasureKind::angle: return "Click three places on the part; the angle is at the second one";
+    case MeasureKind::distance: return "Click two places";
+    case MeasureKind::angle: return "Click three places; the angle is at the second one";
     case MeasureKind::faces: return "Click two faces: the angle between their normals";
-    case MeasureKind::circle: return "Click three places on the part: the circle through them";
-    case MeasureKind::rounding: return "Click a rounded piece of sheet: the cylinder through it";
+    case MeasureKind::circle: return "Click three places: the circle through them";
+    case MeasureKind::rounding:
+        return "Click a rounded piece of sheet: the cylinder through it, else its radius at that place";
     }
     return "";
 }
@@ -218,7 +258,7 @@ Measured measured(const TriMesh& part, const Measurement& measurement, const Reg
                                      at.size() == 1 ? "is" : "are", at.size()));
     for (const Probe& probe : at)
         if (probe.face < 0 || probe.face >= part.triangles())
-            throw InputError(fmt::format("The part has no face {}.", probe.face));
+            throw InputError(fmt::format("There is no face {}.", probe.face));
     switch (measurement.kind) {
     case MeasureKind::distance: return distance(place(part, at[0]), place(part, at[1]));
     case MeasureKind::angle: return angle(place(part, at[0]), place(part, at[1]), place(part, at[2]));
@@ -255,20 +295,41 @@ std::string text_of(const Measured::Figure& figure, LengthUnit unit)
     return fmt::format("{} {}", text, length_word(unit));
 }
 
-void measure_again(Document& document)
+static void measure_again(Document& document, bool part_is_other, bool blank_is_other, bool quads_are_others,
+                          bool surface_is_other)
 {
+    const bool others[] = {part_is_other, blank_is_other, quads_are_others, surface_is_other}; // by View
+    const Session& session = document.session;
     for (Measurement& each : std::exchange(document.measurements, {}))
         try {
-            each.found = std::make_shared<const Measured>(measured(document.session.part->mesh, each));
+            if (others[size_t(each.on)]) {
+                if (!keeps_faces(each.on) || (each.on == View::blank && !session.blank))
+                    continue;
+                const TriMesh& part = session.part->mesh;
+                each.found = std::make_shared<const Measured>(
+                    each.on == View::part ? measured(part, each)
+                                          : measured(flat_mesh(part, session.blank->blank), each));
+            }
             document.measurements.push_back(std::move(each));
         } catch (const InputError&) {
             continue;
         }
 }
 
+void measure_again(Document& document) { measure_again(document, true, true, true, true); }
+
+void measure_again(Document& document, const Session& before)
+{
+    const Session& now = document.session;
+    measure_again(document, now.part != before.part, now.blank != before.blank,
+                  now.lifted != before.lifted || now.surface != before.surface,
+                  now.surface != before.surface || now.deformed != before.deformed);
+}
+
 std::optional<double> on_blank(const Session& session, const Measurement& measurement)
 {
-    if (measurement.kind != MeasureKind::distance || measurement.at.size() != 2 || !session.blank || !session.part)
+    if (measurement.on != View::part || measurement.kind != MeasureKind::distance || measurement.at.size() != 2 ||
+        !session.blank || !session.part)
         return std::nullopt;
     const auto flat = [&](const Probe& probe) -> Eigen::Vector2d {
         return session.blank->blank.position(Eigen::all, session.part->mesh.triangle.col(probe.face)) *

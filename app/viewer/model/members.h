@@ -236,7 +236,7 @@ inline constexpr auto members_of<Probe> =
     std::tuple{required("face", &Probe::face, any_index), member("barycentric", &Probe::barycentric, is_barycentric)};
 template <>
 inline constexpr auto members_of<Measurement> =
-    std::tuple{required("kind", &Measurement::kind), required("at", &Measurement::at)};
+    std::tuple{required("kind", &Measurement::kind), required("at", &Measurement::at), member("on", &Measurement::on)};
 
 template <>
 inline constexpr auto members_of<FieldDisplay> = std::tuple{member("field", &FieldDisplay::field),

@@ -1,6 +1,7 @@
 #include "app/viewer/model/pickers.h"
 
 #include "app/viewer/model/flat_mesh.h"
+#include "app/viewer/model/measuring.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 
@@ -81,6 +82,28 @@ const RayPicker* Pickers::picker(const Session& session, View view)
 const RayPicker* Pickers::ready_picker(const Session& session, View view)
 {
     return mesh(session, view) ? search(view).picker.peek() : nullptr;
+}
+
+const TriMesh* Pickers::measuring_mesh(const ViewerState& state, View view)
+{
+    const Session& session = state.document.session;
+    if (view == View::part || view == View::blank)
+        return mesh(session, view);
+    MeasuredOn& on = measured_[view == View::quads ? 0 : 1];
+    const LaterResults now = view == View::quads ? quads_shown(state) : surface_shown(state);
+    if (now.lifted != on.of.lifted || now.surface != on.of.surface || session.deformed != on.deformed) {
+        on = {now, session.deformed, measured_mesh(state, view), nullptr};
+        if (on.mesh)
+            on.picker = std::make_shared<RayPicker>(*on.mesh);
+    }
+    return on.mesh.get();
+}
+
+const RayPicker* Pickers::measuring_picker(const ViewerState& state, View view)
+{
+    if (view == View::part || view == View::blank)
+        return picker(state.document.session, view);
+    return measuring_mesh(state, view) ? measured_[view == View::quads ? 0 : 1].picker.get() : nullptr;
 }
 
 const RegionSearch& Pickers::regions(const Session& session)

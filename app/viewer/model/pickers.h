@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,6 +32,9 @@ public:
     const RayPicker* ready_picker(const Session& session, View view);
     /// The faces as the view shows them. Null likewise.
     const TriMesh* mesh(const Session& session, View view);
+    /// Of what is measured on in a view, see measured_mesh(). Null if it shows nothing.
+    const RayPicker* measuring_picker(const ViewerState& state, View view);
+    const TriMesh* measuring_mesh(const ViewerState& state, View view);
     const RegionSearch& regions(const Session& session); ///< the part must be there
     const CornerTrack& track(const Session& session);    ///< the blank must be there
     /// The part must be there.
@@ -59,6 +63,14 @@ private:
     std::shared_ptr<const FlattenResult> blank_;
     std::shared_ptr<const TriMesh> flat_; ///< the blank as a mesh in space
     Search on_part_, on_blank_, on_unfolded_;
+    /// Made when it is first measured on.
+    struct MeasuredOn {
+        LaterResults of;
+        std::shared_ptr<const DeformedSurface> deformed;
+        std::shared_ptr<const TriMesh> mesh;
+        std::shared_ptr<const RayPicker> picker;
+    };
+    std::array<MeasuredOn, 2> measured_; ///< of quad mesh and surface
     std::shared_ptr<const StepsRun> run_;
     size_t steps_ = 0;                        ///< of the run, after which the part is shown
     std::shared_ptr<const TriMesh> unfolded_; ///< the part then; null: it is shown as it is

@@ -14,13 +14,9 @@
 #include "app/viewer/model/message.h"
 #include "app/viewer/model/mouse_style.h"
 #include "app/viewer/model/preferences.h"
+#include "app/viewer/model/view.h"
 
 namespace spia::viewer {
-
-enum class View { part, blank, quads, surface };
-inline constexpr View all_views[] = {View::part, View::blank, View::quads, View::surface};
-std::string_view name(View view);         ///< "part", ...
-View view_by_name(std::string_view name); ///< @throws InputError
 
 enum class Tool {
     look,
@@ -96,6 +92,14 @@ struct ShownFault {
     Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< mm
 };
 
+/// A face that the views went to: it has a mark of its own, what is selected stays.
+struct ShownSpot {
+    int face = 0;                            ///< of the part
+    std::array<Camera, 4> before = {};       ///< of the views, to go back to
+    std::array<Camera, 4> since = {};        ///< likewise, there: one that was moved on stays
+    std::shared_ptr<const PartFile> of = {}; ///< the part whose face it is
+};
+
 /// The running chain or export as the window sees it; ViewerModel::poll() keeps it up to date.
 struct JobView {
     bool running = false;
@@ -159,8 +163,11 @@ struct ViewerState {
     std::shared_ptr<const PartFile> refused; ///< the part that could not be taken, to look at its faults; null: none
     std::optional<RefusedFile> refused_file; ///< whose mesh that is; null: the file of the document
     std::optional<ShownFault> fault;         ///< the one that is looked at
-    std::optional<int> hovered_vertex;       ///< which a click would pick, with a tool for vertices
-    std::optional<FileListing> listing;      ///< the file that is looked into
+    std::optional<ShownSpot> spot;           ///< likewise a face
+    std::optional<std::filesystem::path>
+        read_and_waits; ///< a file that is read and would take the place of work that is not saved: the user is asked
+    std::optional<int> hovered_vertex;                ///< which a click would pick, with a tool for vertices
+    std::optional<FileListing> listing;               ///< the file that is looked into
     std::shared_ptr<const std::vector<Grade>> grades; ///< that can be chosen, see grades.h; never null
     std::shared_ptr<const Reference> reference;       ///< an earlier result to be compared with; null: none
     std::shared_ptr<const Differences> differences;   ///< from it, see comparison.h; null: none

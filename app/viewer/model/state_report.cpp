@@ -354,6 +354,7 @@ Json state_report(const ViewerState& state)
             {"unfolding", unfolding_json(state)},
             {"probes", probes_json(document, field)},
             {"measurements", measurements_json(document)},
+            {"spot", state.spot ? Json(state.spot->face) : Json(nullptr)},
             {"display", written(document.display)},
             {"field", field_json(document, field)},
             {"view", written(state.view)},
@@ -371,7 +372,10 @@ Json state_report(const ViewerState& state)
               {"step", state.job.step},
               {"fraction", state.job.fraction},
               {"steps", state.job.residual.size()}}},
-            {"project", {{"file", state.project.string()}, {"unsaved", state.unsaved}}},
+            {"project",
+             {{"file", state.project.string()},
+              {"unsaved", state.unsaved},
+              {"waits", state.read_and_waits ? state.read_and_waits->string() : ""}}},
             {"hovered", state.hovered ? Json(*state.hovered) : Json(nullptr)},
             {"hovered_vertex", written(state.hovered_vertex)}};
 }

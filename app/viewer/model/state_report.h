@@ -17,7 +17,7 @@ namespace spia::viewer {
 /// | `distance` | of two picked vertices: null, or straight `part`, `blank` (mm; null: none yet) |
 /// | `regions[]` | `name`, `kind`, `colour`, `faces`, `first` |
 /// | `probes[]` | `face`, `barycentric`, `at` (mm), `value` of the field shown, in its unit (null: none) |
-/// | `measurements[]` | `kind`, `at` (as in add_measurement), `value` (mm, of angles degrees), `text`, `residual` (mm, of a rounding; else null), `on_blank` (mm, of a distance once there is a blank) |
+/// | `measurements[]` | `kind`, `at`, `on` (as in add_measurement), `value` (mm, of angles degrees), `text`, `residual` (mm, of a rounding; else null), `on_blank` (mm, of a distance once there is a blank) |
 /// | `display` | as in the script action set_display |
 /// | `grades` | that can be chosen: `built_in[]`, `own[]`, `at_fault` (why, by the stem of the file) |
 /// | `comparison` | null, or `reference` (its name), `by_face` (whether there are differences), `outline_distance` (mm), `figures` (`reference`, `now` of each) |
@@ -27,7 +27,8 @@ namespace spia::viewer {
 /// | `history` | `undo`, `redo`: names of the changes; "" where there is none |
 /// | `messages[]` | `severity` (hint, done, warning, error), `text`; the newest last |
 /// | `job` | `running`, `cancelling`, `title`, `step`, `fraction`, `steps` (residuals so far) |
-/// | `project` | `file` ("" if none), `unsaved` |
+/// | `spot` | the face that `fly_to` has marked; null: none |
+/// | `project` | `file` ("" if none), `unsaved`, `waits` (a file that is read while the user is asked about unsaved work; "" if none) |
 /// | `hovered` | face under the mouse, or null |
 /// | `hovered_vertex` | which a click would pick, or null |
 /// | `frames`, `frames_while_solving` | of the window only: how many, and `p50_ms`, `p99_ms`, `max_ms` it was busy with one |

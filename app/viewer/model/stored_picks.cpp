@@ -162,6 +162,8 @@ StoredPicks store_picks(const Document& document)
     for (const Probe& probe : document.probes)
         picks.probes.push_back(stored(probe));
     for (const Measurement& measurement : document.measurements) {
+        if (measurement.on != View::part)
+            continue; // of a result, which is not kept either
         picks.measurements.push_back({measurement.kind, {}});
         for (const Probe& probe : measurement.at)
             picks.measurements.back().at.push_back(stored(probe));

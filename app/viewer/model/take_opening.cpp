@@ -47,6 +47,17 @@ void ViewerModel::say_not_opened(const Opening& opening, const ChainResult& resu
     say(Severity::error, fmt::format("{} {} is still open.", sentence(why), open));
 }
 
+void ViewerModel::forget_waiting()
+{
+    state_.read_and_waits.reset();
+    if (!std::exchange(waiting_, std::nullopt))
+        return;
+    opening_beside_.reset();
+    opening_ = false;
+    next_.reset(); // was for that part
+    next_in_one_step_ = false;
+}
+
 /// What was read while another part was open takes its place, if it is there. @returns whether it is
 bool ViewerModel::take_opening(const ChainResult& result)
 {
@@ -83,6 +94,7 @@ void ViewerModel::replace_document(Opening opening)
     state_.refused.reset();
     state_.refused_file.reset();
     state_.fault.reset();
+    state_.spot.reset();
     keep_cameras_ = false;
     ++documents_;
 }

@@ -21,6 +21,17 @@ void ViewerModel::take_chain_result()
         say(Severity::error, error.what());
         return;
     }
+    if (opening_beside_ && result.session.part && asks_ && state_.unsaved) { // first it is read, then the user is asked
+        const Opening& opening = *opening_beside_;
+        state_.read_and_waits = opening.project_file.empty() ? opening.document.session.file : opening.project_file;
+        waiting_ = std::move(result);
+        return;
+    }
+    take_result(std::move(result), title);
+}
+
+void ViewerModel::take_result(ChainResult result, const std::string& title)
+{
     if (opening_beside_ && !take_opening(result))
         return;
     Document& document = state_.document;
@@ -33,7 +44,7 @@ void ViewerModel::take_chain_result()
     // What was picked during the run is taken back without it.
     state_.history.update_since(depth_at_start_, [&](Document& changed) { take_over(changed, result); });
     keep_before(result, quads, surface);
-    forget_run_without_result(result, before);
+    const bool taken_back = forget_run_without_result(result, before);
     opening_ = false;
     if (document.session.part != before.part) {
         state_.refused.reset();
@@ -47,7 +58,11 @@ void ViewerModel::take_chain_result()
         fitter_.fit(state_, View::blank);
     if (document.session.blank)
         keep_cameras_ = false;
-    if (result.cancelled)
+    if (taken_back)
+        say(Severity::hint,
+            fmt::format("{}: cancelled. The options are again those of the result that is shown.", title),
+            about_refusal(state_));
+    else if (result.cancelled)
         say(Severity::hint, fmt::format("{}: cancelled. Finished results are kept.", title), about_refusal(state_));
     else if (result.failed)
         say_failed(result);
@@ -64,20 +79,31 @@ void ViewerModel::take_chain_result()
         run_missing_steps();
 }
 
-/// A run that was cancelled or failed before it had anything new is no change: nothing to take back or to save.
-void ViewerModel::forget_run_without_result(const ChainResult& result, const Session& before)
+/// A run that was cancelled or failed before it had anything new is no change: nothing to take back or to save. If it was to make what a
+/// change of options asks for, that change is taken back with it. @returns whether it was
+bool ViewerModel::forget_run_without_result(const ChainResult& result, const Session& before)
 {
     const auto unsaved_before = std::exchange(unsaved_before_, std::nullopt);
+    const bool of_change = std::exchange(run_of_change_, false);
     const Session& now = result.session;
     if (!unsaved_before || !(result.cancelled || result.failed) || state_.history.depth() != depth_at_start_ ||
         now.part != before.part || now.blank != before.blank || now.grid != before.grid)
-        return;
+        return false;
+    if (of_change) { // one that has failed stays, for its advice to be followed
+        if (!result.cancelled || now.lifted != before.lifted || now.surface != before.surface)
+            return false;
+        state_.history.undo(state_.document);
+        state_.unsaved &= *unsaved_before;
+        state_.before = {};
+        return true;
+    }
     state_.history.forget_last();
     state_.unsaved &= *unsaved_before;
     if (now.blank)
         state_.document.session.options.steps = state_.document.made_with.steps;
     else
         state_.document.session.options.steps.reset();
+    return false;
 }
 
 /// A run that has made another grid and went no further leaves the quad mesh and the surface of the last one to be looked at;
@@ -132,6 +158,7 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     if (renumbered)
         picks = store_picks(document);
     const std::shared_ptr<const SurfaceStage> surface_before = document.session.surface;
+    const Session session_before = document.session;
     SessionOptions wanted = std::move(document.session.options); // may have changed meanwhile
     document.session = result.session;
     document.session.options = std::move(wanted);
@@ -144,8 +171,8 @@ std::vector<std::string> ViewerModel::take_over(Document& document, const ChainR
     if (before && before != after)
         document.section.reset();
     if (!picks) {
-        if (before && after && before != after)
-            measure_again(document);
+        if (before && after)
+            before != after ? measure_again(document) : measure_again(document, session_before);
         return lost;
     }
     document.selected.clear();

@@ -1,6 +1,13 @@
 #include "app/viewer/model/view_fitter.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace spia::viewer {
 namespace {
@@ -27,13 +34,88 @@ Eigen::Matrix3Xd places_in_space(const ViewerState& state, const PartFile& part)
 
 } // namespace
 
+namespace {
+
+/// Whether a straight line parts the points from a square in the upper right corner of the view.
+bool clear_of_corner(const Camera& camera, const Eigen::Matrix3Xd& place, glm::dvec2 size, double side)
+{
+    if (!(side > 0))
+        return true;
+    constexpr int ways = 16;
+    std::array<double, ways + 1> reach; // how far the points go towards the corner, seen from where the square begins
+    reach.fill(-std::numeric_limits<double>::infinity());
+    const glm::dvec2 inner(size.x - side, side);
+    for (Eigen::Index i = 0; i < place.cols(); ++i) {
+        const glm::dvec2 from = glm::dvec2(pixel_of(camera, place.col(i), size)) - inner;
+        for (size_t k = 0; k <= ways; ++k) {
+            const double angle = double(k) / ways * std::numbers::pi / 2;
+            reach[k] = std::max(reach[k], std::cos(angle) * from.x - std::sin(angle) * from.y);
+        }
+    }
+    return std::any_of(reach.begin(), reach.end(), [](double r) { return r < 0; });
+}
+
+/// Of very many points those at the outline of the picture, to a small part of a pixel of what they fill.
+Eigen::Matrix3Xd outermost(const Camera& camera, const Eigen::Matrix3Xd& place)
+{
+    constexpr Eigen::Index many = 50000;
+    constexpr int columns = 1024; // of the picture
+    if (place.cols() < many || camera.perspective)
+        return place;
+    const auto row = [&](glm::dvec3 way) { return Eigen::RowVector3d(way.x, way.y, way.z) * place; };
+    const Eigen::RowVectorXd x = row(camera.turn * glm::dvec3(1, 0, 0)), y = row(camera.turn * glm::dvec3(0, 1, 0));
+    Eigen::Index left = 0, right = 0;
+    const double from = x.minCoeff(&left), width = x.maxCoeff(&right) - from;
+    std::vector<Eigen::Index> low(columns, -1), high(columns, -1), kept{left, right};
+    for (Eigen::Index i = 0; i < place.cols(); ++i) {
+        const auto k = size_t(width > 0 ? std::min(columns - 1., columns * (x[i] - from) / width) : 0);
+        if (low[k] < 0 || y[i] < y[low[k]])
+            low[k] = i;
+        if (high[k] < 0 || y[i] > y[high[k]])
+            high[k] = i;
+    }
+    for (const auto& column : {low, high})
+        std::copy_if(column.begin(), column.end(), std::back_inserter(kept), [](Eigen::Index i) { return i >= 0; });
+    return place(Eigen::all, kept);
+}
+
+} // namespace
+
+Camera ViewFitter::beside(const ViewerState& state, View view, const Camera& camera,
+                          const Eigen::Matrix3Xd& all_places) const
+{
+    if (all_places.cols() == 0)
+        return camera;
+    const Eigen::Matrix3Xd place = outermost(camera, all_places);
+    const glm::dvec2 size = size_[size_t(view)];
+    const Margins free = margins(state, view);
+    const double cube = camera.flat ? 0 : covered_[size_t(view)].cube;
+    const Camera past = viewer::fit(camera, place, size, free);
+    if (clear_of_corner(past, place, size, cube))
+        return past;
+    Margins left_of = free, below = free;
+    left_of.right = std::max(free.right, cube);
+    below.top = std::max(free.top, cube);
+    const Camera a = viewer::fit(camera, place, size, left_of), b = viewer::fit(camera, place, size, below);
+    Camera best = a.height <= b.height ? a : b;
+    // Past the corner, where the part may be larger than beside the whole square: halfway to either margin and so on.
+    for (const auto& [across, down] : {std::pair(0.5, 0.5), {0.3, 0.6}, {0.6, 0.3}, {0.3, 0.3}, {0., 0.5}, {0.5, 0.}}) {
+        Margins some = free;
+        some.right = std::max(free.right, across * cube);
+        some.top = std::max(free.top, down * cube);
+        const Camera tried = viewer::fit(camera, place, size, some);
+        if (tried.height < best.height && clear_of_corner(tried, place, size, cube))
+            best = tried;
+    }
+    return best;
+}
+
 void ViewFitter::fit(ViewerState& state, std::optional<View> only)
 {
     const Session& session = state.document.session;
     if (shows_refused(state) && only.value_or(View::part) == View::part) { // the others show the part that is open
         Camera& camera = state.view.camera[size_t(View::part)];
-        camera =
-            viewer::fit(camera, state.refused->mesh.position, size_[size_t(View::part)], margins(state, View::part));
+        camera = beside(state, View::part, camera, state.refused->mesh.position);
         fitted_[size_t(View::part)] = camera;
         if (!only)
             fit_blank(state);
@@ -64,9 +146,7 @@ void ViewFitter::fit_blank(ViewerState& state)
 void ViewFitter::fit_space(ViewerState& state, const PartFile& part, std::optional<View> only)
 {
     const Eigen::Matrix3Xd places = places_in_space(state, part);
-    const auto fitted = [&](View view, const Camera& camera) {
-        return viewer::fit(camera, places, size_[size_t(view)], margins(state, view));
-    };
+    const auto fitted = [&](View view, const Camera& camera) { return beside(state, view, camera, places); };
     const auto set = [&](View view, const Camera& camera) {
         fitted_[size_t(view)] = state.view.camera[size_t(view)] = camera;
     };
@@ -89,11 +169,12 @@ void ViewFitter::fit_space(ViewerState& state, const PartFile& part, std::option
         set(view, *widest);
 }
 
-void ViewFitter::resized(ViewerState& state, View view, glm::dvec2 size, double scale)
+void ViewFitter::resized(ViewerState& state, View view, glm::dvec2 size, double scale, const Covered& covered)
 {
     scale_ = scale;
+    const Covered before = std::exchange(covered_[size_t(view)], covered);
     const Margins now = margins(state, view); // the legend may have come or gone
-    if (size_[size_t(view)] == size && margins_[size_t(view)] == now)
+    if (size_[size_t(view)] == size && margins_[size_t(view)] == now && before.cube == covered.cube)
         return;
     size_[size_t(view)] = size;
     margins_[size_t(view)] = now;
@@ -101,10 +182,9 @@ void ViewFitter::resized(ViewerState& state, View view, glm::dvec2 size, double 
         fit(state, view);
 }
 
-/// Beside what is shown there is room for the legend if there is one.
-Margins ViewFitter::margins(const ViewerState& state, View view) const
+/// Pixels at content scale 1 that stay free on the left of a view, where its legend is if there is one.
+static double room_for_legend(const ViewerState& state, View view, double around, double drawn_legend)
 {
-    constexpr double around = 24; // pixels
     const Document& document = state.document;
     const bool of_sheet = view == View::part || view == View::blank;
     const double legend = of_sheet && document.display.field == Field::zone ? 122 // names instead of numbers
@@ -116,7 +196,25 @@ Margins ViewFitter::margins(const ViewerState& state, View view) const
                           : view == View::surface                    ? has_scale(state.view.surface_look)
                           : stepwise ? state.view.field_on_steps && available_in_steps(document.display.field)
                                      : document.display.field != Field::none;
-    return {(around + (coloured ? legend : 0)) * scale_, around * scale_, around * scale_, around * scale_};
+    if (!coloured)
+        return around;
+    // As it was drawn last; it is estimated before that. Its numbers change with the field: in steps, or the part would tremble.
+    constexpr double gap = 10, step = 8; // pixels
+    return std::max(around + legend, drawn_legend > 0 ? step * std::ceil((drawn_legend + gap) / step) : 0);
+}
+
+/// Beside what is shown there is room for the legend if there is one; views with one camera have the same room.
+Margins ViewFitter::margins(const ViewerState& state, View view) const
+{
+    constexpr double around = 24; // pixels
+    const auto room = [&](View of) { return room_for_legend(state, of, around, covered_[size_t(of)].legend / scale_); };
+    double left = room(view);
+    const std::optional<View> alone = state.view.maximised;
+    if (view != View::blank && state.view.linked && !shows_refused(state))
+        for (const View other : {View::part, View::quads, View::surface})
+            if (!alone || *alone == other)
+                left = std::max(left, room(other));
+    return {left * scale_, around * scale_, around * scale_, around * scale_};
 }
 
 } // namespace spia::viewer

@@ -63,7 +63,12 @@ public:
     bool opening_beside() const { return opening_beside_.has_value(); }
     /// The size of a view on the screen: what "fit" fills. Pixels, and how many of them one of the design is. A view that
     /// has not been moved since it was fitted is so again.
-    void resized(View view, glm::dvec2 size, double scale = 1) { fitter_.resized(state_, view, size, scale); }
+    void resized(View view, glm::dvec2 size, double scale = 1, const Covered& covered = {})
+    {
+        fitter_.resized(state_, view, size, scale, covered);
+    }
+    /// Whether a file that is read waits for TakeOpened or DropOpened where work is not saved; else it takes the place at once.
+    void ask_before_replacing(bool ask) { asks_ = ask; }
 
 private:
     struct Live; ///< what the solver tells while it runs
@@ -79,7 +84,9 @@ private:
 
     void start(Stage from, Stage to, std::string title, const Document& document);
     void replace_document(Opening opening);
+    void take_result(ChainResult result, const std::string& title);
     bool take_opening(const ChainResult& result);
+    void forget_waiting(); ///< the file that is read and waits for the user's word
     void say_not_opened(const Opening& opening, const ChainResult& result);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
@@ -89,7 +96,7 @@ private:
     std::vector<std::string> restore(Document& document, const StoredPicks& picks,
                                      const std::shared_ptr<const ClosestPointSearch>& search) const;
     void keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface);
-    void forget_run_without_result(const ChainResult& result, const Session& before);
+    bool forget_run_without_result(const ChainResult& result, const Session& before);
     void say_failed(const ChainResult& result);
     void take_export_result();
     void start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work);
@@ -137,9 +144,12 @@ private:
     DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
     int openings_ = 0, documents_ = 0;
     std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job
-    bool opening_ = false;                  ///< the running job reads a new part
-    std::optional<Opening> opening_beside_; ///< while the part before is still open
-    std::optional<Project> project_;        ///< waits for its part
+    bool opening_ = false;                                              ///< the running job reads a new part
+    std::optional<Opening> opening_beside_;                             ///< while the part before is still open
+    std::optional<ChainResult> waiting_; ///< what was read for it, while the user is asked
+    bool asks_ = false;                  ///< see ask_before_replacing()
+    bool run_of_change_ = false;         ///< the running job makes what the last change of options asks for
+    std::optional<Project> project_;     ///< waits for its part
     Pickers pickers_;
     std::optional<Probe> under_mouse_;
 };

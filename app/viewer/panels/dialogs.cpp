@@ -43,7 +43,7 @@ void shortcuts_window(Frame& frame)
             {"I, +, -", "invert, grow, shrink the selection"},
             {"Ctrl + O, S, E, Q", "open, save, export, quit"},
             {"Ctrl + comma", "preferences"},
-            {"Esc", "close a menu or dialog; cancel the job; clear the selection"}};
+            {"Esc", "close a menu or dialog; cancel the job; back from a spot; clear the selection"}};
         if (ImGui::BeginTable("keys", 2)) {
             const auto row = [](const char* how, const char* does) {
                 ImGui::TableNextRow();
@@ -63,32 +63,42 @@ void shortcuts_window(Frame& frame)
     ImGui::End();
 }
 
+/// Before the program ends, or what was read takes the place of work that is not saved.
 void unsaved_dialog(Frame& frame)
 {
-    if (!frame.ui.held || !begin_dialog(frame, "Unsaved changes", true, 420, true))
+    Ui& ui = frame.ui;
+    const auto& waits = frame.state.read_and_waits;
+    const bool asks = ui.held || (waits && !ui.after_save);
+    if (!asks || !begin_dialog(frame, "Unsaved changes", true, 420, true))
         return;
     wrapped(fmt::format("Your changes to {} are not saved in a project.",
                         frame.state.document.session.file.filename().string()));
-    const auto go_on = [&] {
-        frame.ui.confirmed = true;
-        frame.actions.push(*std::exchange(frame.ui.held, std::nullopt));
-        ImGui::CloseCurrentPopup();
+    if (!ui.held)
+        muted(frame, fmt::format("{} has been read and takes its place.", waits->filename().string()));
+    const auto then = [&](bool without_saving) {
+        if (!ui.held)
+            return Action{TakeOpened{without_saving}};
+        ui.confirmed = without_saving;
+        return *std::exchange(ui.held, std::nullopt);
     };
     if (primary_button(frame, "Save...") || enter_pressed(frame)) {
         if (frame.state.project.empty()) {
             choose_project_name(frame);
-            frame.ui.after_save = std::exchange(frame.ui.held, std::nullopt);
-            ImGui::CloseCurrentPopup();
+            ui.after_save = then(false);
         } else {
             frame.actions.push(SaveProject{});
-            frame.actions.push(*std::exchange(frame.ui.held, std::nullopt));
-            ImGui::CloseCurrentPopup();
+            frame.actions.push(then(false));
         }
+        ImGui::CloseCurrentPopup();
     }
-    if (ImGui::Button("Continue without saving", {-1, 0}))
-        go_on();
+    if (ImGui::Button("Continue without saving", {-1, 0})) {
+        frame.actions.push(then(true));
+        ImGui::CloseCurrentPopup();
+    }
     if (ImGui::Button("Cancel", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE)) {
-        frame.ui.held.reset();
+        if (!ui.held)
+            frame.actions.push(DropOpened{});
+        ui.held.reset();
         ImGui::CloseCurrentPopup();
     }
     end_dialog();

@@ -11,6 +11,14 @@
 
 namespace spia::viewer {
 
+/// How long it takes, below all that can be chosen: it comes and goes.
+static void cost_of_fit(Frame& frame, const FitChoice& fit)
+{
+    const Document& document = frame.state.document;
+    if (fit.tolerance && document.session.part && first_stale(document))
+        muted(frame, fit_cost(document.session.part->mesh.triangles()));
+}
+
 void fit_editor(Frame& frame, FitChoice fit)
 {
     const float width = 150 * frame.ui.scale;
@@ -26,17 +34,17 @@ void fit_editor(Frame& frame, FitChoice fit)
         patches
             ? "Otherwise within 1/1000 of the part's diagonal"
             : "The surface is fitted to the part with as few control points as the tolerance allows. Otherwise it runs through the nodes of the grid");
-    if (fit.tolerance) {
-        ImGui::SetNextItemWidth(width);
-        const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
-        if (length_inputs(frame, unit.c_str(), &*fit.tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"})) {
-            fit.tolerance = std::clamp(*fit.tolerance, 1e-9, 1e6);
-            changed = true;
-        }
-        const Document& document = frame.state.document;
-        if (document.session.part && first_stale(document))
-            muted(frame, fit_cost(document.session.part->mesh.triangles()));
+    // The field is there whether or not it is asked for: a tick moves nothing.
+    ImGui::BeginDisabled(!fit.tolerance);
+    double tolerance = fit.tolerance.value_or(frame.state.preferences.tolerance_mm.value_or(usual_tolerance));
+    ImGui::SetNextItemWidth(width);
+    const std::string unit = fmt::format("{}##tolerance", length_word(frame.lengths()));
+    if (length_inputs(frame, unit.c_str(), &tolerance, 1, frame.lengths(), {.mm = "%.4g", .inch = "%.3g"}) &&
+        fit.tolerance) {
+        fit.tolerance = std::clamp(tolerance, 1e-9, 1e6);
+        changed = true;
     }
+    ImGui::EndDisabled();
     double degrees[] = {double(fit.degree_u), double(fit.degree_v)};
     ImGui::SetNextItemWidth(width);
     if (typed_numbers(frame, patches ? "Degree" : "Degree u, v", degrees, patches ? 1 : 2, "%.0f")) {
@@ -47,6 +55,7 @@ void fit_editor(Frame& frame, FitChoice fit)
         changed = true;
     }
     if (patches) { // whose sides are fitted first: no other ends, no other parameters
+        cost_of_fit(frame, fit);
         if (changed)
             frame.actions.push(SetFit{fit});
         return;
@@ -62,24 +71,23 @@ void fit_editor(Frame& frame, FitChoice fit)
     }
     tooltip(
         "How the surface runs out at its borders. Free: with the knots averaged from the data. Along the part: with the slope estimated from the part (clamped). Both are accurate up to the border. Natural: without curvature at the border (degree 3 only), less accurate there.");
-    if (fit.tolerance) {
-        bool corrected = fit.parameters == FitParameters::corrected;
-        if (ImGui::Checkbox("Fewer control points", &corrected)) {
-            fit.parameters = corrected ? FitParameters::corrected : FitParameters::blank;
-            changed = true;
-        }
-        tooltip(
-            "Lets points slide along the surface while it is fitted (parameter correction): it then needs fewer control points, but its lines u and v no longer are those of the blank");
+    ImGui::BeginDisabled(!fit.tolerance);
+    bool corrected = fit.tolerance && fit.parameters == FitParameters::corrected;
+    if (ImGui::Checkbox("Fewer control points", &corrected)) {
+        fit.parameters = corrected ? FitParameters::corrected : FitParameters::blank;
+        changed = true;
     }
-    if (fit.tolerance) {
-        ImGui::SetNextItemWidth(width);
-        constexpr int least = 16, greatest = 4'000'000; // as SetFit takes
-        if (typed_integer(frame, "Control points, at most", fit.max_control_points)) {
-            fit.max_control_points = std::clamp(fit.max_control_points, least, greatest);
-            changed = true;
-        }
-        tooltip("The fit ends there even if the tolerance is not reached");
+    tooltip(
+        "Lets points slide along the surface while it is fitted (parameter correction): it then needs fewer control points, but its lines u and v no longer are those of the blank");
+    ImGui::SetNextItemWidth(width);
+    constexpr int least = 16, greatest = 4'000'000; // as SetFit takes
+    if (typed_integer(frame, "Control points, at most", fit.max_control_points)) {
+        fit.max_control_points = std::clamp(fit.max_control_points, least, greatest);
+        changed = true;
     }
+    ImGui::EndDisabled();
+    tooltip("The fit ends there even if the tolerance is not reached");
+    cost_of_fit(frame, fit);
     if (changed)
         frame.actions.push(SetFit{fit});
 }

@@ -191,10 +191,10 @@ void worst_section(Frame& frame)
         const Eigen::Vector3d at = (part.position.col(part.triangle(0, f)) + part.position.col(part.triangle(1, f)) +
                                     part.position.col(part.triangle(2, f))) /
                                    3;
-        const bool here = frame.state.document.selected == std::vector<int>{f};
+        const bool here = frame.state.spot && frame.state.spot->face == f;
         if (ImGui::Selectable(fmt::format("{}.  {}##{}", k + 1, value_here(frame, now.face.value[f]), f).c_str(), here))
             frame.actions.push(FlyTo{f});
-        tooltip("Click to zoom to it in all views");
+        tooltip("Click to zoom to it in all views; Escape goes back");
         const Eigen::Vector3d there = at / millimetres(frame.lengths());
         const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} {}", there[0] + 0., there[1] + 0., there[2] + 0.,
                                               length_word(frame.lengths()));
@@ -241,14 +241,17 @@ void measurements_section(Frame& frame)
         ImGui::PushID(int(k));
         if (ImGui::Selectable(fmt::format("M{}   {}", k + 1, text_of(each, frame.lengths())).c_str(), false, 0,
                               {ImGui::GetContentRegionAvail().x - 26 * frame.ui.scale, 0}))
-            frame.actions.push(FlyTo{each.at.front().face});
-        tooltip("Click to zoom to it in all views");
+            if (keeps_faces(each.on))
+                frame.actions.push(FlyTo{each.at.front().face});
+        if (keeps_faces(each.on))
+            tooltip("Click to zoom to it in all views; Escape goes back");
         ImGui::SameLine();
         if (ImGui::SmallButton("x"))
             frame.actions.push(RemoveMeasurement{int(k)});
         ImGui::PushFont(frame.ui.fonts.small);
         ImGui::Indent(14 * frame.ui.scale);
-        muted(frame, title(each.kind));
+        muted(frame, each.on == View::part ? title(each.kind)
+                                           : fmt::format("{}, in the view {}", title(each.kind), title(each.on)));
         for (const Measured::Figure& more : each.found->more)
             figure(frame, more.name.c_str(), text_of(more, frame.lengths()));
         if (const auto flat = on_blank(document.session, each))

@@ -12,6 +12,13 @@
 #include "app/viewer/views/colour_scale.h"
 
 namespace spia::viewer {
+
+bool cut_away(const Scene& scene, const Eigen::Vector3d& place)
+{
+    // A hair's breadth beyond the plane counts as on it.
+    return scene.kept && scene.kept->height(place) < -1e-9 * std::max(1., scene.box.diagonal().norm());
+}
+
 namespace {
 
 /// From here on the values of isolines wait until the camera stands still.
@@ -43,12 +50,6 @@ Hidden hidden_in(Frame& frame, View view, glm::dvec2 size)
     };
 }
 
-/// A hair's breadth beyond the plane counts as on it.
-bool cut_away(const Scene& scene, const Eigen::Vector3d& place)
-{
-    return scene.kept && scene.kept->height(place) < -1e-9 * std::max(1., scene.box.diagonal().norm());
-}
-
 /// What is left of isolines: each stretch that is not interrupted.
 std::vector<Isoline> kept_lines(const std::vector<Isoline>& lines, const HalfSpace& half)
 {
@@ -73,6 +74,15 @@ void find_places(Frame& frame, View view, const Scene& scene, glm::dvec2 size, b
     for (const SceneLabel& label : scene.labels)
         wishes.push_back({cut_away(scene, label.place) ? nowhere : glm::dvec2(pixel_of(camera, label.place, size)),
                           extent(frame.ui.fonts.text, label.text), label.kind});
+    constexpr Eigen::Index few = 64; // dots that mean something each, not a net
+    for (const auto& points : scene.points)
+        if (points->on_top && points->point.cols() <= few)
+            for (Eigen::Index i = 0; i < points->point.cols(); ++i) {
+                const Eigen::Vector3d place = points->origin + points->point.col(i).cast<double>();
+                if (!cut_away(scene, place))
+                    taken.push_back(around(glm::dvec2(pixel_of(camera, place, size)),
+                                           glm::dvec2((points->size + 3) * frame.ui.scale)));
+            }
     places.placed = place_labels(wishes, size, taken, frame.ui.scale);
     places.hidden.clear();
     for (const PlacedLabel& placed : places.placed) {

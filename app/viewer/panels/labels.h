@@ -32,6 +32,9 @@ struct LabelPlaces {
     std::vector<IsolineLabel> values;
 };
 
+/// Whether the clipping plane cuts away a place of a scene.
+bool cut_away(const Scene& scene, const Eigen::Vector3d& place);
+
 /// Text with an outline that is read on any ground.
 void haloed(ImDrawList* draw, ImVec2 at, ImU32 colour, ImU32 halo, const char* text);
 

@@ -147,7 +147,7 @@ void spots(Frame& frame, const LimitsResult& limits)
     for (size_t k = 0; k < std::min(most, limits.zones.spots.size()); ++k) {
         const WorstSpot& spot = limits.zones.spots[k];
         const auto margin = margin_of(limits, spot.face);
-        const bool here = frame.state.document.selected == std::vector<int>{spot.face};
+        const bool here = frame.state.spot && frame.state.spot->face == spot.face;
         ImGui::TableNextColumn();
         if (ImGui::Selectable(fmt::format("{}.  {}##spot{}", k + 1, zone_words(spot.zone), spot.face).c_str(), here,
                               ImGuiSelectableFlags_SpanAllColumns))

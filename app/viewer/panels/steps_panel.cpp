@@ -377,6 +377,7 @@ void steps_panel(Frame& frame)
     regions_section(frame);
     process_section(frame);
     ImGui::Dummy({0, 4 * frame.ui.scale});
+    keep_in_place(frame);
     ImGui::EndChild();
     const Document& document = frame.state.document;
     ImGui::Dummy({0, 1});

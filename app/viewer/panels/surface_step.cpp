@@ -156,13 +156,15 @@ void edges_editor(Frame& frame, const LayoutOptions& patches)
         frame.actions.push(SetPatches{changed});
     }
     tooltip("Patches end at sharp edges, so that each smooth patch needs fewer control points");
+    ImGui::BeginDisabled(!at_edges);
     if (!at_edges)
-        return;
+        changed.edge_deg = LayoutOptions{}.edge_deg; // what a tick would take
     ImGui::SetNextItemWidth(70 * frame.ui.scale);
     if (typed_number(frame, "Edges from, degrees", changed.edge_deg, "%.4g")) {
         changed.edge_deg = std::clamp(changed.edge_deg, 1., none);
         frame.actions.push(SetPatches{changed});
     }
+    ImGui::EndDisabled();
     tooltip("Smallest angle between faces that counts as a sharp edge");
 }
 

@@ -114,7 +114,8 @@ bool tool_button(Frame& frame, const BarStyle& style, const ToolButton& button)
         draw->AddText(font, font->FontSize,
                       {std::round(at.x + style.icon + 8 * s), std::round(at.y + (size.y - font->FontSize) / 2)}, text,
                       button.label);
-    tooltip(fmt::format("{}  ({})\n{}", button.label, button.letter, button.help));
+    tooltip(fmt::format("{}  ({})\n{}", button.label, button.letter, button.help),
+            clip_bar_height(frame) + 6 * s); // the row of the clipping plane stays in sight
     return pressed;
 }
 

@@ -211,6 +211,8 @@ void shortcuts(Frame& frame)
             frame.actions.push(CancelJob{});
         else if (frame.ui.animation)
             frame.ui.animation->cancelling = true;
+        else if (frame.state.spot)
+            frame.actions.push(HideSpot{});
         else
             frame.actions.push(ClearSelection{});
     }

@@ -73,6 +73,14 @@ struct CubeDrag {
     bool moved = false;
 };
 
+/// The item of a panel that was clicked last, see keep_in_place().
+struct PanelAnchor {
+    ImGuiID item = 0;
+    float y = 0;          ///< pixels from where the content of the panel begins to its upper edge
+    float scroll = 0;     ///< of the panel
+    ImVec2 mouse{-1, -1}; ///< of the screen
+};
+
 /// What the panels remember from frame to frame and nobody else needs to know.
 struct Ui {
     Fonts fonts;
@@ -101,7 +109,10 @@ struct Ui {
     std::optional<View> busy;
     Navigator navigator;
     std::optional<CubeDrag> cube_drag;
-    std::vector<Probe> measuring; ///< places of a measurement to be, those clicked so far
+    std::vector<Probe> measuring;     ///< places of a measurement to be, those clicked so far
+    View measuring_in = View::part;   ///< the view that they were clicked in
+    std::array<Covered, 4> covered{}; ///< of the views, in the last frame
+    PanelAnchor panel_anchor;
     std::optional<int> dragged_corner;
     bool aside = false;            ///< drawn for a picture: the views of the window keep their sizes and cameras
     glm::dvec2 corner_taken_at{0}; ///< pixels of the view

@@ -166,7 +166,7 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     frame.ui.view_from[size_t(view)] = from;
     frame.ui.view_size[size_t(view)] = size;
     if (!frame.ui.aside)
-        frame.model.resized(view, dvec(size), frame.ui.scale);
+        frame.model.resized(view, dvec(size), frame.ui.scale, frame.ui.covered[size_t(view)]);
     const Scene shown = scene(view, frame.state, frame.cache, size.y / frame.ui.scale);
     const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
     ImGui::SetCursorScreenPos(from);
@@ -187,6 +187,8 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
     draw->PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
     const ImU32 halo = frame.state.view.dark ? IM_COL32(20, 24, 30, 210) : IM_COL32(255, 255, 255, 210);
     for (const SceneRing& ring : shown.rings) {
+        if (cut_away(shown, ring.place))
+            continue;
         const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], ring.place, mouse.size);
         const ImVec2 middle{from.x + float(pixel.x), from.y + float(pixel.y)};
         draw->AddCircle(middle, 8 * frame.ui.scale, halo, 24, 5 * frame.ui.scale);
@@ -213,6 +215,11 @@ bool one_view(Frame& frame, View view, ImVec2 at, ImVec2 whole)
         for (const auto& box : {legend, triad, cube})
             if (box)
                 taken.push_back(*box);
+        if (!frame.ui.aside)
+            frame.ui.covered[size_t(view)] = {legend ? legend->greatest.x : 0,
+                                              cube ? std::max(mouse.size.x - cube->least.x, cube->greatest.y) : 0};
+        for (const PixelBox& dot : measuring_dots(frame, view, mouse.size))
+            taken.push_back(dot);
         draw_labels(frame, view, shown, from, size, taken, draw);
     }
     if (cube && view_cube(frame, view, *cube, mouse, from, draw))

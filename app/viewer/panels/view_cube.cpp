@@ -131,8 +131,12 @@ bool view_cube(Frame& frame, View view, const PixelBox& place, const Mouse& mous
         const std::string called = "cube " + std::string(viewer::name(view));
         ui.items[called] = {corner(place.least), corner(place.greatest)};
     }
-    if (under && !ui.busy)
-        ImGui::SetTooltip("Look from: %s", words(*under).c_str());
+    if (under && !ui.busy && !ui.aside) { // beside the cube, which is what is being chosen from
+        const std::string text = "Look from: " + words(*under);
+        const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x;
+        ImGui::SetNextWindowPos({std::max(0.f, corner(place.least).x - width - 4 * ui.scale), corner(place.least).y});
+        ImGui::SetTooltip("%s", text.c_str());
+    }
     return under.has_value() || mine;
 }
 

@@ -117,58 +117,86 @@ std::optional<Eigen::Vector3d> place_of_line(Frame& frame, View view, const Mous
                : std::nullopt;
 }
 
+/// Why nothing can be measured in a view now; empty: it can.
+std::string no_measuring(Frame& frame, View view)
+{
+    const ViewerState& state = frame.state;
+    if (view == View::part && shows_refused(state))
+        return "The file that was refused cannot be measured: go back to the part first, in the step Part.";
+    if (view == View::part && step_position(state) > 0)
+        return "A part on the way of its steps cannot be measured: move the slider back to the part as it is formed.";
+    if (frame.model.pickers().measuring_mesh(state, view))
+        return "";
+    if (view == View::quads && state.document.session.options.patches)
+        return "The quads of patches cannot be measured; measure in the view of the surface.";
+    return "There is nothing to measure here yet.";
+}
+
 /// One more place of a measurement; with the last one it is made.
 void measure_at(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size)
 {
     const ViewSettings& settings = frame.state.view;
-    const Session& session = frame.state.document.session;
-    if (view != View::part || step_position(frame.state) > 0) {
-        frame.model.say(Severity::hint, "Measure in the view of the part, as it is formed.");
+    if (const std::string why = no_measuring(frame, view); !why.empty()) {
+        frame.model.say(Severity::hint, why);
         return;
     }
     Pickers& pickers = frame.model.pickers();
-    const RayPicker* picker = pickers.picker(session, view);
+    const RayPicker* picker = pickers.measuring_picker(frame.state, view);
     if (!picker)
         return;
+    std::vector<Probe>& places = frame.ui.measuring;
+    if (std::exchange(frame.ui.measuring_in, view) != view)
+        places.clear(); // one measurement is in one picture
     // A face is meant as a whole, a place may be a vertex.
     const bool faces = settings.measure == MeasureKind::faces || settings.measure == MeasureKind::rounding;
     const double snap = faces ? 0 : click_reach * frame.ui.scale;
-    const auto place = probe_at(settings.camera[size_t(view)], *pickers.mesh(session, view), *picker, pixel, size, snap,
-                                kept_in(settings, view));
+    const auto place = probe_at(settings.camera[size_t(view)], *pickers.measuring_mesh(frame.state, view), *picker,
+                                pixel, size, snap, kept_in(settings, view));
     if (!place)
         return;
-    std::vector<Probe>& places = frame.ui.measuring;
     places.push_back(*place);
     if (places.size() >= places_of(settings.measure))
-        frame.actions.push(AddMeasurement{{settings.measure, std::exchange(places, {})}});
+        frame.actions.push(AddMeasurement{{settings.measure, std::exchange(places, {}), view}});
+}
+
+/// Where the places are that were clicked so far, pixels of the view.
+std::vector<glm::dvec2> clicked_places(Frame& frame, View view, glm::dvec2 size)
+{
+    std::vector<glm::dvec2> pixels;
+    if (frame.ui.measuring.empty() || frame.ui.measuring_in != view)
+        return pixels;
+    const TriMesh* mesh = frame.model.pickers().measuring_mesh(frame.state, view);
+    for (const Probe& probe : frame.ui.measuring) {
+        if (!mesh || probe.face >= mesh->triangles())
+            return {};
+        const Eigen::Vector3d place = mesh->position(Eigen::all, mesh->triangle.col(probe.face)) * probe.barycentric;
+        pixels.emplace_back(pixel_of(frame.state.view.camera[size_t(view)], place, size));
+    }
+    return pixels;
 }
 
 /// The places clicked so far, and what the next click adds to them.
 void draw_measuring(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawList* draw)
 {
-    if (view != View::part)
-        return;
-    const TriMesh& part = frame.state.document.session.part->mesh;
     const Palette p = palette_of(frame.state.view.dark);
     const float s = frame.ui.scale;
-    const auto cube = cube_place(frame, view, mouse.size);
-    const float room = float(cube ? cube->least.x : mouse.size.x) - 20 * s;
-    ImFont* const font = frame.ui.fonts.small;
-    draw->AddText(font, font->FontSize, {from.x + 10 * s, from.y + 8 * s}, ink(p.accent),
-                  advice(frame.state.view.measure), nullptr, room);
-    std::vector<ImVec2> shown;
-    for (const Probe& probe : frame.ui.measuring) {
-        if (probe.face >= part.triangles())
-            return;
-        const Eigen::Vector3d place = part.position(Eigen::all, part.triangle.col(probe.face)) * probe.barycentric;
-        const glm::dvec3 pixel = pixel_of(frame.state.view.camera[size_t(view)], place, mouse.size);
-        shown.push_back({from.x + float(pixel.x), from.y + float(pixel.y)});
+    if (mouse.inside || view == View::part) {
+        const auto cube = cube_place(frame, view, mouse.size);
+        const float room = float(cube ? cube->least.x : mouse.size.x) - 20 * s;
+        const std::string why = no_measuring(frame, view);
+        ImFont* const font = frame.ui.fonts.small;
+        draw->AddText(font, font->FontSize, {from.x + 10 * s, from.y + 8 * s}, ink(why.empty() ? p.accent : p.warning),
+                      why.empty() ? advice(frame.state.view.measure) : why.c_str(), nullptr, room);
     }
+    std::vector<ImVec2> shown;
+    for (const glm::dvec2& place : clicked_places(frame, view, mouse.size))
+        shown.push_back({from.x + float(place.x), from.y + float(place.y)});
+    const size_t clicked = shown.size();
     if (!shown.empty() && mouse.inside)
         shown.push_back(ImGui::GetMousePos());
     for (const auto& [colour, width] : {std::pair(ink(p.panel), 4 * s), std::pair(ink(p.accent), 2 * s)})
         draw->AddPolyline(shown.data(), int(shown.size()), colour, ImDrawFlags_None, width);
-    for (size_t k = 0; k < frame.ui.measuring.size(); ++k) {
+    for (size_t k = 0; k < clicked; ++k) {
         draw->AddCircleFilled(shown[k], 5.5f * s, ink(p.panel));
         draw->AddCircleFilled(shown[k], 4 * s, ink(p.accent));
     }
@@ -200,6 +228,15 @@ void draw_line(Frame& frame, View view, const Mouse& mouse, ImVec2 from, ImDrawL
 }
 
 } // namespace
+
+std::vector<PixelBox> measuring_dots(Frame& frame, View view, glm::dvec2 size)
+{
+    std::vector<PixelBox> boxes;
+    if (frame.state.view.tool == Tool::measure)
+        for (const glm::dvec2& place : clicked_places(frame, view, size))
+            boxes.push_back(around(place, glm::dvec2(13 * frame.ui.scale)));
+    return boxes;
+}
 
 bool tool_clicks(Tool tool)
 {

@@ -31,6 +31,9 @@ bool tool_clicks(Tool tool);
 /// What a click with such a tool does at a pixel of a view.
 void click_with_tool(Frame& frame, View view, glm::dvec2 pixel, glm::dvec2 size);
 
+/// What the places cover that were clicked for a measurement to be, pixels of the view.
+std::vector<PixelBox> measuring_dots(Frame& frame, View view, glm::dvec2 size);
+
 /// Where the view cube of a view of this size lies, pixels of the view; nothing where there is no room for it, and in a flat view.
 std::optional<PixelBox> cube_place(const Frame& frame, View view, glm::dvec2 size);
 /// Draws the cube and follows the mouse on it. @returns whether the mouse is busy with it

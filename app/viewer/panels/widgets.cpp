@@ -5,7 +5,7 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <imgui_internal.h> // ClearActiveID
+#include <imgui_internal.h> // ClearActiveID, NavRectRel
 
 #include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/viewer_words.h"
@@ -268,16 +268,66 @@ void figure(const Frame& frame, const char* name, const std::string& value)
     ImGui::TextUnformatted(value.c_str());
 }
 
-void tooltip(const std::string& text)
+/// Where a tooltip of a size goes that belongs to the last item.
+static ImVec2 beside_item(ImVec2 size, float lower)
+{
+    const ImVec2 screen = ImGui::GetIO().DisplaySize, least = ImGui::GetItemRectMin(),
+                 greatest = ImGui::GetItemRectMax();
+    const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+    constexpr float narrow = 0.45f; // of the screen: a panel, a dialog or a list, beside which there is room
+    const float gap = 0.5f * ImGui::GetFontSize();
+    const float y = std::clamp(least.y, 0.f, std::max(0.f, screen.y - size.y));
+    if (extent.x < narrow * screen.x) {
+        if (window.x + extent.x + gap + size.x <= screen.x)
+            return {window.x + extent.x + gap, y};
+        if (window.x - gap - size.x >= 0)
+            return {window.x - gap - size.x, y};
+    }
+    const float x = std::clamp(least.x, 0.f, std::max(0.f, screen.x - size.x));
+    if (greatest.y + lower + gap + size.y <= screen.y)
+        return {x, greatest.y + lower + gap};
+    return {x, std::max(0.f, least.y - gap - size.y)};
+}
+
+void tooltip(const std::string& text, float lower)
 {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
-    ImGui::BeginTooltip();
     const float room = ImGui::GetFontSize() * 24;
+    const std::string lines = broken(text, room);
+    const ImVec2 words = ImGui::CalcTextSize(lines.c_str(), nullptr, false, room),
+                 pad = ImGui::GetStyle().WindowPadding;
+    ImGui::SetNextWindowPos(beside_item({words.x + 2 * pad.x, words.y + 2 * pad.y}, lower));
+    ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room); // of words that are wider by themselves, such as paths
-    ImGui::TextUnformatted(broken(text, room).c_str());
+    ImGui::TextUnformatted(lines.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+}
+
+void keep_in_place(Frame& frame)
+{
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    const ImGuiWindow* const window = ImGui::GetCurrentWindow();
+    PanelAnchor& anchor = frame.ui.panel_anchor;
+    const ImVec2 mouse = ImGui::GetMousePos();
+    if (context.NavWindow != window || context.NavId == 0 || !window->InnerRect.Contains(mouse)) {
+        if (context.NavWindow == window || context.NavId == 0)
+            anchor.item = 0;
+        return;
+    }
+    // From where the content begins, wherever it is scrolled to.
+    const float y = window->NavRectRel[context.NavLayer].Min.y, scroll = ImGui::GetScrollY();
+    // What moves under a mouse at rest is moved by what is above it: the panel scrolls by as much.
+    const bool at_rest = mouse.x == anchor.mouse.x && mouse.y == anchor.mouse.y &&
+                         std::abs(scroll - anchor.scroll) <= 1 && ImGui::GetIO().MouseWheel == 0;
+    if (anchor.item == context.NavId && at_rest && y != anchor.y) {
+        const float to = std::max(0.f, std::round(scroll + y - anchor.y));
+        ImGui::SetScrollY(to);
+        anchor = {context.NavId, y, to, mouse};
+        return;
+    }
+    anchor = {context.NavId, y, scroll, mouse};
 }
 
 ImU32 ink(const Colour& colour, float opacity)

@@ -34,6 +34,10 @@ void wide_item(const char* label);
 /// The next item, a choice, is wide enough for the longest of its texts, as far as there is room for it.
 void item_for(const char* longest);
 
+/// To be called in a panel that scrolls, behind all of it: the item that was clicked last stays under the mouse when what is above
+/// it becomes higher or lower.
+void keep_in_place(Frame& frame);
+
 /// A small grey line; wraps.
 void muted(const Frame& frame, const std::string& text);
 void coloured(const ImVec4& colour, const std::string& text);
@@ -41,8 +45,9 @@ void coloured(const ImVec4& colour, const std::string& text);
 /// A row "name   value" in two columns.
 void figure(const Frame& frame, const char* name, const std::string& value);
 
-/// Shown while the last item is under the mouse.
-void tooltip(const std::string& text);
+/// Shown while the last item is under the mouse: beside its panel or list, else below or above it, never over it.
+/// @param lower  pixels that stay free below the item
+void tooltip(const std::string& text, float lower = 0);
 
 /// A button with white bold letters on a colour.
 bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const ImVec4& colour);

@@ -12,27 +12,47 @@
 namespace spia::viewer {
 namespace {
 
-/// At the right end of the status bar.
-void selection_actions(Frame& frame)
+/// What can be done with the selection, at the right end of the status bar.
+struct SelectionRow {
+    std::string text;
+    std::vector<std::pair<const char*, Action>> acts;
+    float gap = 0, width = 0; ///< pixels
+};
+
+SelectionRow selection_row(const Frame& frame)
 {
+    SelectionRow row;
     const size_t faces = frame.state.document.selected.size(), vertices = frame.state.document.vertices.size();
     if (faces == 0 && vertices == 0)
-        return;
+        return row;
     const auto count = [](size_t n, const char* one, const char* many) {
         return n == 0 ? "" : fmt::format("{} {}", n, n == 1 ? one : many);
     };
-    const std::string text = count(faces, "face", "faces") + (faces && vertices ? ", " : "") +
-                             count(vertices, "vertex", "vertices") + " selected";
-    std::vector<std::pair<const char*, Action>> acts = {{"Clear", ClearSelection{}}};
+    row.text = count(faces, "face", "faces") + (faces && vertices ? ", " : "") + count(vertices, "vertex", "vertices") +
+               " selected";
     if (faces > 0)
-        acts.insert(acts.begin(),
-                    {{"Grow", GrowSelection{}}, {"Shrink", ShrinkSelection{}}, {"Invert", InvertSelection{}}});
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float gap = 6 * frame.ui.scale;
-    float width = ImGui::CalcTextSize(text.c_str()).x;
-    for (const auto& [label, action] : acts)
-        width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap;
-    ImGui::SameLine(ImGui::GetWindowWidth() - width - 14 * frame.ui.scale);
+        row.acts = {{"Grow", GrowSelection{}}, {"Shrink", ShrinkSelection{}}, {"Invert", InvertSelection{}}};
+    row.acts.emplace_back("Clear", ClearSelection{});
+    row.gap = 6 * frame.ui.scale;
+    row.width = ImGui::CalcTextSize(row.text.c_str()).x + 14 * frame.ui.scale;
+    for (const auto& [label, action] : row.acts)
+        row.width += ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x + row.gap;
+    return row;
+}
+
+float selection_width(const Frame& frame)
+{
+    const float width = selection_row(frame).width;
+    return width > 0 ? width + 16 * frame.ui.scale : 14 * frame.ui.scale;
+}
+
+void selection_actions(Frame& frame)
+{
+    const SelectionRow row = selection_row(frame);
+    if (row.acts.empty())
+        return;
+    const auto& [text, acts, gap, width] = row;
+    ImGui::SameLine(ImGui::GetWindowWidth() - width);
     ImGui::TextColored(palette_of(frame.state.view.dark).accent, "%s", text.c_str());
     for (const auto& [label, action] : acts) {
         ImGui::SameLine(0, gap);
@@ -53,6 +73,43 @@ void animation_status(Frame& frame, AnimationRun& run)
     if (small_button(frame, run.cancelling ? "Cancelling..." : "Cancel"))
         run.cancelling = true;
     ImGui::EndDisabled();
+}
+
+/// What is under the mouse has a place of its own, right of what there is to look at. @param room  pixels
+void under_mouse(Frame& frame, float room)
+{
+    const ViewerState& state = frame.state;
+    const Session& session = state.document.session;
+    const auto& probe = frame.model.under_mouse();
+    const auto& vertex = state.hovered_vertex;
+    if (!session.part || (!probe && !vertex))
+        return;
+    const TriMesh& part = session.part->mesh;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    if (vertex)
+        at = part.position.col(*vertex);
+    else
+        for (int a = 0; a < 3; ++a)
+            at += probe->barycentric[a] * part.position.col(part.triangle(a, probe->face));
+    at /= millimetres(frame.lengths());
+    const std::string what = vertex ? fmt::format("Vertex {}", session.part->source_vertex[size_t(*vertex)])
+                                    : fmt::format("Face {}", probe->face);
+    const std::string place = fmt::format("    {1:.{0}f}, {2:.{0}f}, {3:.{0}f} {4}", 2 + more_decimals(frame.lengths()),
+                                          at[0], at[1], at[2], length_word(frame.lengths()));
+    std::string value;
+    const Field field = state.document.display.field;
+    if (field != Field::none && available(session, field)) {
+        const Figures& now = figures(frame);
+        value = fmt::format("    {} {}{}", label_of_field(state),
+                            value_text(vertex ? now.at_vertex[*vertex] : now.face.value[probe->face], info(field).unit,
+                                       frame.lengths()),
+                            vertex && is_smoothed(state.document.display) ? ", mean of the faces around it" : "");
+    }
+    for (const std::string& text : {what + place + value, what + value, what}) // as much as there is room for
+        if (ImGui::CalcTextSize(text.c_str()).x <= room) {
+            ImGui::TextUnformatted(text.c_str());
+            return;
+        }
 }
 
 void status_bar(Frame& frame)
@@ -77,35 +134,12 @@ void status_bar(Frame& frame)
         return;
     }
     ImGui::AlignTextToFramePadding();
-    const Session& session = state.document.session;
-    const auto& probe = frame.model.under_mouse();
-    const auto& vertex = state.hovered_vertex;
-    if (!session.part || (!probe && !vertex)) {
-        ready_light(frame);
-        return;
-    }
-    const TriMesh& part = session.part->mesh;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    if (vertex)
-        at = part.position.col(*vertex);
-    else
-        for (int a = 0; a < 3; ++a)
-            at += probe->barycentric[a] * part.position.col(part.triangle(a, probe->face));
-    at /= millimetres(frame.lengths());
-    std::string text =
-        fmt::format("{0}    {2:.{1}f}, {3:.{1}f}, {4:.{1}f} {5}",
-                    vertex ? fmt::format("Vertex {}", session.part->source_vertex[size_t(*vertex)])
-                           : fmt::format("Face {}", probe->face),
-                    2 + more_decimals(frame.lengths()), at[0], at[1], at[2], length_word(frame.lengths()));
-    const Field field = state.document.display.field;
-    if (field != Field::none && available(session, field)) {
-        const Figures& now = figures(frame);
-        text += fmt::format("    {} {}{}", label_of_field(state),
-                            value_text(vertex ? now.at_vertex[*vertex] : now.face.value[probe->face], info(field).unit,
-                                       frame.lengths()),
-                            vertex && is_smoothed(state.document.display) ? ", mean of the faces around it" : "");
-    }
-    ImGui::TextUnformatted(text.c_str());
+    ready_light(frame);
+    ImGui::SameLine(0, 24 * frame.ui.scale);
+    // Where it stands does not change with what is said before it, unless that is long.
+    constexpr float usual = 0.34f; // of the window
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), usual * ImGui::GetWindowWidth()));
+    under_mouse(frame, std::max(0.f, ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - selection_width(frame)));
 }
 
 /// Where there is room for one panel, both are still to be seen.

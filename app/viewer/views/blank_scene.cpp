@@ -2,6 +2,7 @@
 
 #include "app/viewer/model/comparison.h"
 #include "app/viewer/views/grid_shapes.h"
+#include "app/viewer/views/measurements.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/patch_shapes.h"
 #include "app/viewer/views/picked_vertices.h"
@@ -193,6 +194,7 @@ Scene blank_scene(const ViewerState& state, SceneCache& cache, double pixels)
     if (const auto corner = patches || session.options.patches ? std::nullopt : corners(state, cache))
         add_corners(result, flat.position(Eigen::all, *corner), state.view.dark);
     add_picked_vertices(result, state, cache.vertices_on_blank, flat.mesh, flat.position);
+    add_measurements(result, state, View::blank, cache);
     return result;
 }
 

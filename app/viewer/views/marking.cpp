@@ -69,6 +69,13 @@ void add_hovered(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd&
                          position.col(triangle(2, *face))};
 }
 
+void add_spot(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position)
+{
+    const Eigen::Matrix3Xi& triangle = state.document.session.part->mesh.triangle;
+    if (state.spot && state.spot->of == state.document.session.part && state.spot->face < triangle.cols())
+        scene.rings.push_back({place_on(position, triangle, state.spot->face, Eigen::Vector3d::Constant(1. / 3))});
+}
+
 std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions)
 {
     std::vector<Colour> colours;
@@ -165,6 +172,7 @@ Eigen::Vector3d place_on(const Eigen::Matrix3Xd& position, const Eigen::Matrix3X
 void add_watched_places(Scene& scene, const ViewerState& state, const FieldValues* values,
                         const Eigen::Matrix3Xd& position)
 {
+    add_spot(scene, state, position);
     const Eigen::Matrix3Xi& triangle = state.document.session.part->mesh.triangle;
     const FieldDisplay& display = state.document.display;
     const std::string_view unit = info(display.field).unit;

@@ -12,6 +12,10 @@ std::shared_ptr<const FaceMarks> face_marks(int faces, const std::vector<int>& s
 /// @param position 3 by #V of the part, mm: on the part, flat or on the way
 void add_hovered(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position);
 
+/// A ring around the face that the views went to.
+/// @param position as of add_hovered()
+void add_spot(Scene& scene, const ViewerState& state, const Eigen::Matrix3Xd& position);
+
 /// Colours of the regions by number, as many as face_marks() tells apart.
 std::vector<Colour> region_colours(const std::vector<FaceRegion>& regions);
 

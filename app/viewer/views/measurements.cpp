@@ -11,7 +11,7 @@ namespace {
 
 using Found = std::vector<std::shared_ptr<const Measured>>;
 
-StageShape shape_of(const Found& found)
+StageShape shape_of(const Found& found, bool dark)
 {
     StageShape shape;
     for (const auto& each : found)
@@ -19,7 +19,8 @@ StageShape shape_of(const Found& found)
             Eigen::Matrix2Xi end(2, polyline.cols() - 1);
             for (int k = 0; k + 1 < polyline.cols(); ++k)
                 end.col(k) << k, k + 1;
-            for (const auto& [colour, width] : {std::pair(palette::casing, 3.5f), std::pair(palette::measure, 1.5f)}) {
+            for (const auto& [colour, width] :
+                 {std::pair(palette::measure_casing(dark), 3.5f), std::pair(palette::measure(dark), 1.5f)}) {
                 const auto lines = scene_lines(polyline, end);
                 lines->colour = colour;
                 lines->width = width;
@@ -32,20 +33,23 @@ StageShape shape_of(const Found& found)
 
 } // namespace
 
-void add_measurements(Scene& scene, const ViewerState& state, SceneCache& cache)
+void add_measurements(Scene& scene, const ViewerState& state, View view, SceneCache& cache)
 {
     const std::vector<Measurement>& all = state.document.measurements;
-    if (all.empty())
-        return;
     Found found;
     for (const Measurement& each : all)
-        found.push_back(each.found);
-    const StageShape& shape = cache.measurements.of({found}, [&] { return shape_of(found); });
+        if (each.on == view)
+            found.push_back(each.found);
+    if (found.empty())
+        return;
+    const bool dark = state.view.dark;
+    const StageShape& shape = cache.measurements[size_t(view)].of({found, dark}, [&] { return shape_of(found, dark); });
     scene.lines.insert(scene.lines.end(), shape.lines.begin(), shape.lines.end());
-    const Colour text = palette::text(state.view.dark);
+    const Colour text = palette::text(dark);
     for (size_t k = 0; k < all.size(); ++k)
-        scene.labels.push_back(
-            {found[k]->label, fmt::format("M{}  {}", k + 1, text_of(all[k], state.preferences.lengths)), text});
+        if (all[k].on == view)
+            scene.labels.push_back(
+                {all[k].found->label, fmt::format("M{}  {}", k + 1, text_of(all[k], state.preferences.lengths)), text});
 }
 
 } // namespace spia::viewer

@@ -5,7 +5,7 @@
 
 namespace spia::viewer {
 
-/// What was measured on the part: its lines, and labels "M1  12.30 mm".
-void add_measurements(Scene& scene, const ViewerState& state, SceneCache& cache);
+/// What was measured in a view: its lines, and labels "M1  12.30 mm".
+void add_measurements(Scene& scene, const ViewerState& state, View view, SceneCache& cache);
 
 } // namespace spia::viewer

@@ -10,7 +10,6 @@ inline constexpr Colour casing{0.04f, 0.05f, 0.07f, 0.85f}; ///< around light li
 inline constexpr Colour selected{0.93f, 0.10f, 0.62f, 1};   ///< magenta: in none of the colour maps
 inline constexpr Colour extreme{0.98f, 0.98f, 0.98f, 1};
 inline constexpr Colour probe{0.93f, 0.75f, 0.16f, 1};
-inline constexpr Colour measure{0.98f, 0.98f, 0.98f, 1};   ///< the line between two vertices
 inline constexpr Colour stretched{0.80f, 0.16f, 0.10f, 1}; ///< principal strains, positive
 inline constexpr Colour squeezed{0.07f, 0.27f, 0.72f, 1};  ///< negative
 inline constexpr Colour corner{0.98f, 0.98f, 0.98f, 1};
@@ -32,6 +31,9 @@ inline constexpr std::array<Colour, 6> patches{Colour{0.55f, 0.69f, 0.84f, 1}, C
 inline constexpr Colour ghost{0.62f, 0.66f, 0.72f, 0.22f};
 
 constexpr Colour text(bool dark) { return dark ? Colour{0.93f, 0.94f, 0.96f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }
+/// Lines of what is measured: against the ground of the theme, with a casing against the colours of the sheet.
+constexpr Colour measure(bool dark) { return dark ? Colour{0.98f, 0.98f, 0.98f, 1} : Colour{0.04f, 0.05f, 0.07f, 1}; }
+constexpr Colour measure_casing(bool dark) { return dark ? casing : Colour{1, 1, 1, 0.9f}; }
 constexpr Colour outline(bool dark) { return dark ? Colour{0.88f, 0.90f, 0.93f, 1} : Colour{0.10f, 0.12f, 0.15f, 1}; }
 constexpr Colour net(bool dark)
 {

@@ -30,7 +30,7 @@ Scene part_scene(const ViewerState& state, SceneCache& cache, double pixels)
                .mm_per_pixel = state.view.camera[size_t(View::part)].height / pixels},
               cache.on_part, cache);
     add_picked_vertices(result, state, cache.vertices_on_part, part.mesh, session.part->mesh.position);
-    add_measurements(result, state, cache);
+    add_measurements(result, state, View::part, cache);
     add_shown_fault(result, state);
     return result;
 }

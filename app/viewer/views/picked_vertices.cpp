@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t most_labels = 8; ///< more would cover the sheet
 
-VertexShape vertex_shape(const std::vector<int>& vertices, const Eigen::Matrix3Xd& position)
+VertexShape vertex_shape(const std::vector<int>& vertices, const Eigen::Matrix3Xd& position, bool dark)
 {
     VertexShape shape;
     if (vertices.empty())
@@ -21,7 +21,8 @@ VertexShape vertex_shape(const std::vector<int>& vertices, const Eigen::Matrix3X
     shape.dots->colour = palette::selected;
     shape.dots->size = 8; // a corner that is there, too, shows around it
     if (vertices.size() == 2)
-        for (const auto& [colour, width] : {std::pair(palette::casing, 3.5f), std::pair(palette::measure, 1.5f)}) {
+        for (const auto& [colour, width] :
+             {std::pair(palette::measure_casing(dark), 3.5f), std::pair(palette::measure(dark), 1.5f)}) {
             const auto line = scene_lines(position, Eigen::Matrix<int, 2, 1>(vertices[0], vertices[1]));
             line->colour = colour;
             line->width = width;
@@ -44,7 +45,8 @@ void add_picked_vertices(Scene& scene, const ViewerState& state, SceneCache::Ver
         scene.rings.push_back({position.col(*state.hovered_vertex)});
     if (!std::all_of(vertices.begin(), vertices.end(), there))
         return; // of another part
-    const VertexShape& shape = cache.of({sheet, vertices}, [&] { return vertex_shape(vertices, position); });
+    const VertexShape& shape =
+        cache.of({sheet, vertices, state.view.dark}, [&] { return vertex_shape(vertices, position, state.view.dark); });
     scene.lines.insert(scene.lines.end(), shape.line.begin(), shape.line.end());
     if (shape.dots)
         scene.points.push_back(shape.dots);

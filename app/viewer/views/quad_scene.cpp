@@ -2,6 +2,7 @@
 
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/grid_shapes.h"
+#include "app/viewer/views/measurements.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/patch_shapes.h"
 #include "app/viewer/views/scene_mesh.h"
@@ -97,6 +98,7 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
             result, made,
             cache.grid_figures.of({made.grid, made.blank}, [&] { return grid_figures(*made.grid, made.blank->blank); }),
             state.view.dark);
+    add_measurements(result, state, View::quads, cache);
     add_part_outlines(result, state, cache);
     return result;
 }

@@ -122,7 +122,7 @@ struct StepsCache {
     Memo<FieldValues, Run, size_t, Field, bool> values;
     Memo<std::shared_ptr<const SceneField>, Mesh, Run, size_t, Field, bool> field;
     Memo<LineList, Mesh, std::vector<int>> selection;
-    Memo<VertexShape, Mesh, std::vector<int>> vertices;
+    Memo<VertexShape, Mesh, std::vector<int>, bool> vertices;
 };
 
 /// What the scenes of a window have in common and what they are made of, so that nothing is made again in each frame.
@@ -137,7 +137,7 @@ struct SceneCache {
     using Deformed = std::shared_ptr<const DeformedSurface>;
     using LiveBlank = std::shared_ptr<const Eigen::Matrix2Xd>;
 
-    using Vertices = Memo<VertexShape, std::shared_ptr<const SceneMesh>, std::vector<int>>;
+    using Vertices = Memo<VertexShape, std::shared_ptr<const SceneMesh>, std::vector<int>, bool>;
 
     Memo<PartShape, Part> part;
     Memo<FlatShape, Part, Blank, LiveBlank> flat;
@@ -148,7 +148,7 @@ struct SceneCache {
     Memo<LineList, std::shared_ptr<const SceneMesh>, std::vector<int>> selection_elsewhere;
     Memo<std::vector<std::vector<ClosestPoint>>, Part, std::vector<ProcessLine>> line_places;
     Vertices vertices_on_part, vertices_on_blank;
-    Memo<StageShape, std::vector<std::shared_ptr<const Measured>>> measurements;
+    std::array<Memo<StageShape, std::vector<std::shared_ptr<const Measured>>, bool>, 4> measurements; ///< by View
     Memo<std::optional<std::array<int, 4>>, Part, std::array<int, 4>> chosen_corners;
     Memo<std::optional<std::array<int, 4>>, Part, Blank> proposed_corners;
     Memo<LineList, std::shared_ptr<const SceneMesh>, bool> outline;

@@ -120,6 +120,7 @@ void add_part_outlines(Scene& scene, const ViewerState& state, SceneCache& cache
         {mesh, selected}, [&] { return outline_of_faces(*mesh, selected, 2, true, palette::selected); });
     scene.lines.insert(scene.lines.end(), selection.begin(), selection.end());
     add_hovered(scene, state, state.document.session.part->mesh.position);
+    add_spot(scene, state, state.document.session.part->mesh.position);
     add_picked_vertices(scene, state, cache.vertices_on_part, mesh, state.document.session.part->mesh.position);
 }
 

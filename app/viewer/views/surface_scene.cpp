@@ -4,6 +4,7 @@
 #include "app/viewer/model/handles.h"
 #include "app/viewer/model/lights.h"
 #include "app/viewer/views/colour_scale.h"
+#include "app/viewer/views/measurements.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "app/viewer/views/sheet_shapes.h"
@@ -121,6 +122,7 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels)
     }
     if (is_now)
         add_handles(result, state);
+    add_measurements(result, state, View::surface, cache);
     add_part_outlines(result, state, cache);
     return result;
 }

@@ -163,6 +163,13 @@ protected:
         start({part});
         return hands->see_that("the part", [](const Json& now) { return now["stages"]["read"] == true; });
     }
+    /// Work of the user's, which would be lost.
+    void pick_all()
+    {
+        hands->keys("F4");
+        hands->keys("i");
+        hands->see_that("picked faces", [](const Json& r) { return r["project"]["unsaved"] == true; });
+    }
     void choose_theme()
     {
         if (hands->viewer().report()["view"]["dark"] != screen.dark)
@@ -405,19 +412,57 @@ TEST_F(ByHand, AnotherFileWhileThereIsUnsavedWork)
     Channel::write(folder / "channel.step");
     start_with("assets/parts/dome.obj");
     hands->keys("F6");
-    hands->see_that("the blank",
-                    [](const Json& r) { return r["stages"]["solve"] == true && r["project"]["unsaved"] == true; });
-    hands->keys("ctrl+o");
-    hands->see("Open a part");
-    hands->type((folder / "channel.step").string());
-    hands->keys("Return");
-    hands->see("Import a part");
-    hands->keys("Return");
-    hands->see("Unsaved changes");
+    hands->see_that("the blank, which comes again by one key",
+                    [](const Json& r) { return r["stages"]["solve"] == true && r["project"]["unsaved"] == false; });
+    pick_all();
+    const auto open_channel = [&] {
+        hands->keys("ctrl+o");
+        hands->see("Open a part");
+        hands->type((folder / "channel.step").string());
+        hands->keys("Return");
+        hands->see("Import a part");
+        hands->keys("Return");
+        hands->see("Unsaved changes");
+        hands->see_part_of_line("channel.step has been read");
+    };
+    open_channel();
     hands->click("Cancel");
     hands->see_no("Unsaved changes");
     const Json now = hands->see_ready();
     EXPECT_EQ(now["part"]["file"], "assets/parts/dome.obj") << "nothing is lost";
+    EXPECT_EQ(now["selection"]["faces"], now["part"]["triangles"]);
+    open_channel();
+    hands->click("Continue without saving");
+    hands->see_that("the other part",
+                    [&](const Json& r) { return r["part"]["file"] == (folder / "channel.step").string(); });
+}
+
+TEST_F(ByHand, TheDialogOfFilesSaysWhatItLeavesOutAndBeginsAnewEachTime)
+{
+    Channel::write(folder / "channel.step");
+    std::ofstream(folder / "notes.txt") << "not a part";
+    std::ofstream(folder / "table.xls") << "neither";
+    start({"channel.step"});
+    hands->see("Import a part");
+    hands->keys("Return");
+    hands->see_that("the part", [](const Json& r) { return r["stages"]["read"] == true; });
+    for (int time = 0; time < 2; ++time) {
+        hands->keys("ctrl+o");
+        hands->see("Open a part");
+        hands->see_part_of_line("not shown");
+        EXPECT_FALSE(hands->sees_now("notes.txt"));
+        hands->click("Show all files");
+        hands->see("notes.txt");
+        hands->type((folder / "nowhere.stl").string()); // takes the place of the name that stands there
+        hands->keys("Return");
+        hands->see("There is no file " + (folder / "nowhere.stl").string());
+        hands->keys("Escape");
+        hands->see_no("There is no file");
+    }
+    hands->keys("ctrl+o");
+    hands->see("Open a part");
+    EXPECT_FALSE(hands->sees_now("There is no file " + (folder / "nowhere.stl").string()));
+    hands->keys("Escape");
 }
 
 TEST_F(ByHand, EscapeCancels)
@@ -437,6 +482,7 @@ TEST_F(ByHand, AfterACrashBothDialogsCome)
     start_with("assets/parts/dome.obj");
     hands->keys("F6");
     hands->see_that("the blank", [](const Json& r) { return r["stages"]["solve"] == true; });
+    pick_all();
     hands->viewer().wait("work that is kept, which is done every 30 s",
                          [&](const Json&) { return kept_files(folder) > 0; });
     hands->viewer().crash();

@@ -42,6 +42,16 @@ TEST_F(HelpByHand, TheManualIsReadAndSearched)
     hands->see_no("Nothing was found.");
     hands->keys("Escape");
     hands->see_no("Process conditions");
+
+    hands->menu("Help", "Manual");
+    hands->see("Search the manual"); // what was looked for the last time is gone
+    hands->see("What amber lights mean");
+    hands->click("Search the manual");
+    hands->type("rolling direction");
+    hands->see("Process conditions");
+    hands->click_beside("Process conditions", 0, 18); // the words below the name are as good
+    hands->see_part_of_line("Rolling direction");
+    hands->keys("Escape");
 }
 
 TEST_F(HelpByHand, VersionsAreListed)

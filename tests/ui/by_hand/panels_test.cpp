@@ -128,6 +128,66 @@ TEST_F(PanelsByHand, ViewsAndMarks)
     });
 }
 
+TEST_F(PanelsByHand, AWorstSpotHasAMarkAndEscapeGoesBack)
+{
+    const Json before = unfold();
+    hands->scroll_to("Worst spots", 1450, 500);
+    hands->click_part("1.  ");
+    Json now = hands->see_that("a spot", [](const Json& r) { return r["spot"].is_number(); });
+    EXPECT_EQ(now["selection"], before["selection"]) << "what is selected is the user's";
+    EXPECT_NE(now["view"]["camera"], before["view"]["camera"]);
+    hands->keys("Escape");
+    now = hands->see_that("no spot", [](const Json& r) { return r["spot"].is_null(); });
+    EXPECT_EQ(now["view"]["camera"], before["view"]["camera"]);
+}
+
+TEST_F(PanelsByHand, ATickMovesNothing)
+{
+    unfold();
+    const auto y_of = [&](const char* line) {
+        const Json report = hands->viewer().report();
+        for (const Json& text : report["window"]["texts"])
+            if (text["text"] == line)
+                return text["at"][1].get<double>();
+        return -1.;
+    };
+    for (const char* tick : {"Within a tolerance", "Square cells", "Improve cell angles"}) {
+        hands->scroll_to(tick, panel_x, panel_y);
+        const double before = y_of(tick);
+        for (int time = 0; time < 2; ++time) { // on and off
+            hands->click(tick);
+            hands->see_ready();
+            EXPECT_NEAR(y_of(tick), before, 1) << tick;
+        }
+    }
+}
+
+TEST_F(PanelsByHand, WhatThereIsToLookAtStaysWhileTheMouseIsOverThePart)
+{
+    unfold();
+    const auto seen = [](const Json& r, const char* part) {
+        const Json& texts = r["window"]["texts"];
+        return std::any_of(texts.begin(), texts.end(), [&](const Json& text) {
+            return text["text"].get<std::string>().find(part) != std::string::npos;
+        });
+    };
+    hands->see_part_of_line("to look at");
+    const auto at = in_part(0.55, 0.5);
+    viewer().move(at.first, at.second);
+    hands->see_that("both", [&](const Json& r) { return seen(r, "to look at") && seen(r, "Face "); });
+}
+
+TEST_F(PanelsByHand, AMenuNamesTheKeysThatActInAViewAsSuch)
+{
+    hands->click("View");
+    hands->see("T in a view");
+    hands->see("F in a view");
+    hands->keys("Escape");
+    hands->click("Edit");
+    hands->see("I in a view");
+    hands->keys("Escape");
+}
+
 TEST_F(PanelsByHand, AGradeOfOnesOwn)
 {
     hands->menu("Edit", "Materials...");

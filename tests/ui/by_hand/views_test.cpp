@@ -223,6 +223,28 @@ TEST_F(ViewsByHand, ARadiusAnAngleAndADistanceAreMeasured)
     hands->see_that("none", [](const Json& r) { return r["measurements"].empty(); });
 }
 
+TEST_F(ViewsByHand, TheBlankIsMeasuredInItsOwnView)
+{
+    hands->keys("F5");
+    hands->see_that("all of it",
+                    [](const Json& r) { return r["stages"]["fit"] == true && r["job"]["running"] == false; });
+    click(at(Angle::place(2, 0.5)));
+    hands->keys("m");
+    value("/view/tool", "measure");
+    const auto measure_in = [&](const char* view, size_t count) {
+        const Json place = viewer().report()["window"]["views"][view];
+        click(item(place, 0.55, 0.45));
+        click(item(place, 0.62, 0.6));
+        const Json now =
+            hands->see_that("a distance", [&](const Json& r) { return r["measurements"].size() == count; });
+        EXPECT_EQ(now["measurements"][count - 1]["on"], view);
+        EXPECT_GT(now["measurements"][count - 1]["value"], 1);
+    };
+    measure_in("blank", 1);
+    measure_in("quads", 2);
+    measure_in("surface", 3);
+}
+
 TEST_F(ViewsByHand, APlaneCutsTheViewsAndWhatIsCutAwayIsNotPicked)
 {
     const Eigen::Vector3d on_flange = Angle::place(Angle::columns - 1.3, 0.5), on_web = Angle::place(2.3, 0.5);

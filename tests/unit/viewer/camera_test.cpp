@@ -257,4 +257,22 @@ TEST(Camera, StandardViewsStandWhereTheirNamesSayWithUpwardsUp)
     check(StandardView::isometric, Eigen::Vector3d(1, -1, 1).normalized(), z);
 }
 
+TEST(Camera, OnTheWayItTurnsEvenlyAndByTheShorterSide)
+{
+    Camera from, to;
+    from.height = 50;
+    to.height = 200;
+    to.target = {10, 20, 30};
+    to.turn = -glm::angleAxis(glm::radians(80.), glm::normalize(glm::dvec3(1, 2, 3))); // the same turn, its other sign
+    EXPECT_EQ(between(from, to, 0).height, 50);
+    EXPECT_EQ(between(from, to, 0).target, from.target);
+    EXPECT_NEAR(between(from, to, 1).height, 200, 1e-9);
+    for (const double share : {0.25, 0.5, 0.75}) {
+        const Camera now = between(from, to, share);
+        EXPECT_NEAR(2 * std::acos(std::abs(now.turn.w)), glm::radians(80 * share), 1e-9);
+        EXPECT_NEAR(now.height, 50 * std::pow(4., share), 1e-9);
+        EXPECT_NEAR(glm::length(now.target - share * to.target), 0, 1e-9);
+    }
+}
+
 } // namespace spia::viewer

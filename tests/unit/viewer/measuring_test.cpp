@@ -126,17 +126,62 @@ TEST(Measuring, ARadiusTellsHowFarTheSheetIsFromItsCylinder)
     EXPECT_LT(*found.residual, 0.1);
 }
 
-TEST(Measuring, WhatIsNotRoundIsRefusedInWords)
+/// The radius that a click on the face nearest to a place finds, and all that is said of it.
+Measured radius_at(const TriMesh& mesh, const Vector3d& place)
+{
+    return measured(mesh, {MeasureKind::rounding, {{face_at(mesh, place), Vector3d::Constant(1. / 3)}}});
+}
+
+std::string said(const Measured& found, const std::string& name)
+{
+    for (const Measured::Figure& figure : found.more)
+        if (figure.name == name)
+            return text_of(figure, LengthUnit::mm);
+    return "";
+}
+
+TEST(Measuring, AFreeformBendHasTheRadiusOfItsCurvatureThere)
+{
+    // Of a cone the radius across is that of the normal section: r / cos(half angle) (Meusnier).
+    const TriMesh cone = shapes::pipe(40, 20, 50, 96, 40);
+    const double slope = std::atan2(20., 50.);
+    for (const double up : {15., 25., 35.}) {
+        const double r = 40 - 0.4 * up;
+        const Measured found = radius_at(cone, {r, 0, up});
+        EXPECT_NEAR(found.value, r / std::cos(slope), 0.02 * r) << up;
+        EXPECT_EQ(said(found, "Radius along the bend"), "straight");
+        EXPECT_NE(said(found, "Measured").find("cone"), std::string::npos);
+    }
+    // A ball has its own wherever it is clicked, in every direction.
+    const TriMesh ball = shapes::closed_sphere(30, 6000);
+    for (const Vector3d& place : {Vector3d(30, 0, 0), Vector3d(0, 18, 24), Vector3d(10, -20, -20)}) {
+        const Measured found = radius_at(ball, place);
+        EXPECT_NEAR(found.value, 30, 0.6);
+        EXPECT_NE(said(found, "Radius along the bend"), "straight");
+        ASSERT_TRUE(found.residual);
+        EXPECT_LT(*found.residual, 0.1);
+    }
+    // A parabolic trough z = x^2 / (2 p): 1 / R = 1 / (p (1 + (x / p)^2)^1.5).
+    constexpr double p = 20;
+    const TriMesh trough = shapes::grid_surface({120, 60}, [](double u, double v) {
+        const double x = 60 * u - 30;
+        return Vector3d(x, 40 * v, x * x / (2 * p));
+    });
+    for (const double x : {0.25, 10.25, 20.25}) {
+        const double wanted = p * std::pow(1 + x * x / (p * p), 1.5);
+        EXPECT_NEAR(radius_at(trough, {x, 20, x * x / (2 * p)}).value, wanted, 0.02 * wanted) << x;
+    }
+}
+
+TEST(Measuring, WhatIsFlatOrTooCoarseIsRefusedInWords)
 {
     const TriMesh bend = Bend::mesh();
     const auto rounding = [](const TriMesh& mesh, const Vector3d& place) {
         return Measurement{MeasureKind::rounding, {{face_at(mesh, place), Vector3d::Constant(1. / 3)}}};
     };
     EXPECT_NE(refusal(bend, rounding(bend, {10, 30, 0})).find("flat"), std::string::npos);
-    const TriMesh cone = shapes::pipe(40, 20, 50, 48, 16);
-    EXPECT_NE(refusal(cone, rounding(cone, {30, 0, 25})).find("cone"), std::string::npos);
-    const TriMesh ball = shapes::closed_sphere(30, 3000);
-    EXPECT_NE(refusal(ball, rounding(ball, {30, 0, 0})).find("not round"), std::string::npos);
+    const TriMesh rough = shapes::noisy(shapes::rectangle(100, 80, 20, 16), 0.2); // no better than its noise
+    EXPECT_NE(refusal(rough, rounding(rough, {50, 40, 0})).find("flat"), std::string::npos);
 }
 
 TEST(Measuring, TheAngleBetweenTwoFacesIsThatOfTheBend)
@@ -216,6 +261,56 @@ TEST_F(MeasuringModel, MeasurementsAreShownTakenBackAndKeptWithTheProject)
     wait();
     ASSERT_EQ(document.measurements.size(), 2u);
     EXPECT_NEAR(document.measurements[0].found->value, 10 * wanted, 1e-8);
+}
+
+TEST_F(MeasuringModel, EachViewIsMeasuredInItsOwnPicture)
+{
+    open();
+    model.apply(RunTo{Stage::fit});
+    wait();
+    ASSERT_TRUE(document.session.surface);
+    const TriMesh& part = document.session.part->mesh;
+    const Probe a = at_vertex(part, 0), b = at_vertex(part, part.vertices() / 2);
+    model.apply(AddMeasurement{{MeasureKind::distance, {a, b}, View::blank}});
+    ASSERT_EQ(document.measurements.size(), 1u);
+    const auto flat = [&] {
+        const auto& plane = document.session.blank->blank.position;
+        return (plane.col(0) - plane.col(part.vertices() / 2)).norm();
+    };
+    EXPECT_NEAR(document.measurements[0].found->value, flat(), 1e-9);
+
+    // Two opposite corners of the quads; faces 0 and the last are the triangles there.
+    const QuadGrid& quads = document.session.lifted->lifted;
+    const int last = 2 * quads.columns * quads.rows - 2; // its third corner is the last node
+    model.apply(
+        AddMeasurement{{MeasureKind::distance, {{0, Vector3d::Unit(0)}, {last, Vector3d::Unit(2)}}, View::quads}});
+    ASSERT_EQ(document.measurements.size(), 2u);
+    EXPECT_NEAR(document.measurements[1].found->value,
+                (quads.position.col(0) - quads.position.col(quads.nodes() - 1)).norm(), 1e-9);
+
+    const auto surface = measured_mesh(state, View::surface);
+    ASSERT_TRUE(surface);
+    model.apply(AddMeasurement{{MeasureKind::distance,
+                                {{0, Vector3d::Unit(0)}, {surface->triangles() - 1, Vector3d::Unit(1)}},
+                                View::surface}});
+    ASSERT_EQ(document.measurements.size(), 3u);
+    // The surface has the corners of the quads as its own.
+    EXPECT_NEAR(document.measurements[2].found->value, document.measurements[1].found->value, 0.5);
+    SceneCache cache;
+    for (const auto& [view, called] :
+         {std::pair(View::blank, "M1  "), {View::quads, "M2  "}, {View::surface, "M3  "}}) {
+        const Scene scene = viewer::scene(view, state, cache);
+        EXPECT_TRUE(std::any_of(scene.labels.begin(), scene.labels.end(), [&](const SceneLabel& l) {
+            return l.text.starts_with(called);
+        })) << called;
+    }
+
+    model.apply(SetThickness{2}); // another blank, another quad mesh
+    model.apply(RunTo{Stage::fit});
+    wait();
+    ASSERT_EQ(document.measurements.size(), 1u);
+    EXPECT_EQ(document.measurements[0].on, View::blank);
+    EXPECT_NEAR(document.measurements[0].found->value, flat(), 1e-9);
 }
 
 } // namespace spia::viewer

@@ -125,6 +125,8 @@ TEST_F(PatchesChoice, AreKeptWithTheProject)
     model.apply(SetPatches{patches});
     model.apply(CancelJob{});
     wait();
+    model.apply(Redo{}); // with its run the choice was taken back
+    wait();
     model.apply(SaveProject{folder / "a.spia"});
     wait();
     const Project project = open_project(folder / "a.spia", assets / "materials");

@@ -148,10 +148,21 @@ TEST_F(Picking, DrawsASectionAndGoesToAFaceInWaysThatCanBeTakenBack)
     model.apply(DrawSection{View::blank, {1, 1}, {2, 2}, size});
     EXPECT_TRUE(says(Severity::error, "Unfold the part first"));
     model.apply(SelectFaces{{4, 5}});
+    const auto cameras = state.view.camera;
     model.apply(FlyTo{9});
-    EXPECT_EQ(document.selected, (std::vector<int>{9}));
-    model.apply(Undo{});
-    EXPECT_EQ(document.selected, (std::vector<int>{4, 5}));
+    EXPECT_EQ(document.selected, (std::vector<int>{4, 5})) << "what is selected is the user's";
+    ASSERT_TRUE(state.spot);
+    EXPECT_EQ(state.spot->face, 9);
+    EXPECT_NE(state.view.camera, cameras);
+    model.apply(FlyTo{12});
+    model.apply(HideSpot{});
+    EXPECT_FALSE(state.spot);
+    EXPECT_EQ(state.view.camera, cameras) << "back past both spots";
+    model.apply(FlyTo{9});
+    model.apply(LookFrom{View::part, StandardView::front}); // moved since: it stays
+    const auto moved = state.view.camera;
+    model.apply(HideSpot{});
+    EXPECT_EQ(state.view.camera[size_t(View::part)], moved[size_t(View::part)]);
     model.apply(Undo{});
     model.apply(Undo{});
     EXPECT_FALSE(document.section);

@@ -306,7 +306,7 @@ TEST_F(RefusedPart, ARunThatAnOpeningEndsIsNoChangeOfThePartThatStays)
 {
     apply(OpenPart{SPIA_SOURCE_DIR "/assets/parts/inner-panel.obj", ""});
     model.apply(RunTo{Stage::solve});
-    EXPECT_TRUE(state.unsaved);
+    EXPECT_FALSE(state.unsaved) << "what is computed comes again by one key";
     apply(OpenPart{two_pieces(), ""});
     EXPECT_EQ(window_title(state), "inner-panel - SPIA") << "nothing to save";
     EXPECT_EQ(state.history.undo_name(), "");

@@ -95,6 +95,8 @@ std::vector<Action> every_action()
         set(LookFromSide{View::surface, {-1, 0, 1}});
         set(AddMeasurement{{MeasureKind::angle, {Probe{7, {0.5, 0.25, 0.25}}, Probe{8}, Probe{9, {0, 1, 0}}}}});
         set(RemoveMeasurement{3});
+        set(AddMeasurement{{MeasureKind::distance, {Probe{7}, Probe{8}}, View::blank}});
+        set(TakeOpened{true});
         set(OpenProject{"a.spia"});
         set(ExportFiles{
             "out", {"step", "dxf"}, {LengthUnit::inch, "door", {true, false, true, false, true}, {false, true}}});
