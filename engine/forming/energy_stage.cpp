@@ -113,8 +113,10 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
     };
     std::vector<ElementStress> expected(size_t(faces), ElementStress::Zero());
     for (int step = 0; step < options.most_steps; ++step) {
-        progress.checkpoint(double(step) / options.most_steps,
-                            fmt::format("energy step {}, {:.4g} J", step + 1, E * 1e-3));
+        const auto checkpoint = [&, text = fmt::format("energy step {}, {:.4g} J", step + 1, E * 1e-3)] {
+            progress.checkpoint(double(step) / options.most_steps, text);
+        };
+        checkpoint();
         Eigen::VectorXd gradient = Eigen::VectorXd::Zero(matrix.size());
         matrix.clear();
         parallel_in_order<Contribution>(
@@ -149,8 +151,10 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         const double shift = 1e-12 * matrix.diagonal().mean();
         for (int i = 0; i < matrix.size(); ++i)
             matrix.add_to_diagonal(i, shift);
+        checkpoint();
         if (!cholesky.factor(matrix))
             throw SolveError("the stiffness of the energy stage is not positive definite; the start is too distorted");
+        checkpoint();
         const Eigen::VectorXd newton = -cholesky.solve(gradient);
         const Eigen::Matrix2Xd direction = newton.reshaped(2, X.cols());
         const double decrement = -gradient.dot(newton);
@@ -170,6 +174,7 @@ EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector
         double length = std::min(1.0, 0.9 * largest_step(triangle, X, direction));
         bool decreased = false;
         for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
+            checkpoint();
             const Eigen::Matrix2Xd trial = X + length * direction;
             const double E_trial = total(trial);
             if (E_trial <= E - 1e-4 * length * decrement) { // Armijo

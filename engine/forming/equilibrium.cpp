@@ -76,8 +76,9 @@ public:
             work_.set_axes(X);
             const Eigen::VectorXd R = residual(X);
             result.residual = R.norm() / yield_force_;
-            progress.checkpoint(double(step) / options_.most_steps,
-                                fmt::format("equilibrium step {}, residual {:.1e}", step + 1, result.residual));
+            const Step here{progress, double(step) / options_.most_steps,
+                            fmt::format("equilibrium step {}, residual {:.1e}", step + 1, result.residual)};
+            here.checkpoint();
             result.resultant = rigid_.resultant(spring_ * rigid_.moved(X));
             result.steps.push_back({0, result.residual, 0});
             if (options_.watch)
@@ -91,7 +92,7 @@ public:
             // A short step tells that the expected stresses lead astray: begin anew with the ones that are there.
             if (result.steps.size() > 1 && result.steps[result.steps.size() - 2].step_length < short_step)
                 work_.steady(X);
-            if (no_progress(result.steps, size_t(options_.patience)) || !advance(X, R, result.steps)) {
+            if (no_progress(result.steps, size_t(options_.patience)) || !advance(X, R, result.steps, here)) {
                 result.ended = Ended::stalled;
                 return result;
             }
@@ -100,6 +101,14 @@ public:
     }
 
 private:
+    /// A step may take seconds: it can be cancelled between its iterations, too.
+    struct Step {
+        const Progress& progress;
+        double fraction;
+        std::string text;
+        void checkpoint() const { progress.checkpoint(fraction, text); }
+    };
+
     Eigen::VectorXd residual(const Eigen::Matrix2Xd& X) const
     {
         return work_.residual(X) + rigid_.rows() * (spring_ * rigid_.moved(X));
@@ -119,9 +128,9 @@ private:
         return n > few && length < few * tiny;
     }
 
-    bool advance(Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, std::vector<NewtonStep>& steps)
+    bool advance(Eigen::Matrix2Xd& X, const Eigen::VectorXd& R, std::vector<NewtonStep>& steps, const Step& here)
     {
-        const std::optional<Eigen::VectorXd> newton = direction_at(X, R, steps);
+        const std::optional<Eigen::VectorXd> newton = direction_at(X, R, steps, here);
         if (!newton)
             return false;
         const Eigen::Matrix2Xd direction = newton->reshaped(2, X.cols());
@@ -130,6 +139,7 @@ private:
             least = std::min(least, step.residual);
         double length = std::min(1.0, 0.9 * largest_step(triangle_, X, direction));
         for (int halving = 0; halving < 10; ++halving, length *= 0.5) {
+            here.checkpoint();
             const Eigen::Matrix2Xd trial = X + length * direction;
             if (descends(R, residual(trial), length, least * yield_force_)) {
                 work_.expect(X, length * direction);
@@ -179,7 +189,7 @@ private:
     /// factor of the tangent's definite neighbour preconditions it, near the solution the one of the step before; where
     /// that is not enough, a sparse LU takes its place. None: the tangent is singular, or there is no patience for an LU.
     std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R,
-                                                const std::vector<NewtonStep>& steps)
+                                                const std::vector<NewtonStep>& steps, const Step& here)
     {
         constexpr int most_iterations = 60, most_by_old_factor = 20;
         constexpr double near_solution = 0.3;
@@ -187,6 +197,7 @@ private:
         // Far from the solution a rough direction is worth more than an exact one that costs ten times as much.
         const double rough = tolerance < worst_forcing ? 0 : 0.3;
         const LinearMap A = [&](const Eigen::VectorXd& x) {
+            here.checkpoint();
             Eigen::VectorXd y;
             tangent_.multiply(x, y);
             return Eigen::VectorXd(y + rigid_.rows() * (spring_ * (rigid_.rows().transpose() * x)));
@@ -202,7 +213,9 @@ private:
             rest -= A(old.x);
         }
         work_.tangents(X, tangent_, preconditioner_);
+        here.checkpoint();
         factored_ = cholesky_.factor(preconditioner_);
+        here.checkpoint();
         if (factored_) {
             const double left = rest.norm() / R.norm();
             const GmresResult solved = gmres(A, by_cholesky, rest, tolerance / left, most_iterations);
@@ -215,7 +228,9 @@ private:
         preconditioner_.add_to_diagonal(0, spring_);
         preconditioner_.add_to_diagonal(1, spring_);
         preconditioner_.add_to_diagonal(preconditioner_.size() - 1, spring_);
+        here.checkpoint();
         const Lu lu(preconditioner_);
+        here.checkpoint();
         if (lu.singular())
             return std::nullopt;
         return gmres(

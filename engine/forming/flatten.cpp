@@ -66,7 +66,8 @@ Eigen::Matrix2Xd first_guess(const TriMesh& part, const std::vector<Element>& el
     InitialGuess guess = initial_guess(part, element, result.stamping, matrix, cholesky, progress.part(0.03, 0.1));
     result.report.start = guess.method;
     progress.checkpoint(0.08, "first guess: as rigid as possible");
-    return more_rigid(part, RigidSteps(part, element, matrix, cholesky), std::move(guess.position));
+    return more_rigid(part, RigidSteps(part, element, matrix, cholesky), std::move(guess.position),
+                      progress.part(0.08, 0.1));
 }
 
 /// @param start none: a first guess of its own
@@ -81,6 +82,7 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     TriMesh part = original;
     const Eigen::Vector3d centre = (part.position.rowwise().minCoeff() + part.position.rowwise().maxCoeff()) / 2;
     part.position.colwise() -= centre;
+    progress.checkpoint(0, "looking for the stamping direction");
     const std::vector<Element> element = elements(part);
     FlattenResult result{};
     result.stamping = stamping(part, options);
@@ -100,9 +102,12 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     if (result.report.system == SolvedSystem::energy) // the others lie there
         place(job, result.blank.position);
 
+    const auto judging = [&] { progress.checkpoint(1, "strains and thickness"); };
+    judging();
     const Sheet sheet = solved_sheet(job, result.report);
     result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
+    judging();
     if (options.skins)
         result.skins = skin_strains(part, element, result.blank, sheet);
     result.necking_triangles = result.face.necking.sum();
@@ -114,6 +119,7 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
             fmt::format("{} triangles of the blank are too thin for coordinates {:.3g} mm from the origin: move "
                         "the part nearer to it, or mesh it more evenly",
                         result.flipped_triangles, centre.norm()));
+    judging();
     result.overlap = overlap(part, result.blank.position);
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return result;

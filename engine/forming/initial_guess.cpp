@@ -28,7 +28,8 @@ Eigen::Matrix2Xd projection(const TriMesh& part, const Eigen::Vector3d& directio
 /// The smallest eigenvector of the conformal energy sum A (|G|^2 / 2 - det G) against the mass of the boundary, found
 /// by inverse iteration on one factor. None: triangles have flipped, or are too thin.
 std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector<Element>& element,
-                                          const Eigen::Matrix2Xd& first, BlockMatrix& matrix, Cholesky& cholesky)
+                                          const Eigen::Matrix2Xd& first, BlockMatrix& matrix, Cholesky& cholesky,
+                                          const Progress& progress)
 {
     std::vector<Matrix6d> local(element.size());
     for (size_t f = 0; f < element.size(); ++f) {
@@ -45,8 +46,11 @@ std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector
     const double shift = 1e-8 * matrix.diagonal().mean();
     for (int i = 0; i < matrix.size(); ++i)
         matrix.add_to_diagonal(i, shift);
+    const auto checkpoint = [&] { progress.checkpoint(0.1, "first guess: conformal map"); };
+    checkpoint();
     if (!cholesky.factor(matrix))
         return std::nullopt;
+    checkpoint();
 
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
     for (const auto& loop : boundary_loops(part))
@@ -61,6 +65,7 @@ std::optional<Eigen::Matrix2Xd> conformal(const TriMesh& part, const std::vector
     std::optional<Eigen::Matrix2Xd> best;
     Eigen::Matrix2Xd X = first;
     for (int iteration = 0; iteration < (best ? few_iterations : most_iterations); ++iteration) {
+        checkpoint();
         X.colwise() -= (X * mass / mass.sum()).eval(); // translations cost no energy: keep them out
         X /= std::sqrt((X * mass.asDiagonal()).cwiseProduct(X).sum());
         const Eigen::VectorXd next = cholesky.solve((X * mass.asDiagonal()).reshaped());
@@ -166,7 +171,7 @@ InitialGuess initial_guess(const TriMesh& part, const std::vector<Element>& elem
         flipped_triangles(part.triangle, seen) == 0)
         return {seen, StartMethod::projection};
     progress.checkpoint(0.1, "first guess: conformal map");
-    if (auto X = conformal(part, element, seen, matrix, cholesky)) {
+    if (auto X = conformal(part, element, seen, matrix, cholesky, progress)) {
         scale_to_part(part, element, *X);
         return {std::move(*X), StartMethod::conformal};
     }

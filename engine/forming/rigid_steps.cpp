@@ -49,9 +49,11 @@ Eigen::Matrix2Xd RigidSteps::step(const Eigen::Matrix2Xd& X) const
     return X + laplacian_.solve(right).transpose();
 }
 
-Eigen::Matrix2Xd more_rigid(const TriMesh& part, const RigidSteps& rigid, Eigen::Matrix2Xd start)
+Eigen::Matrix2Xd more_rigid(const TriMesh& part, const RigidSteps& rigid, Eigen::Matrix2Xd start,
+                            const Progress& progress)
 {
     for (int step = 0; step < most_steps && rigid.possible(); ++step) {
+        progress.checkpoint(double(step) / most_steps, "first guess: as rigid as possible");
         Eigen::Matrix2Xd next = rigid.step(start);
         if (!one_to_one_around_vertices(part, next))
             break;

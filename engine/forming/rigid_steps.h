@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/forming/membrane.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/sparse/block_matrix.h"
@@ -32,6 +33,7 @@ private:
 
 /// The start after a few such steps, fewer if one of them would no longer be one_to_one_around_vertices().
 /// @param start without a flipped triangle
-Eigen::Matrix2Xd more_rigid(const TriMesh& part, const RigidSteps& rigid, Eigen::Matrix2Xd start);
+Eigen::Matrix2Xd more_rigid(const TriMesh& part, const RigidSteps& rigid, Eigen::Matrix2Xd start,
+                            const Progress& progress = {});
 
 } // namespace spia

@@ -72,9 +72,10 @@ struct Worth {
     }
 };
 
-Worth worth_of(const PatchesFit& fit)
+Worth worth_of(const PatchesFit& fit, const Progress& progress)
 {
-    return {certify(fit.patches).suited(), fit.reached, fit.deviation_max(), shared_controls(fit.patches).count};
+    return {certify(fit.patches, progress).suited(), fit.reached, fit.deviation_max(),
+            shared_controls(fit.patches).count};
 }
 
 bool same(const Layout& a, const Layout& b)
@@ -111,7 +112,7 @@ PatchesFit best_patches(const TriMesh& part, const Blank& blank, const LayoutOpt
             if (compare)
                 fitting.max_control_points = std::min(options.max_control_points, worth.control_points);
             PatchesFit fit = fit_patches(part, blank, divided, fitting, here.part(0.1, 1));
-            if (const Worth now = worth_of(fit); !best || now.better_than(worth)) {
+            if (const Worth now = worth_of(fit, here.part(1, 1)); !best || now.better_than(worth)) {
                 best = std::move(fit);
                 worth = now;
             }
@@ -133,7 +134,7 @@ PatchesFit blank_patches(const TriMesh& part, const Blank& blank, const LayoutOp
     if (!options.smooth_joins)
         return best_patches(part, blank, layout, options, progress);
     PatchesFit fit = best_patches(part, blank, layout, options, progress.part(0, 0.7));
-    const PatchesJudge judge(part, blank, fit.layout, options.tolerance);
+    const PatchesJudge judge(part, blank, fit.layout, options.tolerance, progress.part(0.7, 0.7));
     const PatchesJudgement judged = smooth_fit(fit, judge, judge.judge(fit.patches.patch, progress.part(0.7, 0.75)),
                                                options.tolerance, progress.part(0.75, 1));
     fit.surface_to_mesh = judged.surface_to_mesh;

@@ -70,8 +70,9 @@ std::vector<double> shares(const std::vector<double>& t)
 
 } // namespace
 
-PatchesJudge::PatchesJudge(const TriMesh& part, const Blank& blank, const Layout& layout, double tolerance)
-    : tolerance_(tolerance), search_(part), vertex_normal_(vertex_normals(part)),
+PatchesJudge::PatchesJudge(const TriMesh& part, const Blank& blank, const Layout& layout, double tolerance,
+                           const Progress& progress)
+    : tolerance_(tolerance), search_(part, progress), vertex_normal_(vertex_normals(part)),
       samples_(sample_mesh(part, part.triangles()))
 {
     TriMesh flat = part;
@@ -87,7 +88,7 @@ PatchesJudge::PatchesJudge(const TriMesh& part, const Blank& blank, const Layout
         box_.back() << low - room, high + room;
     }
     patch_.assign(size_t(plane_.cols()), 0);
-    parallel_for(int(plane_.cols()), [&](int i) {
+    for_each_in_parts(int(plane_.cols()), progress, "finding the patch of every place", [&](int i) {
         const Eigen::Vector2d p = plane_.col(i);
         int boxed = -1;
         for (int k = 0; k < int(polygon.size()); ++k) {
@@ -106,6 +107,7 @@ PatchesJudge::PatchesJudge(const TriMesh& part, const Blank& blank, const Layout
 
 PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, const Progress& progress) const
 {
+    constexpr const char* from_patches = "measuring from the patches to the part";
     PatchesJudgement result;
     result.patch_max.assign(patches.size(), 0);
     result.missing.resize(patches.size());
@@ -113,7 +115,9 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
     std::vector<Eigen::Vector3d> position;
     std::vector<SurfaceProjection> projection;
     for (size_t p = 0; p < patches.size(); ++p) {
-        progress.checkpoint(0.5 * double(p) / double(patches.size()), "measuring from the patches to the part");
+        const double all = double(patches.size());
+        const Progress here = progress.part(0.5 * double(p) / all, 0.5 * double(p + 1) / all);
+        here.checkpoint(0, from_patches);
         const NurbsSurface& patch = patches[p];
         const auto u = sample_parameters(patch.knots_u, patch.degree_u, 4),
                    v = sample_parameters(patch.knots_v, patch.degree_v, 4);
@@ -122,7 +126,7 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
         distance.resize(first + count);
         weight.resize(first + count);
         position.resize(first + count);
-        parallel_for(int(count), [&](int i) {
+        for_each_in_parts(int(count), here, from_patches, [&](int i) {
             const size_t a = size_t(i) % u.size(), b = size_t(i) / u.size();
             const SurfacePoint at = evaluate(patch, u[a], v[b]);
             position[first + size_t(i)] = at.position;
@@ -134,19 +138,18 @@ PatchesJudgement PatchesJudge::judge(const std::vector<NurbsSurface>& patches, c
             if (distance[first + i] > tolerance_)
                 result.missing[p].push_back({u[i % u.size()], v[i / u.size()], distance[first + i]});
         }
-        projection.emplace_back(patch);
+        projection.emplace_back(patch, 4, here.part(1, 1));
     }
     Eigen::Matrix3Xd places(3, Eigen::Index(position.size()));
     for (size_t i = 0; i < position.size(); ++i)
         places.col(Eigen::Index(i)) = position[i];
     result.surface_to_mesh = statistics(distance, weight, places, tolerance_);
 
-    progress.checkpoint(0.5, "measuring from the part to the patches");
     const int count = int(plane_.cols());
     std::vector<double> back(static_cast<size_t>(count));
     result.at_vertex.resize(vertex_normal_.cols());
     std::vector<SurfaceFoot> own(static_cast<size_t>(count));
-    parallel_for(count, [&](int i) {
+    for_each_in_parts(count, progress.part(0.5, 1), "measuring from the part to the patches", [&](int i) {
         const Eigen::Vector3d point = samples_.position.col(i);
         own[size_t(i)] = projection[size_t(patch_[size_t(i)])].nearest(point);
         double least = own[size_t(i)].distance;

@@ -22,7 +22,8 @@ struct PatchesJudgement {
 /// Judges one set of patches after the other by the same part; all arguments must outlive it.
 class PatchesJudge {
 public:
-    PatchesJudge(const TriMesh& part, const Blank& blank, const Layout& layout, double tolerance);
+    PatchesJudge(const TriMesh& part, const Blank& blank, const Layout& layout, double tolerance,
+                 const Progress& progress = {});
 
     /// A place of the part is compared with the patch in whose region of the blank it lies; where that is farther away than the
     /// tolerance, with every patch near it.

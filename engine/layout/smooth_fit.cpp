@@ -49,7 +49,7 @@ int count(const std::vector<char>& patches) { return int(std::count(patches.begi
 PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJudgement now, double tolerance,
                             const Progress& progress)
 {
-    const Certificate proved = certify(fit.patches);
+    const Certificate proved = certify(fit.patches, progress.part(0, 0));
     SmoothJoinsOptions options;
     options.tolerance = tolerance;
     options.kept.assign(fit.patches.patch.size(), 0);
@@ -63,7 +63,7 @@ PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJ
             return now;
         }
         PatchesJudgement then = judge.judge(smooth.patches.patch, here.part(0.5, 1));
-        std::vector<char> bad = spoilt(now, proved, then, certify(smooth.patches), tolerance);
+        std::vector<char> bad = spoilt(now, proved, then, certify(smooth.patches, here.part(1, 1)), tolerance);
         if (count(bad) == 0) {
             fit.patches = std::move(smooth.patches);
             return then;

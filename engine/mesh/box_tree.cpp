@@ -35,8 +35,13 @@ struct Entry {
     int face;
 };
 
-void build(BoxTree& tree, std::vector<Entry>& entry, int from, int to)
+constexpr int faces_at_a_time = 16384; // between two checkpoints: some milliseconds
+constexpr const char* sorting = "sorting faces by their place";
+
+void build(BoxTree& tree, std::vector<Entry>& entry, int from, int to, const Progress& progress)
 {
+    if (to - from > faces_at_a_time)
+        progress.checkpoint(double(from) / double(entry.size()), sorting);
     const size_t self = tree.node.size();
     tree.node.emplace_back();
     Eigen::AlignedBox3d whole, middles;
@@ -57,9 +62,9 @@ void build(BoxTree& tree, std::vector<Entry>& entry, int from, int to)
         entry.begin() + from, entry.begin() + half, entry.begin() + to, [&](const Entry& a, const Entry& b) {
             return a.middle[axis] < b.middle[axis] || (a.middle[axis] == b.middle[axis] && a.face < b.face);
         });
-    build(tree, entry, from, half);
+    build(tree, entry, from, half, progress);
     tree.node[self].second = int(tree.node.size());
-    build(tree, entry, half, to);
+    build(tree, entry, half, to, progress);
 }
 
 /// The longest edge (it ends in the next corner) and the height over it.
@@ -134,13 +139,16 @@ Eigen::AlignedBox3d slab(const Eigen::Matrix3d& t, int longest, double from, dou
 
 } // namespace
 
-BoxTree::BoxTree(const TriMesh& mesh, Boxes boxes)
+BoxTree::BoxTree(const TriMesh& mesh, Boxes boxes, const Progress& progress)
 {
+    progress.checkpoint(0, sorting);
     require_usable(mesh);
     const double least = boxes == Boxes::pieces ? least_length(mesh) : std::numeric_limits<double>::infinity();
     std::vector<Entry> entry;
     entry.reserve(size_t(mesh.triangles()));
     for (int f = 0; f < mesh.triangles(); ++f) {
+        if (f % faces_at_a_time == 0)
+            progress.checkpoint(0, sorting);
         const Eigen::Matrix3d corners = mesh.position(Eigen::all, mesh.triangle.col(f));
         const Extents extents = extents_of(corners);
         const int pieces = int(pieces_of(extents, least));
@@ -156,7 +164,8 @@ BoxTree::BoxTree(const TriMesh& mesh, Boxes boxes)
         }
     }
     node.reserve(entry.size());
-    build(*this, entry, 0, int(entry.size()));
+    build(*this, entry, 0, int(entry.size()), progress);
+    progress.checkpoint(1, sorting);
     face.resize(entry.size());
     triangle.resize(entry.size());
     for (size_t i = 0; i < entry.size(); ++i) {

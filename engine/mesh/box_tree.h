@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -27,9 +28,10 @@ struct BoxTree {
     enum class Boxes { whole, pieces };
 
     /// @param boxes  pieces: a face may be in several leaves, always as a whole; there are at most 8 times as many as faces, or 100 000
+    /// @param progress  a checkpoint every few thousand faces
     /// @throws InputError  if there is no face, a face names a vertex that does not exist or a coordinate of its
     ///                     vertices is not a number; names the first such face
-    explicit BoxTree(const TriMesh& mesh, Boxes boxes = Boxes::whole);
+    explicit BoxTree(const TriMesh& mesh, Boxes boxes = Boxes::whole, const Progress& progress = {});
 };
 
 } // namespace spia

@@ -59,8 +59,8 @@ Eigen::Vector3d closest_on_triangle(const Eigen::Matrix3d& triangle, const Eigen
     return best;
 }
 
-ClosestPointSearch::ClosestPointSearch(const TriMesh& mesh)
-    : tree_(std::make_unique<const BoxTree>(mesh, BoxTree::Boxes::pieces))
+ClosestPointSearch::ClosestPointSearch(const TriMesh& mesh, const Progress& progress)
+    : tree_(std::make_unique<const BoxTree>(mesh, BoxTree::Boxes::pieces, progress))
 {
 }
 ClosestPointSearch::~ClosestPointSearch() = default;

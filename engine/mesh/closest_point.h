@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 
+#include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -21,9 +22,10 @@ struct ClosestPoint {
 class ClosestPointSearch {
 public:
     /// Copies what it needs of the mesh. Faces without area count as the segment or point that is left of them.
+    /// @param progress  a checkpoint every few thousand faces
     /// @throws InputError  if there is no face, a face names a vertex that does not exist or a coordinate of its
     ///                     vertices is not a number; names the first such face
-    explicit ClosestPointSearch(const TriMesh& mesh);
+    explicit ClosestPointSearch(const TriMesh& mesh, const Progress& progress = {});
     ~ClosestPointSearch();
     ClosestPointSearch(ClosestPointSearch&&) noexcept;
     ClosestPointSearch& operator=(ClosestPointSearch&&) noexcept;

@@ -15,6 +15,8 @@ namespace spia {
 
 namespace {
 
+constexpr const char* taking_points = "taking points of the part";
+
 const GridResult& sound(const GridResult& grid)
 {
     if (grid.quality.folded_cells > 0 || grid.nodes_outside > 0)
@@ -84,7 +86,7 @@ Eigen::Vector2d BlankChart::in_plane(Between between, double u, double v) const
 }
 
 QuadGrid BlankChart::planar(Between between, const std::vector<double>& u, const std::vector<double>& v,
-                            const QuadGrid& border) const
+                            const QuadGrid& border, const Progress& progress) const
 {
     QuadGrid result = border;
     const int m = border.columns, n = border.rows;
@@ -102,7 +104,7 @@ QuadGrid BlankChart::planar(Between between, const std::vector<double>& u, const
         at_u1.col(j) = missing(m, j);
     }
     const int columns = grid_.planar.columns, rows = grid_.planar.rows;
-    parallel_for(result.nodes(), [&](int node) {
+    for_each_in_parts(result.nodes(), progress, taking_points, [&](int node) {
         const int i = node % (m + 1), j = node / (m + 1);
         if (i == 0 || j == 0 || i == m || j == n)
             return;
@@ -132,7 +134,8 @@ MeshPoint BlankChart::place_of(const Eigen::Vector2d& point, double u, double v,
     return outside ? search_.nearest(point) : place;
 }
 
-GridResult BlankChart::refined(const std::vector<double>& u, const std::vector<double>& v) const
+GridResult BlankChart::refined(const std::vector<double>& u, const std::vector<double>& v,
+                               const Progress& progress) const
 {
     GridResult result;
     result.filled = grid_.filled;
@@ -145,10 +148,11 @@ GridResult BlankChart::refined(const std::vector<double>& u, const std::vector<d
     result.place.resize(size_t(border.nodes()));
     place_border(*grid_.filled, boundary_, result.border, border, result.place);
 
-    result.planar = planar(Between::bicubic, u, v, border);
+    result.planar = planar(Between::bicubic, u, v, border, progress.part(0, 0.3));
+    progress.checkpoint(0.3, taking_points);
     result.quality = cell_quality(result.planar);
     if (result.quality.folded_cells > 0) {
-        QuadGrid straight = planar(Between::bilinear, u, v, border);
+        QuadGrid straight = planar(Between::bilinear, u, v, border, progress.part(0.3, 0.5));
         const CellQuality quality = cell_quality(straight);
         if (quality.folded_cells < result.quality.folded_cells) {
             result.planar = std::move(straight);
@@ -157,7 +161,7 @@ GridResult BlankChart::refined(const std::vector<double>& u, const std::vector<d
     }
     const int m = border.columns, n = border.rows;
     std::vector<char> outside(result.place.size(), 0);
-    parallel_for(border.nodes(), [&](int node) {
+    for_each_in_parts(border.nodes(), progress.part(0.5, 1), taking_points, [&](int node) {
         const int i = node % (m + 1), j = node / (m + 1);
         if (i == 0 || j == 0 || i == m || j == n)
             return;

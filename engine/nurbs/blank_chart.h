@@ -3,6 +3,7 @@
 
 #include "engine/coons/blank_search.h"
 #include "engine/coons/grid.h"
+#include "engine/core/progress.h"
 #include "engine/nurbs/surface.h"
 
 namespace spia {
@@ -21,14 +22,14 @@ public:
     /// between two nodes of the first grid, are put on its nearest place; nodes_outside counts them. How the first grid came about
     /// (its route, what was done to it) is not said again.
     /// @param u, v  strictly rising from 0 to 1
-    GridResult refined(const std::vector<double>& u, const std::vector<double>& v) const;
+    GridResult refined(const std::vector<double>& u, const std::vector<double>& v, const Progress& progress = {}) const;
 
 private:
     enum class Between { bicubic, bilinear };
 
     Eigen::Vector2d in_plane(Between between, double u, double v) const;
-    QuadGrid planar(Between between, const std::vector<double>& u, const std::vector<double>& v,
-                    const QuadGrid& border) const;
+    QuadGrid planar(Between between, const std::vector<double>& u, const std::vector<double>& v, const QuadGrid& border,
+                    const Progress& progress) const;
     MeshPoint place_of(const Eigen::Vector2d& point, double u, double v, bool& outside) const;
 
     const GridResult& grid_;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/bezier.h"
 #include "engine/nurbs/evaluate.h"
@@ -26,6 +27,9 @@ constexpr double rounding = 1e-12;
 /// Halvings of a span along each direction before it is given up: 1/1024 of it. Where S_u x S_v is not zero so few are needed that the
 /// bound is met near a fold only.
 constexpr int most_halvings = 10;
+
+constexpr const char* proving = "proving that nothing folds";
+constexpr const char* examining = "judging the shape of the surface";
 
 void require_patch(const NurbsSurface& s, size_t number)
 {
@@ -110,14 +114,17 @@ bool turns_round(const BezierPatch& span)
 }
 
 /// Proves one span, halving it where its coefficients do not show it. @returns the bound of its pieces; 0: refused
-double prove_span(const NurbsSurface& surface, const Piece& whole, PatchCertificate& certificate)
+double prove_span(const NurbsSurface& surface, const Piece& whole, PatchCertificate& certificate,
+                  const Progress& progress)
 {
+    constexpr int pieces_at_a_time = 1024; // halvings of a span close to a fold may be many
     std::vector<Piece> open{whole};
     double bound = std::numeric_limits<double>::infinity();
     while (!open.empty()) {
         const Piece piece = std::move(open.back());
         open.pop_back();
-        ++certificate.pieces;
+        if (++certificate.pieces % pieces_at_a_time == 0)
+            progress.checkpoint(0, proving);
         if (const double least = lower_bound(piece.normal); least > 0) {
             bound = std::min(bound, least);
             continue;
@@ -180,20 +187,22 @@ bool kinked(const std::vector<double>& knots, int degree, int span)
     return std::count(knots.begin(), knots.end(), knots[size_t(span)]) >= degree;
 }
 
-void prove(const NurbsSurface& s, PatchCertificate& certificate)
+void prove(const NurbsSurface& s, PatchCertificate& certificate, const Progress& progress)
 {
     const bool rational = (s.weight.array() != 1).any();
     const std::vector<int> u = spans(s.knots_u, s.degree_u), v = spans(s.knots_v, s.degree_v);
     std::vector<BezierPatch> before(u.size()); // of the last row of spans
     double bound = std::numeric_limits<double>::infinity();
-    for (size_t j = 0; j < v.size(); ++j)
+    for (size_t j = 0; j < v.size(); ++j) {
+        const Progress row = progress.part(double(j) / double(v.size()), double(j + 1) / double(v.size()));
+        row.checkpoint(0, proving);
         for (size_t i = 0; i < u.size(); ++i) {
             const BezierPatch homogeneous = bezier_of(s, u[i], v[j]);
             const double u0 = s.knots_u[size_t(u[i])], u1 = s.knots_u[size_t(u[i]) + 1], v0 = s.knots_v[size_t(v[j])],
                          v1 = s.knots_v[size_t(v[j]) + 1];
             const Piece piece{numerator(homogeneous, rational), u0, u1, v0, v1};
             const double weight = homogeneous.coefficient.row(3).maxCoeff();
-            const double least = prove_span(s, piece, certificate);
+            const double least = prove_span(s, piece, certificate, row);
             if (certificate.refusal)
                 return;
             bound = std::min(bound, least / (std::pow(weight, 3) * (u1 - u0) * (v1 - v0)));
@@ -207,12 +216,12 @@ void prove(const NurbsSurface& s, PatchCertificate& certificate)
                 return;
             before[i] = piece.normal;
         }
+    }
     certificate.proved_jacobian = bound;
 }
 
-void sample(const NurbsSurface& s, double u, double v, PatchCertificate& c, double& scaled, double& skew, int& count)
+void sample(const SurfacePoint& at, double u, double v, PatchCertificate& c, double& scaled, double& skew, int& count)
 {
-    const SurfacePoint at = evaluate(s, u, v);
     const double jacobian = at.S_u.cross(at.S_v).norm(), a = at.S_u.norm(), b = at.S_v.norm();
     c.least_jacobian = std::min(c.least_jacobian, jacobian);
     c.greatest_jacobian = std::max(c.greatest_jacobian, jacobian);
@@ -230,7 +239,7 @@ void sample(const NurbsSurface& s, double u, double v, PatchCertificate& c, doub
 
 double ratio(double a, double b) { return std::max(a, b) / std::min(a, b); }
 
-void measure(const NurbsSurface& s, PatchCertificate& c)
+void measure(const NurbsSurface& s, PatchCertificate& c, const Progress& progress)
 {
     const std::vector<double> u = span_borders(s.knots_u, s.degree_u), v = span_borders(s.knots_v, s.degree_v);
     c.least_jacobian = std::numeric_limits<double>::infinity();
@@ -238,18 +247,24 @@ void measure(const NurbsSurface& s, PatchCertificate& c)
     int count = 0;
     for (const double y : v)
         for (const double x : u)
-            sample(s, x, y, c, scaled, skew, count);
+            sample(evaluate(s, x, y), x, y, c, scaled, skew, count);
     std::vector<double> row(u.size() - 1, 0);
+    std::vector<SurfacePoint> point(16 * row.size()); // of one row of spans
+    const auto at_gauss = [](const std::vector<double>& borders, size_t span, int k) {
+        return (borders[span] + borders[span + 1] + gauss_place[k] * (borders[span + 1] - borders[span])) / 2;
+    };
     for (size_t j = 0; j + 1 < v.size(); ++j) {
+        progress.checkpoint(double(j) / double(v.size() - 1), examining);
+        parallel_for(int(point.size()), [&](int k) {
+            point[size_t(k)] = evaluate(s, at_gauss(u, size_t(k) / 16, k % 4), at_gauss(v, j, k / 4 % 4));
+        });
         double left = 0;
         for (size_t i = 0; i + 1 < u.size(); ++i) {
             double area = 0, along_u = 0, along_v = 0;
             for (int b = 0; b < 4; ++b)
                 for (int a = 0; a < 4; ++a) {
-                    const double x = (u[i] + u[i + 1] + gauss_place[a] * (u[i + 1] - u[i])) / 2,
-                                 y = (v[j] + v[j + 1] + gauss_place[b] * (v[j + 1] - v[j])) / 2;
-                    sample(s, x, y, c, scaled, skew, count);
-                    const SurfacePoint at = evaluate(s, x, y);
+                    const SurfacePoint& at = point[16 * i + size_t(4 * b + a)];
+                    sample(at, at_gauss(u, i, a), at_gauss(v, j, b), c, scaled, skew, count);
                     const double share = gauss_share[a] * gauss_share[b] / 4;
                     area += share * at.S_u.cross(at.S_v).norm();
                     along_u += share * at.S_u.norm();
@@ -313,14 +328,16 @@ bool Certificate::suited() const
            std::none_of(patch.begin(), patch.end(), [](const PatchCertificate& c) { return c.refusal.has_value(); });
 }
 
-Certificate certify(const MultiPatch& patches)
+Certificate certify(const MultiPatch& patches, const Progress& progress)
 {
     Certificate result;
     for (size_t p = 0; p < patches.patch.size(); ++p) {
         require_patch(patches.patch[p], p);
         PatchCertificate& one = result.patch.emplace_back();
-        prove(patches.patch[p], one);
-        measure(patches.patch[p], one);
+        const double all = double(patches.patch.size());
+        const Progress here = progress.part(double(p) / all, double(p + 1) / all);
+        prove(patches.patch[p], one, here.part(0, 0.6));
+        measure(patches.patch[p], one, here.part(0.6, 1));
     }
     try {
         require_watertight(patches);
@@ -328,8 +345,10 @@ Certificate certify(const MultiPatch& patches)
         result.leak = leak.what();
         return result;
     }
-    for (const PatchInterface& joint : patches.interfaces)
+    for (const PatchInterface& joint : patches.interfaces) {
+        progress.checkpoint(1, "examining the joins of the patches");
         result.interfaces.push_back(measure(patches, joint));
+    }
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/nurbs/multi_patch.h"
 
 namespace spia {
@@ -65,8 +66,9 @@ struct Certificate {
 /// Examines every patch. The numerator of S_u x S_v is w A_u x A_v + w_v A x A_u + w_u A_v x A for S = A / w, of degree (3p - 1, 3q - 1), or
 /// A_u x A_v of degree (2p - 1, 2q - 1) for a polynomial patch; its Bezier coefficients on a span enclose it, and come closer to
 /// it by halving. [Gravesen et al. 2014, for plane maps; the measures are those of exchange of grids, Knupp 2001]
+/// @param progress  a checkpoint every row of spans
 /// @throws InputError if a patch has a degree beyond max_degree or counts that do not fit
-Certificate certify(const MultiPatch& patches);
+Certificate certify(const MultiPatch& patches, const Progress& progress = {});
 
 /// In words, e.g. "folds at u = 0.31, v = 0.5 (12.1, 40, 3.2 mm)".
 std::string in_words(const Refusal& refusal);

@@ -42,7 +42,7 @@ std::vector<double> joined(const std::vector<double>& borders, const std::vector
 
 } // namespace
 
-std::optional<SpanBorders> Joining::next(const NurbsSurface& surface)
+std::optional<SpanBorders> Joining::next(const NurbsSurface& surface, const Progress& progress)
 {
     if (surface.control.cols() > most_control_points)
         return {};
@@ -54,7 +54,7 @@ std::optional<SpanBorders> Joining::next(const NurbsSurface& surface)
     all.listed_from = 0;
     all.mesh_to_surface = false;
     std::vector<double> of_u(now.u.size() - 1, 0), of_v(now.v.size() - 1, 0);
-    for (const BeyondTolerance& sample : deviation(surface, mesh_, all).beyond) {
+    for (const BeyondTolerance& sample : deviation(surface, mesh_, all, progress).beyond) {
         double& at_u = of_u[size_t(span_of(now.u, sample.u))];
         double& at_v = of_v[size_t(span_of(now.v, sample.v))];
         at_u = std::max(at_u, sample.distance);
@@ -84,7 +84,7 @@ void Joining::tried(bool good)
     factor_ *= along_u_ ? 2 : 1;
 }
 
-std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface)
+std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface, const Progress&)
 {
     constexpr Eigen::Index most_controls = 1'000;
     constexpr size_t most_tries = 12, most_tries_at_once = 4;
@@ -119,7 +119,7 @@ std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface)
     return best;
 }
 
-std::optional<SpanBorders> Evening::next(const NurbsSurface& surface)
+std::optional<SpanBorders> Evening::next(const NurbsSurface& surface, const Progress&)
 {
     constexpr Eigen::Index most_controls = 4'000;
     constexpr int most_tries = 14;

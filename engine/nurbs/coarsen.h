@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/nurbs/fit.h"
 
 namespace spia {
@@ -18,7 +19,7 @@ public:
     Joining(const TriMesh& mesh, const FitOptions& options) : mesh_(mesh), options_(options) {}
 
     /// @returns none if nothing is left to try, or the surface is so large that trying costs too much
-    std::optional<SpanBorders> next(const NurbsSurface& surface);
+    std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
 
     /// Whether the last proposal was good enough.
     void tried(bool good);
@@ -38,7 +39,7 @@ public:
     Evening(const FitSource& source, const FitOptions& options) : source_(source), options_(options) {}
 
     /// @returns none if nothing is left to try, the data lie on lines of their own, or trying costs too much
-    std::optional<SpanBorders> next(const NurbsSurface& surface);
+    std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
 
     /// Whether the last proposal was good enough.
     void tried(bool good);
@@ -57,7 +58,7 @@ public:
     explicit Sparing(const FitOptions& options) : options_(options) {}
 
     /// @returns none if all that is left has been tried, or trying costs too much
-    std::optional<SpanBorders> next(const NurbsSurface& surface);
+    std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
 
     /// What was proposed is not proposed again, good or not.
     void tried(bool) {}

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/sort_in_parts.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/basis.h"
@@ -35,15 +36,7 @@ void require_in_range(const NurbsSurface& surface, const TriMesh& mesh, const De
                          "those that came with the interpolated surface");
 }
 
-/// Runs body(i) for 0 <= i < count on the available threads, with a checkpoint now and then.
-template <class Body> void for_each_sample(int count, const Progress& progress, std::string_view step, const Body& body)
-{
-    constexpr int at_a_time = 65536;
-    for (int from = 0; from < count; from += std::min(at_a_time, count - from)) {
-        progress.checkpoint(double(from) / count, step);
-        parallel_for(std::min(at_a_time, count - from), [&](int i) { body(from + i); });
-    }
-}
+constexpr const char* summing_up = "summing up the distances";
 
 /// One entry per sample; a sample that does not count has no weight.
 struct Samples {
@@ -56,8 +49,10 @@ struct Samples {
 
 /// @param position  of sample i
 template <class Position>
-DeviationStatistics statistics(const Samples& samples, double tolerance, const Position& position)
+DeviationStatistics statistics(const Samples& samples, double tolerance, const Position& position,
+                               const Progress& progress)
 {
+    progress.checkpoint(1, summing_up);
     std::vector<int> order;
     for (int i = 0; i < int(samples.counts.size()); ++i)
         if (samples.counts[size_t(i)])
@@ -78,10 +73,11 @@ DeviationStatistics statistics(const Samples& samples, double tolerance, const P
         sum += weight * distance;
         sum_of_squares += weight * distance * distance;
     }
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const auto nearer = [&](int a, int b) {
         const double x = samples.distance[size_t(a)], y = samples.distance[size_t(b)];
         return x < y || (x == y && a > b); // of equally far ones the first is the worst
-    });
+    };
+    sort_in_parts(order, nearer, [&] { progress.checkpoint(1, summing_up); });
     const int worst = order.back();
     result.max = samples.distance[size_t(worst)];
     result.where = position(worst);
@@ -139,7 +135,7 @@ SurfaceMeasure measure_surface(const NurbsSurface& surface, const std::vector<do
     const auto at = [&](int i) { return evaluate(surface, u[size_t(i % columns)], v[size_t(i / columns)]); };
     Samples samples(count);
     std::vector<NormalSample> normals(static_cast<size_t>(count));
-    for_each_sample(count, progress, "measuring from the surface to the mesh", [&](int i) {
+    for_each_in_parts(count, progress, "measuring from the surface to the mesh", [&](int i) {
         const SurfacePoint point = at(i);
         const ClosestPoint found = reference.search.nearest(point.position);
         samples.distance[size_t(i)] = found.distance;
@@ -150,9 +146,11 @@ SurfaceMeasure measure_surface(const NurbsSurface& surface, const std::vector<do
     });
     SurfaceMeasure result;
     const auto position = [&](int i) { return at(i).position; };
-    result.distance = statistics(samples, reference.tolerance, position);
+    result.distance = statistics(samples, reference.tolerance, position, progress);
+    progress.checkpoint(1, summing_up);
     std::vector<int> turned;
-    result.normal = normal_deviation(normals, reference.normals, position, turned);
+    result.normal = normal_deviation(normals, reference.normals, position, turned, progress);
+    progress.checkpoint(1, summing_up);
     for (const int i : turned)
         result.turned.push_back({u[size_t(i % columns)], v[size_t(i / columns)], samples.distance[size_t(i)]});
     for (int i = 0; i < count; ++i)
@@ -196,7 +194,11 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     const int part_faces = options.part_faces < 0 ? mesh.triangles() : options.part_faces;
     const std::vector<double> u = sample_parameters(surface.knots_u, surface.degree_u, options.samples_per_span);
     const std::vector<double> v = sample_parameters(surface.knots_v, surface.degree_v, options.samples_per_span);
-    const Reference reference{mesh, part_faces, options.tolerance, options.listed_from * options.tolerance, ClosestPointSearch(mesh),
+    const Reference reference{mesh,
+                              part_faces,
+                              options.tolerance,
+                              options.listed_from * options.tolerance,
+                              ClosestPointSearch(mesh, progress.part(0, 0)),
                               MeshNormals(mesh, part_faces, options.sharp_angle)};
 
     Deviation result;
@@ -206,15 +208,17 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     result.beyond = std::move(measured.beyond);
     result.turned = std::move(measured.turned);
     if (!options.data_u.empty())
-        result.between_data = measure_surface(surface, middles(options.data_u), middles(options.data_v),
-                                              lengths(options.data_u), lengths(options.data_v), reference,
-                                              progress.part(0.3, 0.35))
-                                  .distance;
+        result.between_data =
+            measure_surface(surface, middles(options.data_u), middles(options.data_v), lengths(options.data_u),
+                            lengths(options.data_v), reference, progress.part(0.3, 0.35))
+                .distance;
     if (!options.mesh_to_surface)
         return result;
 
     progress.checkpoint(0.35, "preparing the surface");
-    const SurfaceProjection projection(surface, start_samples_per_span(surface, options.samples_per_span));
+    const SurfaceProjection projection(surface, start_samples_per_span(surface, options.samples_per_span),
+                                       progress.part(0.35, 0.4));
+    progress.checkpoint(0.4, "measuring from the mesh to the surface");
     MeshSamples places = sample_mesh(mesh, part_faces);
     const int count = int(places.position.cols());
     Samples samples(count);
@@ -223,7 +227,7 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
     Eigen::Matrix2Xd foot_uv(2, count);
     const Eigen::Matrix3Xd normal = vertex_normals(mesh);
     result.at_vertex.resize(mesh.vertices());
-    for_each_sample(count, progress.part(0.4, 1), "measuring from the mesh to the surface", [&](int i) {
+    for_each_in_parts(count, progress.part(0.4, 1), "measuring from the mesh to the surface", [&](int i) {
         const Eigen::Vector3d point = places.position.col(i);
         const SurfaceFoot foot = projection.nearest(point);
         samples.distance[size_t(i)] = foot.distance;
@@ -233,8 +237,8 @@ Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const Devi
             result.at_vertex[i] = outside ? foot.distance : -foot.distance;
         }
     });
-    result.mesh_to_surface =
-        statistics(samples, options.tolerance, [&](int i) -> Eigen::Vector3d { return places.position.col(i); });
+    result.mesh_to_surface = statistics(
+        samples, options.tolerance, [&](int i) -> Eigen::Vector3d { return places.position.col(i); }, progress);
     for (int i = 0; i < count; ++i)
         if (samples.counts[size_t(i)] && samples.distance[size_t(i)] > reference.listed_from)
             result.beyond.push_back({foot_uv(0, i), foot_uv(1, i), samples.distance[size_t(i)]});

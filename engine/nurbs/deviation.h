@@ -76,7 +76,7 @@ struct Deviation {
 
 /// Measures both ways; only the distance counts, not the parameters.
 /// @param mesh      the part, or the part with its holes filled (see DeviationOptions::part_faces)
-/// @param progress  a checkpoint every 65 536 samples
+/// @param progress  a checkpoint every few 10 000 samples
 /// @throws InputError  if the mesh has no face or coordinates that are not numbers, or an option is out of range
 /// The result does not depend on the number of threads. [theory.md 5; exchange-and-iga.md 4]
 Deviation deviation(const NurbsSurface& surface, const TriMesh& mesh, const DeviationOptions& options = {},

@@ -183,7 +183,7 @@ FitSource source_of(const QuadGrid& lifted)
 FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options, const Progress& progress)
 {
     require_in_range(source, options);
-    const FitJudge judge(mesh, options);
+    const FitJudge judge(mesh, options, progress.part(0, 0));
     progress.checkpoint(0, "fitting the border");
     // Points that slide need fewer knots than the border has where they stay.
     const bool corrected = options.parameters == FitParameters::corrected;
@@ -194,7 +194,7 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     if (corrected)
         slide.emplace(mesh);
     const auto fitted = [&](const SpanBorders& borders, const Progress& part) {
-        Attempt result = attempt(source, options, borders.u, borders.v);
+        Attempt result = attempt(source, options, borders.u, borders.v, part);
         if (slide)
             correct_parameters(result, *slide, part);
         return result;
@@ -239,7 +239,7 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     // Of those that are proposed until there are none.
     const auto take_fewer = [&](auto&& proposals, const char* what) {
         while (best->judgement.within) {
-            const std::optional<SpanBorders> fewer = proposals.next(best->surface);
+            const std::optional<SpanBorders> fewer = proposals.next(best->surface, progress.part(0.9, 0.9));
             if (!fewer)
                 break;
             progress.checkpoint(0.9, fmt::format("{} {} x {} spans", what, fewer->u.size() - 1, fewer->v.size() - 1));

@@ -16,9 +16,9 @@ struct Attempt {
 
 /// Border curves first, then the surface that holds them.
 Attempt attempt(const FitSource& source, const FitOptions& options, const std::vector<double>& borders_u,
-                const std::vector<double>& borders_v);
+                const std::vector<double>& borders_v, const Progress& progress = {});
 
 /// The surface over the same knots for other points, which are not kept.
-void fit_to(Attempt& fit, const Eigen::Matrix3Xd& points);
+void fit_to(Attempt& fit, const Eigen::Matrix3Xd& points, const Progress& progress = {});
 
 } // namespace spia

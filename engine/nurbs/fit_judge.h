@@ -17,7 +17,7 @@ struct Judgement {
 /// Judges one surface after the other by the same part and tolerance; both must outlive it.
 class FitJudge {
 public:
-    FitJudge(const TriMesh& part, const FitOptions& options);
+    FitJudge(const TriMesh& part, const FitOptions& options, const Progress& progress = {});
 
     /// Samples of the surface first, the other way only if these are near enough; then, many more in the spans in which some
     /// came close to the tolerance.
@@ -29,8 +29,8 @@ public:
     Eigen::Matrix3Xd face_normal; ///< unit
 
 private:
-    std::vector<BeyondTolerance> look_closely(const NurbsSurface& surface,
-                                              const std::vector<BeyondTolerance>& suspects) const;
+    std::vector<BeyondTolerance> look_closely(const NurbsSurface& surface, const std::vector<BeyondTolerance>& suspects,
+                                              const Progress& progress) const;
 
     const FitOptions& options_;
 };

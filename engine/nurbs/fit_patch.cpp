@@ -32,9 +32,10 @@ void require_usable(const Eigen::Matrix3Xd& points, const CurveFit& u, const Cur
 {
     const size_t expected = u.parameters().size() * v.parameters().size();
     if (size_t(points.cols()) != expected || !points.allFinite())
-        throw InputError(fmt::format("{} points were given for a fit at {} x {} parameters, or some are not numbers; lift "
-                                     "the grid again",
-                                     points.cols(), u.parameters().size(), v.parameters().size()));
+        throw InputError(
+            fmt::format("{} points were given for a fit at {} x {} parameters, or some are not numbers; lift "
+                        "the grid again",
+                        points.cols(), u.parameters().size(), v.parameters().size()));
     for (int side = 0; side < 4; ++side) {
         const int count = side % 2 == 0 ? u.count() : v.count();
         if (borders[size_t(side)].cols() != count || !borders[size_t(side)].allFinite())
@@ -45,9 +46,10 @@ void require_usable(const Eigen::Matrix3Xd& points, const CurveFit& u, const Cur
     const auto meet = [&](size_t a, bool a_end, size_t b, bool b_end) {
         const Eigen::Matrix3Xd &p = borders[a], &q = borders[b];
         if (p.col(a_end ? p.cols() - 1 : 0) != q.col(b_end ? q.cols() - 1 : 0))
-            throw InputError(fmt::format("the borders {} and {} of a patch do not meet in their corner; fit them to the "
-                                         "same corner point",
-                                         name_of_side(int(a)), name_of_side(int(b))));
+            throw InputError(
+                fmt::format("the borders {} and {} of a patch do not meet in their corner; fit them to the "
+                            "same corner point",
+                            name_of_side(int(a)), name_of_side(int(b))));
     };
     meet(0, false, 3, false);
     meet(0, true, 1, false);
@@ -62,13 +64,13 @@ PatchBorders fit_borders(const Eigen::Matrix3Xd& points, const CurveFit& along_u
     const int count_u = int(along_u.parameters().size()), count_v = int(along_v.parameters().size());
     PatchBorders borders;
     for (int side = 0; side < 4; ++side)
-        borders[size_t(side)] = (side % 2 == 0 ? along_u : along_v)
-                                    .control(points(Eigen::all, border_nodes(side, count_u, count_v)), 1);
+        borders[size_t(side)] =
+            (side % 2 == 0 ? along_u : along_v).control(points(Eigen::all, border_nodes(side, count_u, count_v)), 1);
     return borders;
 }
 
 NurbsSurface fit_patch(Eigen::Matrix3Xd points, const CurveFit& along_u, const CurveFit& along_v,
-                       const PatchBorders& borders)
+                       const PatchBorders& borders, const Progress& progress)
 {
     require_usable(points, along_u, along_v, borders);
     const int count_u = int(along_u.parameters().size()), count_v = int(along_v.parameters().size());
@@ -76,7 +78,10 @@ NurbsSurface fit_patch(Eigen::Matrix3Xd points, const CurveFit& along_u, const C
     for (int side = 0; side < 4; ++side)
         points(Eigen::all, border_nodes(side, count_u, count_v)) =
             (side % 2 == 0 ? along_u : along_v).at_parameters(borders[size_t(side)], 1);
+    constexpr const char* sweep = "fitting the surface";
+    progress.checkpoint(0, sweep);
     const Eigen::Matrix3Xd columns = along_v.control(points, count_u);
+    progress.checkpoint(0.5, sweep);
     const Eigen::Matrix3Xd control = along_u.control(transposed(columns, count_u), along_v.count());
 
     NurbsSurface surface;

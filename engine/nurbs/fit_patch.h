@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "engine/core/progress.h"
 #include "engine/nurbs/curve_fit.h"
 #include "engine/nurbs/surface.h"
 
@@ -18,12 +19,13 @@ PatchBorders fit_borders(const Eigen::Matrix3Xd& points, const CurveFit& along_u
 /// @throws InputError  if the number of points or border control points is wrong, a coordinate is not a number, or two
 ///                     borders do not meet in a corner to the last bit
 NurbsSurface fit_patch(Eigen::Matrix3Xd points, const CurveFit& along_u, const CurveFit& along_v,
-                       const PatchBorders& borders);
+                       const PatchBorders& borders, const Progress& progress = {});
 
 /// What least squares along u alone (v alone) leaves of the points, mm: in which direction knots are missing.
 struct DirectionResiduals {
     Eigen::Matrix3Xd u, v; ///< per point, as these are numbered
 };
-DirectionResiduals direction_residuals(const Eigen::Matrix3Xd& points, const CurveFit& along_u, const CurveFit& along_v);
+DirectionResiduals direction_residuals(const Eigen::Matrix3Xd& points, const CurveFit& along_u,
+                                       const CurveFit& along_v);
 
 } // namespace spia

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/sort_in_parts.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 
@@ -26,8 +27,11 @@ MeshNormals::MeshNormals(const TriMesh& mesh, int part_faces, double sharp_angle
 }
 
 NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const MeshNormals& mesh,
-                                 const std::function<Eigen::Vector3d(int sample)>& position, std::vector<int>& turned)
+                                 const std::function<Eigen::Vector3d(int sample)>& position, std::vector<int>& turned,
+                                 const Progress& progress)
 {
+    const auto checkpoint = [&] { progress.checkpoint(1, "comparing the normals"); };
+    checkpoint();
     struct Angle {
         double angle, weight;
         int sample;
@@ -42,6 +46,7 @@ NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const
         angles.push_back({std::atan2(here.normal.cross(face).norm(), here.normal.dot(face)), here.weight, i});
         same_side += here.weight * here.normal.dot(face);
     }
+    checkpoint();
     NormalDeviation result;
     result.samples = int(angles.size());
     double area = 0, sum = 0;
@@ -67,9 +72,10 @@ NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const
         return result;
     result.mean = sum / area;
     result.turned /= area;
-    std::sort(angles.begin(), angles.end(), [](const Angle& a, const Angle& b) {
+    const auto flatter = [](const Angle& a, const Angle& b) {
         return a.angle < b.angle || (a.angle == b.angle && a.sample < b.sample);
-    });
+    };
+    sort_in_parts(angles, flatter, checkpoint);
     double below = 0;
     for (const Angle& here : angles) {
         below += here.weight;

@@ -2,6 +2,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/core/progress.h"
 #include "engine/mesh/tri_mesh.h"
 #include "engine/nurbs/deviation.h"
 
@@ -25,6 +26,7 @@ struct NormalSample {
 /// A surface that looks to the inner side on most of its area counts as turned round.
 /// @param turned  gets the samples that look the other way than their face
 NormalDeviation normal_deviation(const std::vector<NormalSample>& samples, const MeshNormals& mesh,
-                                 const std::function<Eigen::Vector3d(int sample)>& position, std::vector<int>& turned);
+                                 const std::function<Eigen::Vector3d(int sample)>& position, std::vector<int>& turned,
+                                 const Progress& progress = {});
 
 } // namespace spia

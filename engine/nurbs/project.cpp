@@ -109,14 +109,14 @@ SurfaceFoot refine(const NurbsSurface& surface, const Eigen::Vector3d& point, Ei
 
 } // namespace
 
-SurfaceProjection::SurfaceProjection(const NurbsSurface& surface, int samples_per_span)
-    : SurfaceProjection(surface, tessellate(surface, samples_per_span))
+SurfaceProjection::SurfaceProjection(const NurbsSurface& surface, int samples_per_span, const Progress& progress)
+    : SurfaceProjection(surface, tessellate(surface, samples_per_span, progress.part(0, 0.4)), progress.part(0.4, 1))
 {
 }
 
-SurfaceProjection::SurfaceProjection(const NurbsSurface& surface, Tessellation&& tessellation)
+SurfaceProjection::SurfaceProjection(const NurbsSurface& surface, Tessellation&& tessellation, const Progress& progress)
     : surface_(surface), uv_(std::move(tessellation.uv)), triangle_(tessellation.mesh.triangle),
-      search_(tessellation.mesh), size_(bounding_diagonal(tessellation.mesh))
+      search_(tessellation.mesh, progress), size_(bounding_diagonal(tessellation.mesh))
 {
 }
 

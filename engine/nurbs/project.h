@@ -16,7 +16,8 @@ class SurfaceProjection {
 public:
     /// @param samples_per_span  where Newton's method starts: at the nearest place of this tessellation. Two sheets of
     ///        the surface whose distances from a point differ by less than the triangles' sag may be confused.
-    explicit SurfaceProjection(const NurbsSurface& surface, int samples_per_span = 4);
+    /// @param progress  checkpoints while that is made
+    explicit SurfaceProjection(const NurbsSurface& surface, int samples_per_span = 4, const Progress& progress = {});
 
     /// Never farther than the place of the surface over the nearest place of the tessellation, and a point of
     /// the surface in any case: each step of Newton's method is taken only if it comes no farther, up to
@@ -30,7 +31,7 @@ private:
     ClosestPointSearch search_;
     double size_; ///< mm, diagonal of the box around the surface
 
-    SurfaceProjection(const NurbsSurface& surface, struct Tessellation&& tessellation);
+    SurfaceProjection(const NurbsSurface& surface, struct Tessellation&& tessellation, const Progress& progress);
 };
 
 } // namespace spia

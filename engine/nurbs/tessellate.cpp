@@ -32,13 +32,12 @@ Tessellation tessellate(const NurbsSurface& surface, int samples_per_span, const
         throw InputError(fmt::format("{} x {} cells are too many triangles; ask for fewer samples per span than {}",
                                      columns, rows, samples_per_span));
 
-    progress.checkpoint(0, "tessellating the surface");
     Tessellation result;
     const int vertices = (columns + 1) * (rows + 1);
     result.mesh.position.resize(3, vertices);
     result.uv.resize(2, vertices);
     result.normal.resize(3, vertices);
-    parallel_for(vertices, [&](int i) {
+    for_each_in_parts(vertices, progress, "tessellating the surface", [&](int i) {
         const double at_u = u[size_t(i % (columns + 1))], at_v = v[size_t(i / (columns + 1))];
         const SurfacePoint point = evaluate(surface, at_u, at_v);
         result.uv.col(i) << at_u, at_v;

@@ -229,7 +229,7 @@ TrimResult trim_holes(const TriMesh& part, int outer, const NurbsSurface& surfac
     const std::vector<std::vector<int>> loops = boundary_loops(part);
     if (loops.size() < 2)
         return result;
-    const SurfaceProjection projection(surface);
+    const SurfaceProjection projection(surface, 4, progress.part(0, 0));
     std::vector<int> first_vertex;
     for (size_t k = 0; k < loops.size(); ++k) {
         progress.checkpoint(double(k) / double(loops.size()), "trimming the surface at the holes");

@@ -110,7 +110,7 @@ Session judge_limits(Session session);
 /// Applies the options' deformation to the fitted surface, on a copy of the session: quick, no other result changes.
 /// @param measure  false leaves out the certificate and DeformResult::off_lattice: for a drag
 /// @throws InputError if there is no surface; else what deform() throws
-Session deform_surface(Session session, bool measure = true);
+Session deform_surface(Session session, bool measure = true, const Progress& progress = {});
 
 /// The surface that leaves the program: deformed, if that is asked for. @pre session.surface
 MultiPatch surface_patches(const Session& session);

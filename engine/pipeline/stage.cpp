@@ -142,23 +142,27 @@ FitResult fit_within_tolerance(const Session& session, const Progress& progress)
     fitting.part_faces = filled.part_triangles;
     fitting.file_number = session.part->source_vertex;
     const BlankChart chart(session.grid->result, session.grid->boundary);
+    double at = 0; // how far the fit is, which asks for points now and then
+    const Progress noted([&](double fraction, std::string_view step) { progress.checkpoint(at = fraction, step); });
+    const Progress while_asked([&](double, std::string_view step) { progress.checkpoint(at, step); });
     FitSource source;
     source.at = [&](const std::vector<double>& u, const std::vector<double>& v) {
-        return lift(chart.refined(u, v)).lifted.position;
+        return lift(chart.refined(u, v, while_asked)).lifted.position;
     };
-    return fit(source, filled.mesh, fitting, progress);
+    return fit(source, filled.mesh, fitting, noted);
 }
 
 void make_surface(Session& session, const Progress& progress)
 {
     const auto& remeshed = session.part->remeshed;
     const FilledMesh& filled = *session.grid->result.filled;
+    constexpr double measured = 0.95; // what follows is the certificate
     SurfaceStage stage;
     DeviationOptions options;
     options.part_faces = filled.part_triangles;
     options.tolerance = session.options.tolerance.value_or(usual_tolerance);
     if (session.options.tolerance) {
-        FitResult fitted = fit_within_tolerance(session, progress.part(0, remeshed ? 0.6 : 1));
+        FitResult fitted = fit_within_tolerance(session, progress.part(0, remeshed ? 0.6 : measured));
         stage.result.surface = std::move(fitted.surface);
         stage.result.u = std::move(fitted.u);
         stage.result.v = std::move(fitted.v);
@@ -168,19 +172,21 @@ void make_surface(Session& session, const Progress& progress)
         stage.result = interpolate(session.lifted->lifted, session.options.interpolate, progress.part(0, 0.3));
         options.data_u = stage.result.u;
         options.data_v = stage.result.v;
-        stage.deviation = deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : 1));
+        stage.deviation =
+            deviation(stage.result.surface, filled.mesh, options, progress.part(0.3, remeshed ? 0.6 : measured));
     }
     if (remeshed) { // what counts is the part that was given; only at_vertex is of the mesh that is shown
         const TriMesh whole = with_holes_filled(*remeshed->original, filled.mesh, options.part_faces);
         options.part_faces = remeshed->original->triangles();
         Eigen::VectorXd at_vertex = std::move(stage.deviation.at_vertex);
-        stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, 1));
+        stage.deviation = deviation(stage.result.surface, whole, options, progress.part(0.6, measured));
         stage.deviation.at_vertex = std::move(at_vertex);
     }
     stage.deviation.beyond.clear(); // needed no longer, and may be long
     if (!session.options.fill_holes)
-        stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface);
-    stage.certificate = certify(fitted_patches(stage));
+        stage.trim = trim_holes(session.part->mesh, session.grid->boundary.corner[0], stage.result.surface, {},
+                                progress.part(measured, measured));
+    stage.certificate = certify(fitted_patches(stage), progress.part(measured, 1));
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
@@ -213,8 +219,8 @@ void make_patches(Session& session, const Progress& progress)
     options.degree = session.options.interpolate.degree_u;
     options.max_control_points = session.options.max_control_points;
     options.smooth_joins = layout.smooth_joins;
-    auto fitted =
-        std::make_shared<PatchesFit>(blank_patches(part.mesh, session.blank->blank, layout, options, progress));
+    auto fitted = std::make_shared<PatchesFit>(
+        blank_patches(part.mesh, session.blank->blank, layout, options, progress.part(0, 0.95)));
     SurfaceStage stage;
     stage.deviation.surface_to_mesh = fitted->surface_to_mesh;
     stage.deviation.mesh_to_surface = fitted->mesh_to_surface;
@@ -236,7 +242,7 @@ void make_patches(Session& session, const Progress& progress)
             fitted->deviation_max(), options.tolerance, why.where.x(), why.where.y(), why.where.z());
     }
     stage.patches = std::move(fitted);
-    stage.certificate = certify(stage.patches->patches);
+    stage.certificate = certify(stage.patches->patches, progress.part(0.95, 1));
     session.surface = std::make_shared<SurfaceStage>(std::move(stage));
 }
 
@@ -280,7 +286,7 @@ const Certificate& surface_certificate(const Session& session)
     return session.deformed ? session.deformed->certificate : session.surface->certificate;
 }
 
-Session deform_surface(Session session, bool measure)
+Session deform_surface(Session session, bool measure, const Progress& progress)
 {
     require(session.surface != nullptr, "fit the surface");
     session.deformed = nullptr;
@@ -288,7 +294,7 @@ Session deform_surface(Session session, bool measure)
         DeformedSurface deformed;
         deformed.result = deform(fitted_patches(*session.surface), *session.options.deformation, measure);
         if (measure)
-            deformed.certificate = certify(deformed.result.patches);
+            deformed.certificate = certify(deformed.result.patches, progress);
         session.deformed = std::make_shared<DeformedSurface>(std::move(deformed));
     }
     return session;
@@ -377,7 +383,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
         require(session.options.patches ? session.blank != nullptr : session.lifted != nullptr,
                 session.options.patches ? "solve for the blank" : "lift the grid");
         session.options.patches ? make_patches(session, progress) : make_surface(session, progress);
-        session = deform_surface(std::move(session));
+        session = deform_surface(std::move(session), true, progress.part(1, 1));
         break;
     }
     session.seconds[stage] = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();

@@ -176,7 +176,8 @@ InitialGuess guess(const TriMesh& mesh, int vertices, const Progress& progress)
     unseen.direction = up.norm() > 0 ? Eigen::Vector3d(up.normalized()) : Eigen::Vector3d::UnitZ();
     unseen.height_field = false;
     InitialGuess out = initial_guess(mesh, element, unseen, matrix, cholesky, progress);
-    out.position = more_rigid(mesh, RigidSteps(mesh, element, matrix, cholesky), std::move(out.position));
+    out.position =
+        more_rigid(mesh, RigidSteps(mesh, element, matrix, cholesky), std::move(out.position), progress.part(1, 1));
     out.position.conservativeResize(2, vertices);
     return out;
 }

@@ -1,6 +1,8 @@
 #include "engine/nurbs/certificate.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -323,6 +325,28 @@ TEST(Certificate, SaysWhyTheNetsLeak)
     EXPECT_TRUE(c.interfaces.empty());
     two.patch[1].knots_u.pop_back();
     EXPECT_THROW(certify(two), InputError);
+}
+
+TEST(Certificate, OfALargeSurfaceCanBeCancelledAtEveryRowOfSpans)
+{
+    constexpr int count = 43; // 40 x 40 cubic spans
+    const NurbsSurface wavy = net(
+        3, count, [](double s, double t) { return Eigen::Vector3d(100 * s, 100 * t, 5 * std::sin(6 * s + 4 * t)); });
+    std::vector<double> fractions;
+    certify({{wavy}, {}}, Progress([&](double fraction, std::string_view) { fractions.push_back(fraction); }));
+    EXPECT_GE(fractions.size(), 2u * 40) << "proving and judging";
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_EQ(fractions.front(), 0);
+    EXPECT_GT(fractions.back(), 0.98);
+    for (size_t stop = 1; stop < fractions.size(); stop += 13) {
+        const auto cancel = std::make_shared<std::atomic<bool>>(false);
+        size_t seen = 0;
+        EXPECT_THROW(
+            certify({{wavy}, {}}, Progress([&](double, std::string_view) { *cancel = ++seen == stop; }, cancel)),
+            Cancelled)
+            << stop;
+        EXPECT_EQ(seen, stop);
+    }
 }
 
 } // namespace

@@ -1,9 +1,11 @@
 #include "engine/nurbs/project.h"
 
+#include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
+#include "engine/core/error.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/tessellate.h"
 #include "tests/support/known_surfaces.h"
@@ -68,6 +70,22 @@ TEST(SurfaceProjection, PointOfTheSurfaceIsItsOwnFoot)
         for (int j = 0; j <= 20; ++j)
             EXPECT_LT(projection.nearest(evaluate(surface, i / 20., j / 20.).position).distance, 1e-11)
                 << i << ' ' << j;
+}
+
+TEST(SurfaceProjection, ThatIsBeingMadeCanBeCancelled)
+{
+    constexpr int samples = 150; // 10^5 triangles and more
+    int seen = 0;
+    const SurfaceProjection made(surfaces::crooked(), samples, Progress([&](double, std::string_view) { ++seen; }));
+    EXPECT_GT(seen, 8) << "while it is tessellated, and while the triangles are sorted";
+    for (const int stop : {1, seen / 2, seen - 1}) {
+        const auto cancel = std::make_shared<std::atomic<bool>>(false);
+        int now = 0;
+        EXPECT_THROW(SurfaceProjection(surfaces::crooked(), samples,
+                                       Progress([&](double, std::string_view) { *cancel = ++now == stop; }, cancel)),
+                     Cancelled)
+            << stop;
+    }
 }
 
 } // namespace spia
