@@ -76,9 +76,9 @@ public:
                 glfwWaitEventsTimeout(seconds_to_stand_still);
                 GlWindow::news() = true;
             } else {
-                const double until = ui_.wake_at > 0          ? std::max(0.01, ui_.wake_at - ImGui::GetTime())
-                                     : model_.state().unsaved ? 15
-                                                              : 60; // work is kept now and then
+                const double until = ui_.wake_at > 0  ? std::max(0.01, ui_.wake_at - ImGui::GetTime())
+                                     : work_to_keep() ? std::max(0.1, kept_.due_in())
+                                                      : 60; // work is kept now and then
                 glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? std::min(0.4, until) : until);
             }
             constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
@@ -442,6 +442,11 @@ private:
         } catch (const std::exception& error) {
             model_.say(Severity::error, error.what());
         }
+    }
+
+    bool work_to_keep() const
+    {
+        return !options_.exit && model_.state().unsaved && model_.state().document.session.part;
     }
 
     /// What has been written meanwhile, and what is to be.

@@ -1,5 +1,6 @@
 #include "app/viewer/model/kept_work.h"
 
+#include <algorithm>
 #include <fmt/chrono.h>
 #include <utility>
 #include <variant>
@@ -8,8 +9,6 @@
 
 namespace spia::viewer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 std::string in_words(std::filesystem::file_time_type time)
 {
@@ -103,7 +102,7 @@ void KeptWork::open(ViewerModel& model, const Action& action)
     recovering_.reset();
 }
 
-void KeptWork::follow(ViewerModel& model, bool now_and_then)
+void KeptWork::follow(ViewerModel& model, bool now_and_then, Clock::time_point now)
 {
     const ViewerState& state = model.state();
     if (coming_ && model.documents() != coming_->documents) { // it has taken the place of what was open
@@ -124,11 +123,20 @@ void KeptWork::follow(ViewerModel& model, bool now_and_then)
             model.say(Severity::warning, fmt::format("Autosave failed: {}", error.what()));
         }
     }
+    if (std::exchange(seen_, state.history.now()) != state.history.now())
+        changed_ = now;
     if (!now_and_then || !state.unsaved || !state.document.session.part || model.busy() || writing_.wanted() ||
-        Clock::now() - last_ < interval_)
+        due_in(now) > 0)
         return;
-    last_ = Clock::now();
+    last_ = now;
+    kept_ = seen_;
     writing_ = write(state.document, kept_view(state), state.project);
+}
+
+double KeptWork::due_in(Clock::time_point now) const
+{
+    const Clock::time_point due = kept_ == seen_ ? last_ + interval_ : std::min(last_ + interval_, changed_ + rest_);
+    return std::max(0., std::chrono::duration<double>(due - now).count());
 }
 
 void KeptWork::keep(const ViewerState& state)

@@ -16,6 +16,8 @@ namespace spia::viewer {
 /// Files are written on a thread of their own.
 class KeptWork {
 public:
+    using Clock = std::chrono::steady_clock;
+
     /// @param wake  called on the writing thread when something is written
     explicit KeptWork(std::function<void()> wake = [] {}) : worker_(std::move(wake)) {}
 
@@ -33,9 +35,12 @@ public:
 
     /// Applies OpenPart or OpenProject. The work that is open and not saved is kept, for reading a file may end the program.
     void open(ViewerModel& model, const Action& action);
-    /// Once a frame: forgets the work whose place another part has taken; keeps unsaved work every 30 s.
+    /// Once a frame: forgets the work whose place another part has taken; keeps unsaved work once the hand rests after a change, and
+    /// every 30 s.
     /// @param now_and_then  whether it does the latter
-    void follow(ViewerModel& model, bool now_and_then);
+    void follow(ViewerModel& model, bool now_and_then, Clock::time_point now = Clock::now());
+    /// Seconds until follow() has unsaved work to keep.
+    double due_in(Clock::time_point now = Clock::now()) const;
     /// Waits until the work is kept. @throws ExchangeError if it cannot be written
     void keep(const ViewerState& state);
     /// The work is saved in a project, or it is thrown away on purpose: nothing of it need be kept.
@@ -52,8 +57,9 @@ private:
     };
     Eventually<bool> write(const Document& document, const ViewSettings& view, const std::filesystem::path& project);
 
-    static constexpr std::chrono::seconds interval_{30};
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    static constexpr std::chrono::seconds interval_{30}, rest_{3};
+    Clock::time_point last_ = Clock::now(), changed_ = last_;
+    int seen_ = 0, kept_ = 0; ///< states of the document in its history: the newest, and the one that was kept last
     std::shared_ptr<Autosave> autosave_ = std::make_shared<Autosave>(); ///< of what is open
     Eventually<bool> writing_;                                          ///< it
     std::optional<UnfinishedSession> recovered_;                        ///< open now, and not yet kept otherwise

@@ -483,7 +483,7 @@ TEST_F(ByHand, AfterACrashBothDialogsCome)
     hands->keys("F6");
     hands->see_that("the blank", [](const Json& r) { return r["stages"]["solve"] == true; });
     pick_all();
-    hands->viewer().wait("work that is kept, which is done every 30 s",
+    hands->viewer().wait("work that is kept, which is done once the hand rests",
                          [&](const Json&) { return kept_files(folder) > 0; });
     hands->viewer().crash();
 

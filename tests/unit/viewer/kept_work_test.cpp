@@ -168,6 +168,43 @@ TEST_F(UnsavedWork, IsGoneWhenItIsSavedDiscardedOrEndedOnPurpose)
     EXPECT_TRUE(nothing_kept());
 }
 
+TEST_F(UnsavedWork, IsKeptOnceTheHandRestsAndThenEvery30Seconds)
+{
+    using namespace std::chrono_literals;
+    const auto start = KeptWork::Clock::now();
+    const auto kept_at = [&](KeptWork::Clock::duration after) {
+        kept.follow(model, true, start + after);
+        for (int k = 0; k < 400 && nothing_kept(); ++k) // it is written in the background
+            std::this_thread::sleep_for(5ms);
+        kept.follow(model, false, start + after); // takes what was written
+        const bool there = !nothing_kept();
+        kept.forget();
+        return there;
+    };
+    const auto not_kept_at = [&](KeptWork::Clock::duration after) {
+        kept.follow(model, true, start + after);
+        std::this_thread::sleep_for(20ms);
+        return nothing_kept();
+    };
+    EXPECT_TRUE(not_kept_at(1s));
+    model.apply(SelectFaces{{4}});
+    EXPECT_TRUE(not_kept_at(2s)) << "the hand may go on";
+    EXPECT_NEAR(kept.due_in(start + 2s), 3, 1e-9);
+    model.apply(SelectFaces{{4, 5}});
+    EXPECT_TRUE(not_kept_at(4s));
+    EXPECT_TRUE(not_kept_at(6s)) << "since the second change";
+    EXPECT_TRUE(kept_at(7s));
+    EXPECT_TRUE(not_kept_at(20s)) << "nothing is new";
+    EXPECT_NEAR(kept.due_in(start + 20s), 17, 1e-9);
+    EXPECT_TRUE(kept_at(37s)) << "the views may be other ones";
+    for (int k = 0; k < 14; ++k) { // a hand that never rests
+        model.apply(SelectFaces{{k}});
+        EXPECT_TRUE(not_kept_at(38s + k * 2s)) << k;
+    }
+    model.apply(SelectFaces{{1}});
+    EXPECT_TRUE(kept_at(67s));
+}
+
 TEST_F(UnsavedWork, ThatCannotBeWrittenIsSaidAndThePartOpensAllTheSame)
 {
     put(folder / ".local", "a file where the folder should be");
