@@ -18,19 +18,23 @@ namespace spia {
 template <class Result> class Job {
 public:
     /// @param work  runs at once; it shares nothing mutable with the owner
-    /// @param wake  called on the job's thread when there is news (progress or the end); it must not throw
+    /// @param wake  called on the job's thread when there is news (another step or percent, or the end): many checkpoints are only there to
+    ///              be cancelled at; it must not throw
     explicit Job(
         std::function<Result(const Progress&)> work, std::function<void()> wake = [] {})
         : thread_([this, work = std::move(work), wake = std::move(wake)] {
               try {
                   const Progress progress(
                       [&](double fraction, std::string_view step) {
+                          bool news = false;
                           {
                               const std::lock_guard lock(mutex_);
+                              news = step_ != step || percent(fraction_) != percent(fraction);
                               fraction_ = fraction;
                               step_ = step;
                           }
-                          wake();
+                          if (news)
+                              wake();
                       },
                       cancel_);
                   result_ = work(progress);
@@ -80,6 +84,8 @@ public:
     }
 
 private:
+    static int percent(double fraction) { return int(100 * fraction); }
+
     std::shared_ptr<std::atomic<bool>> cancel_ = std::make_shared<std::atomic<bool>>(false);
     mutable std::mutex mutex_;
     double fraction_ = 0;

@@ -1,5 +1,6 @@
 #include "engine/exchange/atomic_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -7,6 +8,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include "engine/core/error.h"
 
@@ -14,6 +16,8 @@ namespace fs = std::filesystem;
 
 namespace spia {
 namespace {
+
+thread_local WritingJob* job = nullptr; // a dozen writers and the libraries in them would have to hand it on
 
 std::string advice(int error)
 {
@@ -110,13 +114,41 @@ fs::path target_of(const fs::path& path)
 
 } // namespace
 
+WritingJob::WritingJob(Progress progress, size_t files, Written written)
+    : progress_(std::move(progress)), files_(files), written_(std::move(written)), outer_(std::exchange(job, this))
+{
+}
+
+WritingJob::~WritingJob() { job = outer_; }
+
+void WritingJob::checkpoint(const fs::path& path, double share) const
+{
+    progress_.checkpoint((double(done_) + share) / double(std::max(files_, done_ + 1)),
+                         "writing " + path.filename().string());
+}
+
 void require_writable(const fs::path& path) { TemporaryFile{target_of(path)}; }
 
 void write_atomically(const fs::path& path, std::string_view content)
 {
+    const auto checkpoint = [&](double share) {
+        if (job)
+            job->checkpoint(path, share);
+    };
+    constexpr size_t at_a_time = 4 << 20; // bytes: some milliseconds
+    checkpoint(0.5);
     TemporaryFile file(target_of(path));
-    file.write(content);
+    for (size_t from = 0; from < content.size(); from += at_a_time) {
+        file.write(content.substr(from, at_a_time));
+        checkpoint(0.5 + 0.5 * double(std::min(from + at_a_time, content.size())) / double(content.size()));
+    }
+    checkpoint(1);
     file.take_target_name();
+    if (!job)
+        return;
+    ++job->done_;
+    if (job->written_)
+        job->written_(path);
 }
 
 } // namespace spia

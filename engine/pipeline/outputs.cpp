@@ -69,11 +69,12 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
 }
 
 /// All patches in triangles.
-Tessellation tessellation_of(const MultiPatch& patches)
+Tessellation tessellation_of(const MultiPatch& patches, const Progress& progress)
 {
     Tessellation whole;
-    for (const NurbsSurface& patch : patches.patch) {
-        const Tessellation piece = tessellate(patch, 3);
+    for (size_t p = 0; p < patches.patch.size(); ++p) {
+        const double all = double(patches.patch.size());
+        const Tessellation piece = tessellate(patches.patch[p], 3, progress.part(double(p) / all, double(p + 1) / all));
         const Eigen::Index vertices = whole.mesh.position.cols(), faces = whole.mesh.triangle.cols();
         whole.mesh.position.conservativeResize(3, vertices + piece.mesh.position.cols());
         whole.mesh.position.rightCols(piece.mesh.position.cols()) = piece.mesh.position;
@@ -158,7 +159,7 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
 
 std::vector<fs::path> write_outputs(const Session& session, const fs::path& folder,
                                     const std::vector<std::string>& formats, const OutputOptions& options,
-                                    const Progress& progress)
+                                    const Progress& progress, const WritingJob::Written& written_file)
 {
     if (!session.blank)
         throw InputError("there is nothing to write yet: solve the part first");
@@ -168,6 +169,7 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     const FlattenResult& flat = *session.blank;
     const std::string name = file_stem(session, options);
     const LengthUnit unit = options.unit;
+    constexpr double prepared = 0.1; // share of the time
     ExportScene scene;
     scene.name = name;
     scene.part = &part;
@@ -181,19 +183,23 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     MultiPatch surface;
     if (session.surface) {
         surface = surface_patches(session);
-        tessellation = tessellation_of(surface);
+        tessellation = tessellation_of(surface, progress.part(0, prepared));
         scene.surface = &tessellation.mesh;
         scene.surface_normal = &tessellation.normal;
         scene.control_nets = surface.patch;
     }
 
+    size_t of_all = 0;
+    for (const std::string& format : formats)
+        of_all += has_content(format, session, options) ? file_names(format, session, options).size() : 0;
+    const Progress writing = progress.part(prepared, 1);
+    const WritingJob job(writing, of_all, written_file);
     const std::string_view blank_from = spia::name(session.options.steps);
     std::vector<fs::path> files;
-    for (size_t i = 0; i < formats.size(); ++i) {
-        const std::string& format = formats[i];
+    for (const std::string& format : formats) {
         if (!has_content(format, session, options))
             continue;
-        progress.checkpoint(double(i) / double(formats.size()), "writing " + format);
+        writing.checkpoint(double(files.size()) / double(of_all), "writing " + format);
         if (is_deck_format(format)) {
             const auto written =
                 write_deck_files(folder, name, std::span(&format, 1), *session.part, flat.blank, flat.face, unit);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
+#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/exchange/write_gltf.h"
 #include "engine/pipeline/session.h"
@@ -57,10 +58,13 @@ void require_place(const Session& session, const std::filesystem::path& folder, 
 /// Writes the results of a session, solved at least, into a folder, which is made if need be: output_files(). Each file
 /// appears whole or not at all. What has no surface yet leaves out of each file what belongs to it.
 /// @param formats some of output_formats()
+/// @param progress cancelling takes effect before the next file is there
+/// @param written called with each file that is there
 /// @returns the files, in the order of `formats`
 /// @throws InputError if the part is not solved, else as output_files(); ExchangeError if a file cannot be written
 std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
                                                  const std::vector<std::string>& formats,
-                                                 const OutputOptions& options = {}, const Progress& progress = {});
+                                                 const OutputOptions& options = {}, const Progress& progress = {},
+                                                 const WritingJob::Written& written = {});
 
 } // namespace spia

@@ -72,7 +72,7 @@ UnfoldedByItself with_notes(UnfoldedByItself unfolded, const std::vector<std::st
 
 UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions options,
                                   const FlattenOptions& flatten, const Progress& progress,
-                                  const UnfoldedByItself* begun)
+                                  const UnfoldedByItself* begun, const StepEnded& ended)
 {
     UnfoldedByItself now{propose_sequence(part, map, options), {}};
     if (now.sequence.steps.empty())
@@ -82,7 +82,11 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
     std::optional<UnfoldedByItself> nearly; // the first faulty plan whose steps converge, else that ended in a blank
     size_t keep = begun ? std::min(alike(begun->sequence.steps, now.sequence.steps), begun->run.states.size()) : 0;
     for (UnfoldRun before = begun ? begun->run : UnfoldRun{};;) {
-        now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep);
+        now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep,
+                                [&](const UnfoldRun& so_far) {
+                                    if (ended)
+                                        ended(now.sequence.steps, so_far);
+                                });
         const std::optional<Fault> fault = fault_in(now.sequence.steps, now.run);
         if (!fault)
             break;

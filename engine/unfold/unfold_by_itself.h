@@ -1,8 +1,13 @@
 #pragma once
+#include <functional>
+
 #include "engine/unfold/sequence.h"
 #include "engine/unfold/unfold_script.h"
 
 namespace spia {
+
+/// Called after every step with the plan at work and its states so far.
+using StepEnded = std::function<void(const UnfoldScript& plan, const UnfoldRun& so_far)>;
 
 struct UnfoldedByItself {
     UnfoldSequence sequence; ///< of the run; its notes also tell which steps of earlier plans had no result
@@ -21,6 +26,6 @@ struct UnfoldedByItself {
 /// @throws UnfoldingCancelled with the plan at work and its states; InputError as propose_sequence() and run_unfolding(), or if the part is flat already
 UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions sequence,
                                   const FlattenOptions& options, const Progress& progress = {},
-                                  const UnfoldedByItself* begun = nullptr);
+                                  const UnfoldedByItself* begun = nullptr, const StepEnded& ended = {});
 
 } // namespace spia

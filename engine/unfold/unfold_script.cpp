@@ -275,7 +275,8 @@ PlaneFace tangent_plane(const BinderFace& face, const Eigen::Matrix2Xd& places)
 }
 
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
-                        const Progress& progress, const UnfoldRun* before, size_t keep)
+                        const Progress& progress, const UnfoldRun* before, size_t keep,
+                        const std::function<void(const UnfoldRun& so_far)>& ended)
 {
     require_script(part, script, before, keep);
     UnfoldRun run;
@@ -320,6 +321,8 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
         state = next;
         run.states.push_back(std::move(next));
+        if (ended)
+            ended(run);
     }
     run.blank = blank_of(part, state.position, run.flipped);
     return run;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -55,12 +56,14 @@ struct UnfoldingCancelled : Cancelled {
 
 /// Runs all steps; of a step that has no result the run keeps the states before it.
 /// @param before of a run of the same part whose first `keep` steps are those of this script: they are not solved again
+/// @param ended called after every step, with the states so far
 /// @param progress one checkpoint per iteration; cancelling takes effect at the next one
 /// @throws UnfoldingCancelled with the states of the steps before
 /// @throws InputError if there is no step, an option or the friction of a step is not as described or there are fewer steps before
 ///                    than to keep
 UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const FlattenOptions& options,
-                        const Progress& progress = {}, const UnfoldRun* before = nullptr, size_t keep = 0);
+                        const Progress& progress = {}, const UnfoldRun* before = nullptr, size_t keep = 0,
+                        const std::function<void(const UnfoldRun& so_far)>& ended = {});
 
 /// Whether what was laid bends at its hinge: the target is farther beside the fixed faces, or turned more against them, than the last
 /// facet of a fillet is. @param diagonal of the part, mm

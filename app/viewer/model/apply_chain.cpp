@@ -127,13 +127,12 @@ void ViewerModel::Apply::operator()(const CancelJob&)
     model.steps_next_ = false;
     if (model.steps_job_)
         model.steps_job_->cancel();
-    if (model.chain_job_) {
+    if (model.chain_job_)
         model.chain_job_->cancel();
-        if (!model.cancelled_at_)
-            model.cancelled_at_ = std::chrono::steady_clock::now();
-    }
     if (model.export_job_)
         model.export_job_->cancel();
+    if ((model.steps_job_ || model.chain_job_ || model.export_job_) && !model.cancelled_at_)
+        model.cancelled_at_ = std::chrono::steady_clock::now();
     if (model.list_job_)
         (*this)(CloseList{});
 }

@@ -71,9 +71,16 @@ void ViewerModel::Apply::operator()(const ExportFiles& action)
     state.job = JobView{};
     state.job.running = true;
     state.job.title = "Exporting";
-    model.export_job_ = std::make_unique<Job<std::vector<std::filesystem::path>>>(
-        [session = as_made(document), action](const Progress& progress) {
-            return write_outputs(session, action.folder, action.formats, action.options, progress);
+    model.cancelled_at_.reset();
+    model.exported_so_far_ = std::make_shared<Mailbox<ViewerModel::Files>>();
+    model.export_job_ = std::make_unique<Job<ViewerModel::Files>>(
+        [session = as_made(document), action, so_far = model.exported_so_far_](const Progress& progress) {
+            ViewerModel::Files files;
+            return write_outputs(session, action.folder, action.formats, action.options, progress,
+                                 [&](const std::filesystem::path& file) {
+                                     files.push_back(file);
+                                     so_far->post(files);
+                                 });
         },
         model.wake_);
 }

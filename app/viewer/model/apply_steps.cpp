@@ -55,10 +55,10 @@ void ViewerModel::Apply::operator()(const ProposeSteps& action)
     require_idle();
     if (action.keep && (*action.keep < 0 || *action.keep >= part().mesh.triangles()))
         throw InputError(fmt::format("The part has no face {}.", *action.keep));
-    model.start_steps("Proposing steps",
-                      [part = session.part, bends = document.bends, keep = action.keep](const Progress& progress) {
-                          return propose_steps(part, bends, keep, progress);
-                      });
+    model.start_steps("Proposing steps", [part = session.part, bends = document.bends,
+                                          keep = action.keep](const Progress& progress, const StepsSoFar&) {
+        return propose_steps(part, bends, keep, progress);
+    });
 }
 
 void ViewerModel::Apply::operator()(const RunSteps&)
@@ -106,10 +106,10 @@ void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
 void ViewerModel::Apply::operator()(const OpenSteps& action)
 {
     require_idle();
-    model.start_steps("Opening the steps",
-                      [part = session.part, bends = document.bends, file = action.file](const Progress& progress) {
-                          return open_steps(part, bends, file, progress);
-                      });
+    model.start_steps("Opening the steps", [part = session.part, bends = document.bends,
+                                            file = action.file](const Progress& progress, const StepsSoFar&) {
+        return open_steps(part, bends, file, progress);
+    });
 }
 
 void ViewerModel::Apply::operator()(const SaveSteps& action)
@@ -117,9 +117,10 @@ void ViewerModel::Apply::operator()(const SaveSteps& action)
     require_idle();
     if (document.steps.empty())
         throw InputError("There are no steps yet: propose some, or add one.");
-    model.start_steps("Saving the steps",
-                      [part = session.part, bends = document.bends, steps = document.steps, file = action.file](
-                          const Progress& progress) { return save_steps(part, bends, steps, file, progress); });
+    model.start_steps("Saving the steps", [part = session.part, bends = document.bends, steps = document.steps,
+                                           file = action.file](const Progress& progress, const StepsSoFar&) {
+        return save_steps(part, bends, steps, file, progress);
+    });
 }
 
 void ViewerModel::Apply::operator()(const AddStep& action)

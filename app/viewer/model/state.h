@@ -113,7 +113,8 @@ struct JobView {
 /// What became of the last export.
 struct ExportOutcome {
     std::vector<std::filesystem::path> files; ///< written
-    std::string error;                        ///< why there are none; empty: all were written
+    std::string error;                        ///< why not all were written; empty: all were, or it was cancelled
+    bool cancelled = false;                   ///< before all were written
 };
 
 /// The later results of a blank: its grid, the quad mesh, the surface.

@@ -47,6 +47,7 @@ StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
         progress.checkpoint(0, "finding the bends");
         outcome.bends = bends_of(part, std::move(bends));
         progress.checkpoint(0.9, "writing the steps");
+        const WritingJob job(progress.part(0.9, 1)); // cancelled, nothing is written
         write_atomically(file, unfold_script_json(*part, outcome.bends->map, script_of(steps)));
         outcome.saved = file;
     } catch (const Cancelled&) {

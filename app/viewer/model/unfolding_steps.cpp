@@ -78,6 +78,15 @@ UnfoldRun as_far_as_it_worked(UnfoldRun run)
     return run;
 }
 
+StepsOutcome cancelled_with(StepsRun run, std::shared_ptr<const PartBends> bends)
+{
+    StepsOutcome outcome;
+    outcome.cancelled = true;
+    outcome.bends = std::move(bends);
+    outcome.run = with_figures(std::make_shared<StepsRun>(std::move(run)));
+    return outcome;
+}
+
 } // namespace
 
 UnfoldScript script_of(const StepList& list)
@@ -209,7 +218,7 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
 }
 
 StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
-                          std::shared_ptr<const StepsRun> before, const Progress& progress)
+                          std::shared_ptr<const StepsRun> before, const Progress& progress, const StepsSoFar& so_far)
 {
     StepsOutcome outcome;
     const auto& part = proposal.part;
@@ -226,8 +235,14 @@ StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBe
             begun.sequence.steps = script_of(before->steps);
             begun.run = before->run;
         }
-        UnfoldedByItself unfolded =
-            unfold_by_itself(part->mesh, bends->map, {.root = proposal.root}, sheet, progress, &begun);
+        UnfoldedByItself unfolded = unfold_by_itself(
+            part->mesh, bends->map, {.root = proposal.root}, sheet, progress, &begun,
+            [&](const UnfoldScript& plan, const UnfoldRun& run) {
+                if (so_far)
+                    so_far(cancelled_with(
+                        {part, as_far_as_the_same(proposal.steps, plan), sheet, as_far_as_it_worked(run), {}, {}},
+                        bends));
+            });
         const std::vector<std::string>& notes = unfolded.sequence.notes;
         result->given_up.assign(notes.end() - long(unfolded.given_up), notes.end());
         take(unfolded.sequence.steps, std::move(unfolded.run));
@@ -244,7 +259,8 @@ StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBe
 }
 
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
-                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress)
+                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress,
+                       const StepsSoFar& so_far)
 {
     StepsOutcome outcome;
     auto result = std::make_shared<StepsRun>(StepsRun{part, steps, sheet, {}, {}, {}});
@@ -252,7 +268,11 @@ StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, con
         result->run.states.assign(before->run.states.begin(), before->run.states.begin() + Eigen::Index(done));
     try {
         const UnfoldRun kept = result->run;
-        result->run = run_unfolding(part->mesh, script_of(steps), sheet, progress, &kept, done);
+        result->run =
+            run_unfolding(part->mesh, script_of(steps), sheet, progress, &kept, done, [&](const UnfoldRun& run) {
+                if (so_far)
+                    so_far(cancelled_with({part, steps, sheet, run, {}, {}}, nullptr));
+            });
     } catch (const UnfoldingCancelled& cancelled) {
         outcome.cancelled = true;
         result->run = cancelled.done;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +93,9 @@ struct StepsOutcome {
     std::string failure; ///< why there is nothing at all
 };
 
+/// Gets what a run would leave behind if it were cancelled now, after every step that has ended.
+using StepsSoFar = std::function<void(StepsOutcome)>;
+
 /// Proposes the steps of a part; never throws. @param bends  those of this part if they are known, else null
 /// @param keep a face whose region stays where it is; not given: the largest flat one
 StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
@@ -109,10 +113,12 @@ StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
 /// steps, as it does where it is cancelled meanwhile; never throws.
 /// @param bends as above; @param before of the same part and sheet, or null: what of it can stay is not solved again
 StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
-                          std::shared_ptr<const StepsRun> before, const Progress& progress);
+                          std::shared_ptr<const StepsRun> before, const Progress& progress,
+                          const StepsSoFar& so_far = {});
 
 /// Runs the steps after the first `done` ones, whose states are taken from `before`; never throws.
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
-                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress);
+                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress,
+                       const StepsSoFar& so_far = {});
 
 } // namespace spia::viewer

@@ -155,6 +155,7 @@ bool ViewerModel::poll()
     JobView& view = state_.job;
     std::erase_if(ending_, [](const auto& job) { return job->finished(); });
     std::erase_if(ending_steps_, [](const auto& job) { return job->finished(); });
+    std::erase_if(ending_exports_, [](const auto& job) { return job->finished(); });
     std::erase_if(ending_lists_, [](const auto& job) { return job->finished(); });
     pickers_.follow(state_.document.session);
     pickers_.follow_steps(state_);
@@ -187,7 +188,7 @@ bool ViewerModel::poll()
         view.fraction = steps_job_->fraction();
         view.step = steps_job_->step();
         view.cancelling = steps_job_->cancelling();
-        if (steps_job_->finished()) {
+        if (steps_job_->finished() || waited_long_for_cancel()) {
             take_steps_result();
             news = true;
         }
@@ -196,7 +197,7 @@ bool ViewerModel::poll()
         view.fraction = export_job_->fraction();
         view.step = export_job_->step();
         view.cancelling = export_job_->cancelling();
-        if (export_job_->finished()) {
+        if (export_job_->finished() || waited_long_for_cancel()) {
             take_export_result();
             news = true;
         }
@@ -249,8 +250,22 @@ ChainResult ViewerModel::leave_chain()
 
 void ViewerModel::take_export_result()
 {
-    const auto job = std::move(export_job_);
+    auto job = std::move(export_job_);
     state_.job = JobView{};
+    const auto cancelled = [&] {
+        state_.exported = ExportOutcome{exported_so_far_->fetch().value_or(Files{}), {}, true};
+        const size_t written = state_.exported->files.size();
+        say(Severity::hint, written == 0
+                                ? "Exporting: cancelled. Nothing was written."
+                                : fmt::format("Exporting: cancelled. {} written before and {} kept.",
+                                              written == 1 ? "1 file was" : fmt::format("{} files were", written),
+                                              written == 1 ? "is" : "are"));
+    };
+    if (!job->finished()) { // what it has not written by now it never will
+        ending_exports_.push_back(std::move(job));
+        cancelled();
+        return;
+    }
     try {
         const auto files = job->take();
         state_.exported = ExportOutcome{files, {}};
@@ -258,6 +273,8 @@ void ViewerModel::take_export_result()
         for (const auto& file : files)
             names += (names.empty() ? "" : ", ") + file.filename().string();
         say(Severity::done, fmt::format("Wrote {} to {}", names, files.empty() ? "" : files[0].parent_path().string()));
+    } catch (const Cancelled&) {
+        cancelled();
     } catch (const std::exception& error) {
         state_.exported = ExportOutcome{{}, error.what()};
         say(Severity::error, error.what());

@@ -91,6 +91,7 @@ private:
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
     ChainResult leave_chain();
+    StepsOutcome leave_steps();
     bool waited_long_for_cancel() const;
     std::vector<std::string> take_over(Document& document, const ChainResult& result) const;
     std::vector<std::string> restore(Document& document, const StoredPicks& picks,
@@ -99,7 +100,7 @@ private:
     bool forget_run_without_result(const ChainResult& result, const Session& before);
     void say_failed(const ChainResult& result);
     void take_export_result();
-    void start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work);
+    void start_steps(std::string title, std::function<StepsOutcome(const Progress&, const StepsSoFar&)> work);
     /// What the chain of a project goes on with when its steps are done.
     struct BlankNext {
         bool polish;
@@ -125,8 +126,12 @@ private:
     std::unique_ptr<Job<ChainResult>> chain_job_;
     std::vector<std::unique_ptr<Job<ChainResult>>>
         ending_; ///< cancelled, nobody waits for them; they end by themselves
-    std::unique_ptr<Job<std::vector<std::filesystem::path>>> export_job_;
+    using Files = std::vector<std::filesystem::path>;
+    std::unique_ptr<Job<Files>> export_job_;
+    std::vector<std::unique_ptr<Job<Files>>> ending_exports_; ///< as ending_; what they had not written they never will
+    std::shared_ptr<Mailbox<Files>> exported_so_far_;
     std::unique_ptr<Job<StepsOutcome>> steps_job_;
+    std::shared_ptr<Mailbox<StepsOutcome>> steps_so_far_; ///< as if they had been cancelled then
     std::unique_ptr<Job<ListedFile>> list_job_;
     std::vector<std::unique_ptr<Job<ListedFile>>> ending_lists_; ///< as ending_
     StepList running_list_; ///< the one that it runs, or ran: may have been edited meanwhile

@@ -16,13 +16,19 @@ std::string counted(size_t count, const char* what)
 
 } // namespace
 
-void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(const Progress&)> work)
+void ViewerModel::start_steps(std::string title, std::function<StepsOutcome(const Progress&, const StepsSoFar&)> work)
 {
     dismiss_before_run(state_.messages);
     state_.job = JobView{};
     state_.job.running = true;
     state_.job.title = std::move(title);
-    steps_job_ = std::make_unique<Job<StepsOutcome>>(std::move(work), wake_);
+    cancelled_at_.reset();
+    steps_so_far_ = std::make_shared<Mailbox<StepsOutcome>>();
+    steps_job_ = std::make_unique<Job<StepsOutcome>>(
+        [work = std::move(work), so_far = steps_so_far_](const Progress& progress) {
+            return work(progress, [&](StepsOutcome outcome) { so_far->post(std::move(outcome)); });
+        },
+        wake_);
 }
 
 void ViewerModel::run_missing_steps()
@@ -30,16 +36,17 @@ void ViewerModel::run_missing_steps()
     const Document& document = state_.document;
     running_list_ = document.steps;
     if (still_proposed(document) && !keep_step_) // those of a project are to be what they were
-        return start_steps("Unfolding step by step", [proposal = document.proposal, bends = document.bends,
-                                                      sheet = sheet_of_steps(document.session.options.flatten),
-                                                      before = document.unfolding](const Progress& progress) {
-            return run_proposal(*proposal, bends, sheet, before, progress);
-        });
+        return start_steps("Unfolding step by step",
+                           [proposal = document.proposal, bends = document.bends,
+                            sheet = sheet_of_steps(document.session.options.flatten),
+                            before = document.unfolding](const Progress& progress, const StepsSoFar& so_far) {
+                               return run_proposal(*proposal, bends, sheet, before, progress, so_far);
+                           });
     start_steps("Unfolding step by step",
                 [part = document.session.part, steps = document.steps,
                  sheet = sheet_of_steps(document.session.options.flatten), before = document.unfolding,
-                 done = steps_done(document)](const Progress& progress) {
-                    return run_steps(part, steps, sheet, before, done, progress);
+                 done = steps_done(document)](const Progress& progress, const StepsSoFar& so_far) {
+                    return run_steps(part, steps, sheet, before, done, progress, so_far);
                 });
 }
 
@@ -53,16 +60,24 @@ void ViewerModel::show_step(std::optional<int> step, double position)
         fitter_.fit(state_, View::part);
 }
 
+/// Lets the running job of steps end by itself: a file that it has not written by then it never will. @returns what had ended
+StepsOutcome ViewerModel::leave_steps()
+{
+    StepsOutcome outcome = steps_so_far_->fetch().value_or(StepsOutcome{});
+    outcome.cancelled = true;
+    ending_steps_.push_back(std::move(steps_job_));
+    return outcome;
+}
+
 void ViewerModel::take_steps_result()
 {
-    const auto job = std::move(steps_job_);
     const std::string title = state_.job.title;
     const bool keep_step = std::exchange(keep_step_, false);
     state_.job = JobView{};
     const auto blank_next = std::exchange(blank_next_, std::nullopt);
     StepsOutcome outcome;
     try {
-        outcome = job->take();
+        outcome = steps_job_->finished() ? std::exchange(steps_job_, nullptr)->take() : leave_steps();
     } catch (const std::exception& error) { // no memory
         say(Severity::error, error.what());
         return;

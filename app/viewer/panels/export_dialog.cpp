@@ -247,6 +247,8 @@ bool outcome_of_export(Frame& frame)
     ImGui::PushFont(frame.ui.fonts.bold);
     if (!outcome->error.empty())
         coloured(p.error, "Nothing was exported");
+    else if (outcome->cancelled)
+        ImGui::TextUnformatted(outcome->files.empty() ? "Cancelled: nothing was written" : "Cancelled: written before");
     else
         coloured(p.good,
                  fmt::format("{} {} written", outcome->files.size(), outcome->files.size() == 1 ? "file" : "files"));

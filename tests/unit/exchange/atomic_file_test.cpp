@@ -1,5 +1,7 @@
 #include "engine/exchange/atomic_file.h"
 
+#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -124,6 +126,50 @@ TEST(AtomicFile, FoldersAndDevicesAreNotReplaced)
     EXPECT_THROW(write_atomically(folder / "", "content"), ExchangeError);
     EXPECT_THROW(write_atomically("/dev/null", "content"), ExchangeError);
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, OfAJobThatIsCancelledIsNotWrittenHoweverLateAndTheOldOneStays)
+{
+    const ScratchFolder folder;
+    write_atomically(folder / "file", "old");
+    const auto cancel = std::make_shared<std::atomic<bool>>(false);
+    const std::string content(20 << 20, 'x');
+    for (const double when : {0.4, 0.6, 1.0}) { // before it is begun, half written, all but there
+        *cancel = false;
+        const WritingJob job(
+            Progress([&](double fraction, std::string_view) { *cancel = *cancel || fraction >= when; }, cancel));
+        EXPECT_THROW(write_atomically(folder / "file", content), Cancelled) << when;
+        EXPECT_EQ(content_of(folder / "file"), "old") << when;
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / ""), {}), 1) << "nothing else is left";
+    }
+    write_atomically(folder / "file", "new"); // the job is no more
+    EXPECT_EQ(content_of(folder / "file"), "new");
+}
+
+TEST(AtomicFile, TellsItsJobHowFarItIsAndWhatIsThere)
+{
+    const ScratchFolder folder;
+    std::vector<double> fractions;
+    std::vector<std::string> steps;
+    std::vector<std::filesystem::path> there;
+    {
+        const WritingJob job(Progress([&](double fraction, std::string_view step) {
+                                 fractions.push_back(fraction);
+                                 steps.emplace_back(step);
+                             }).part(0.2, 1),
+                             2, [&](const std::filesystem::path& file) {
+                                 EXPECT_TRUE(std::filesystem::exists(file));
+                                 there.push_back(file);
+                             });
+        write_atomically(folder / "a", std::string(9 << 20, 'a'));
+        write_atomically(folder / "b", "b");
+    }
+    EXPECT_EQ(there, (std::vector<std::filesystem::path>{folder / "a", folder / "b"}));
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_NEAR(fractions.front(), 0.2 + 0.8 * 0.25, 1e-12) << "the content is there: half of the first of two";
+    EXPECT_NEAR(fractions.back(), 1, 1e-12);
+    EXPECT_EQ(steps.front(), "writing a");
+    EXPECT_EQ(steps.back(), "writing b");
 }
 
 } // namespace spia
