@@ -25,6 +25,7 @@
 #include "app/viewer/render/renderer.h"
 #include "app/viewer/render/view_images.h"
 #include "app/viewer/versions.h"
+#include "app/viewer/view_glide.h"
 #include "app/viewer/views/views.h"
 #include "app/viewer/window_files.h"
 #include "app/viewer/window_report.h"
@@ -197,7 +198,10 @@ private:
         if (solving && !model_.busy()) // what it brings may need some frames to find its place
             GlWindow::news() = true;
         follow_files();
-        follow_glide();
+        if (glide_.runs()) {
+            GlWindow::news() = true;
+            glide_.follow(may_glide(), ImGui::GetTime());
+        }
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_.get(), &width, &height);
         if (const float scale = wanted_scale(); scale != ui_.scale) { // on another screen, or preferred
@@ -291,15 +295,8 @@ private:
         if (ui_.busy)
             times_.turning.push_back(busy);
         glfwSwapBuffers(window_.get());
-        std::optional<std::array<Camera, 4>> left; // where a glide begins
         for (Action& action : queue_.take()) {
-            if (!std::holds_alternative<SetViewSettings>(action)) {
-                if (glide_ && looks_from_elsewhere(action) && !left)
-                    left = glide_->shown;
-                end_glide();
-            }
-            if (looks_from_elsewhere(action) && !left)
-                left = model_.state().view.camera;
+            glide_.before(action);
             if (options_.follow)
                 on_screen_.pushed.emplace(viewer::name(action));
             if (auto* settings = std::get_if<SetViewSettings>(&action)) { // a panel changes what it means to change
@@ -309,11 +306,7 @@ private:
             }
             carry_out(action);
         }
-        if (left && may_glide() && *left != model_.state().view.camera) {
-            glide_ = Glide{*left, model_.state().view.camera, *left, ImGui::GetTime()};
-            set_cameras(*left);
-            GlWindow::news() = true;
-        }
+        glide_.begin(may_glide(), ImGui::GetTime());
         if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown())
             model_.gesture_ended();
         follow_part();
@@ -364,15 +357,6 @@ private:
         return false;
     }
 
-    /// Whether an action shows the part from elsewhere: the views glide there.
-    static bool looks_from_elsewhere(const Action& action)
-    {
-        return std::holds_alternative<LookFrom>(action) || std::holds_alternative<LookFromSide>(action) ||
-               std::holds_alternative<FitView>(action) || std::holds_alternative<FlyTo>(action) ||
-               std::holds_alternative<FlyToVertex>(action) || std::holds_alternative<HideSpot>(action) ||
-               std::holds_alternative<ShowFault>(action);
-    }
-
     /// Whether a glide would be seen as one: with frames as long as these it would only keep the user waiting. Scripts and tests have
     /// what they ask for at once.
     bool may_glide() const
@@ -380,42 +364,6 @@ private:
         constexpr double slow = 60; // milliseconds: a glide of four frames
         return !options_.exit && !options_.follow && script_.ended() && options_.script.empty() &&
                (times_.all.empty() || times_.all.back() < slow);
-    }
-
-    void set_cameras(const std::array<Camera, 4>& camera)
-    {
-        ViewSettings settings = model_.state().view;
-        settings.camera = camera;
-        model_.apply(SetViewSettings{settings});
-    }
-
-    /// The views are where they glide to.
-    void end_glide()
-    {
-        if (const auto glide = std::exchange(glide_, std::nullopt); glide && model_.state().view.camera == glide->shown)
-            set_cameras(glide->to);
-    }
-
-    /// A step of the glide, unless the user has moved a view meanwhile.
-    void follow_glide()
-    {
-        if (!glide_)
-            return;
-        GlWindow::news() = true;
-        if (model_.state().view.camera != glide_->shown) {
-            glide_.reset();
-            return;
-        }
-        constexpr double seconds = 0.25;
-        const double t = (ImGui::GetTime() - glide_->since) / seconds;
-        if (!(t < 1) || !may_glide()) {
-            end_glide();
-            return;
-        }
-        const double share = t * t * (3 - 2 * t); // begins and ends at rest
-        for (size_t v = 0; v < 4; ++v)
-            glide_->shown[v] = between(glide_->from[v], glide_->to[v], share);
-        set_cameras(glide_->shown);
     }
 
     void carry_out(const Action& action)
@@ -544,12 +492,7 @@ private:
     Renderer renderer_;
     bool software_ = renderer_.in_software();
     std::array<Camera, 4> cameras_;
-    /// The views on their way to where an action has sent them.
-    struct Glide {
-        std::array<Camera, 4> from, to, shown; ///< shown: in the last frame
-        double since;                          ///< of ImGui's clock
-    };
-    std::optional<Glide> glide_;
+    ViewGlide glide_{model_};
     double moved_at_ = -seconds_to_stand_still; ///< of ImGui's clock: a camera was another one in the frame before
     ViewImages images_{renderer_};
     FileTextures textures_;

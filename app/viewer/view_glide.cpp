@@ -1,0 +1,74 @@
+#include "app/viewer/view_glide.h"
+
+#include <utility>
+
+namespace spia::viewer {
+namespace {
+
+/// Whether an action shows the part from elsewhere.
+bool looks_from_elsewhere(const Action& action)
+{
+    return std::holds_alternative<LookFrom>(action) || std::holds_alternative<LookFromSide>(action) ||
+           std::holds_alternative<FitView>(action) || std::holds_alternative<FlyTo>(action) ||
+           std::holds_alternative<FlyToVertex>(action) || std::holds_alternative<HideSpot>(action) ||
+           std::holds_alternative<ShowFault>(action);
+}
+
+} // namespace
+
+void ViewGlide::before(const Action& action)
+{
+    const bool elsewhere = looks_from_elsewhere(action);
+    if (!std::holds_alternative<SetViewSettings>(action)) {
+        if (way_ && elsewhere && !left_)
+            left_ = way_->shown;
+        end();
+    }
+    if (elsewhere && !left_)
+        left_ = cameras();
+}
+
+void ViewGlide::begin(bool may, double now)
+{
+    const auto left = std::exchange(left_, std::nullopt);
+    if (!left || !may || *left == cameras())
+        return;
+    way_ = Way{*left, cameras(), *left, now};
+    set(*left);
+}
+
+void ViewGlide::follow(bool may, double now)
+{
+    if (!way_)
+        return;
+    if (cameras() != way_->shown) {
+        way_.reset();
+        return;
+    }
+    constexpr double seconds = 0.25;
+    const double t = (now - way_->since) / seconds;
+    if (!(t < 1) || !may) {
+        end();
+        return;
+    }
+    const double share = t * t * (3 - 2 * t); // begins and ends at rest
+    for (size_t v = 0; v < way_->shown.size(); ++v)
+        way_->shown[v] = between(way_->from[v], way_->to[v], share);
+    set(way_->shown);
+}
+
+void ViewGlide::set(const Cameras& cameras)
+{
+    ViewSettings settings = model_.state().view;
+    settings.camera = cameras;
+    model_.apply(SetViewSettings{settings});
+}
+
+/// The views are where they glide to.
+void ViewGlide::end()
+{
+    if (const auto way = std::exchange(way_, std::nullopt); way && cameras() == way->shown)
+        set(way->to);
+}
+
+} // namespace spia::viewer
