@@ -30,7 +30,7 @@ TEST_F(TensileTestByHand, BecomesTheMaterialOfThePart)
     hands->type((folder / "bar.csv").string());
     hands->keys("Return");
     hands->see("Material from a tensile test");
-    hands->see_part_of_line("uniform strain");
+    hands->see_part_of_line("uniform true");
     hands->click("Save and use it");
     hands->see_that("the material of the test",
                     [&](const Json& r) { return r["options"]["material"] == (folder / "bar.json").string(); });
