@@ -93,20 +93,25 @@ Json Hands::see_ready()
 }
 
 void Hands::click(const std::string& line, double x, double y) { click_on(line, true, x, y); }
+void Hands::rest_on(const std::string& line) { rest_on(line, true, 0.5, 0.5); }
 void Hands::click_part(const std::string& part) { click_on(part, false, 0.5, 0.5); }
 
 void Hands::click_on(const std::string& words, bool whole, double x, double y)
+{
+    rest_on(words, whole, x, y);
+    viewer_.press(1);
+    viewer_.release(1);
+}
+
+void Hands::rest_on(const std::string& words, bool whole, double x, double y)
 {
     for (int tries = 0; tries < 20; ++tries) {
         const Json before = whole ? see(words) : see_part_of_line(words);
         const auto at = place(*line_in(before, words, whole), x, y);
         const Json now = viewer_.move(at.first, at.second);
         const auto still = line_in(now, words, whole);
-        if (still && place(*still, x, y) == at) {
-            viewer_.press(1);
-            viewer_.release(1);
+        if (still && place(*still, x, y) == at)
             return;
-        }
     }
     throw Error("\"" + words + "\" does not stand still under the mouse");
 }

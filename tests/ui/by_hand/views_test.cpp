@@ -233,8 +233,8 @@ TEST_F(ViewsByHand, TheBlankIsMeasuredInItsOwnView)
     value("/view/tool", "measure");
     const auto measure_in = [&](const char* view, size_t count) {
         const Json place = viewer().report()["window"]["views"][view];
-        click(item(place, 0.55, 0.45));
-        click(item(place, 0.62, 0.6));
+        click(item(place, 0.75, 0.55));
+        click(item(place, 0.62, 0.7));
         const Json now =
             hands->see_that("a distance", [&](const Json& r) { return r["measurements"].size() == count; });
         EXPECT_EQ(now["measurements"][count - 1]["on"], view);
