@@ -224,7 +224,7 @@ private:
                                                            : flags | ImGuiConfigFlags_NavEnableKeyboard;
         ImGui_ImplOpenGL3_NewFrame();
         ImGui_ImplGlfw_NewFrame();
-        const bool menu_takes_return = take_return_in_menus();
+        const bool menu_takes_return = take_return_in_menus(), menus = menus_are_open();
         GlWindow::place_mouse();
         window_.call(window_title(model_.state()));
         if (options_.exit) // nobody is there: where the mouse happens to be is not to be seen
@@ -263,7 +263,8 @@ private:
             constexpr int last_printable = 255; // of GLFW's numbers
             const bool typed = ImGui::GetIO().WantTextInput && press.key <= last_printable &&
                                !(press.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT));
-            const bool taken = menu_takes_return && (press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER);
+            const bool taken = (menu_takes_return && (press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER)) ||
+                               (menus && press.key == GLFW_KEY_ESCAPE && (close_menus() || !menus_are_open()));
             if (!typed && !taken)
                 ui_.keys_later.push_back(press);
         }

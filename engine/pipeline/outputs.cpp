@@ -196,20 +196,17 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     const WritingJob job(writing, of_all, written_file);
     const std::string_view blank_from = spia::name(session.options.steps);
     std::vector<fs::path> files;
-    for (const std::string& format : formats) {
-        if (!has_content(format, session, options))
-            continue;
-        writing.checkpoint(double(files.size()) / double(of_all), "writing " + format);
+    const auto write = [&](const std::string& format) {
         if (is_deck_format(format)) {
             const auto written =
                 write_deck_files(folder, name, std::span(&format, 1), *session.part, flat.blank, flat.face, unit);
             files.insert(files.end(), written.begin(), written.end());
-            continue;
+            return;
         }
         if (is_iga_format(format)) {
             const auto written = write_iga_files(folder, name, format, session, unit);
             files.insert(files.end(), written.begin(), written.end());
-            continue;
+            return;
         }
         const size_t first = files.size();
         for (const std::string& file : file_names(format, session, options))
@@ -243,7 +240,22 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
                                 flat.skins ? &*flat.skins : nullptr);
         } else
             write_picture(path, scene);
+    };
+    std::exception_ptr failed; // a format that cannot be written keeps no other from being
+    for (const std::string& format : formats) {
+        if (!has_content(format, session, options))
+            continue;
+        writing.checkpoint(double(files.size()) / double(of_all), "writing " + format);
+        try {
+            write(format);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error&) {
+            failed = failed ? failed : std::current_exception();
+        }
     }
+    if (failed)
+        std::rethrow_exception(failed);
     return files;
 }
 

@@ -61,7 +61,8 @@ void require_place(const Session& session, const std::filesystem::path& folder, 
 /// @param progress cancelling takes effect before the next file is there
 /// @param written called with each file that is there
 /// @returns the files, in the order of `formats`
-/// @throws InputError if the part is not solved, else as output_files(); ExchangeError if a file cannot be written
+/// @throws InputError if the part is not solved, else as output_files(); ExchangeError if a file cannot be written: the first of
+///         them, when all others are there
 std::vector<std::filesystem::path> write_outputs(const Session& session, const std::filesystem::path& folder,
                                                  const std::vector<std::string>& formats,
                                                  const OutputOptions& options = {}, const Progress& progress = {},

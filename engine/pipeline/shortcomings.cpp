@@ -117,6 +117,9 @@ std::vector<std::string> shortcomings(const Session& session)
                                                                              : " (other grades beyond their own)") +
                 (flat.report.trusted_strain < session.options.flatten.curve.trusted_strain
                      ? ": there the hardening curve is extrapolated, and in tension the sheet necks"
+                 : session.limits && session.limits->curve
+                     ? ", farther than the hardening curve was measured: their stress is extrapolated, whether they "
+                       "crack is told by the forming limits"
                      : ", extrapolated: the sheet would neck or crack there"));
         if (flat.flipped_triangles > 0)
             list.push_back(fmt::format("{} triangles of the blank are flipped", flat.flipped_triangles));

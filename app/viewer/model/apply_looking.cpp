@@ -14,7 +14,6 @@ void ViewerModel::Apply::operator()(const SetDisplay& action)
 {
     state.history.remember("Change display", document,
                            true); // also while another file is being read, which takes it over
-    state.unsaved = true;
     document.display = action.display;
     document.display.per_face |= action.display.field == Field::zone; // nothing lies between two zones
 }

@@ -87,14 +87,12 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
     require_no_export();
     Document fresh;
     fresh.material = document.material;
-    fresh.material_from = document.material_from;
+    fresh.material_from = document.material_from == SheetSource::assumed ? SheetSource::assumed : SheetSource::before;
     fresh.thickness_from = document.thickness_from == SheetSource::assumed ? SheetSource::assumed : SheetSource::before;
     fresh.limits = document.limits;
     fresh.session.options.limits = session.options.limits;
     fresh.session.options.flatten.material = session.options.flatten.material;
     fresh.session.options.flatten.thickness = session.options.flatten.thickness;
-    fresh.session.options.interpolate = session.options.interpolate;
-    set_fit(fresh.session.options, fit_choice(session.options));
     begin_as_preferred(fresh);
     if (!action.unit.empty())
         fresh.session.options.read.unit = length_unit(action.unit);

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -50,15 +51,28 @@ void ViewerModel::Apply::change_steps(std::string name, StepList steps, bool mer
     document.steps = std::move(steps);
 }
 
+static int largest_face(const TriMesh& part, const std::vector<int>& faces)
+{
+    const auto area = [&](int face) {
+        const Eigen::Matrix3d c = part.position(Eigen::all, part.triangle.col(face));
+        return (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).squaredNorm();
+    };
+    return *std::max_element(faces.begin(), faces.end(), [&](int a, int b) { return area(a) < area(b); });
+}
+
 void ViewerModel::Apply::operator()(const ProposeSteps& action)
 {
     require_idle();
     if (action.keep && (*action.keep < 0 || *action.keep >= part().mesh.triangles()))
         throw InputError(fmt::format("The part has no face {}.", *action.keep));
-    model.start_steps("Proposing steps", [part = session.part, bends = document.bends,
-                                          keep = action.keep](const Progress& progress, const StepsSoFar&) {
-        return propose_steps(part, bends, keep, progress);
-    });
+    std::optional<int> keep = action.keep;
+    for (const FaceRegion& region : document.regions) // what the user has fixed stays where it is
+        if (!keep && region.kind == RegionKind::fixed && !region.faces.empty())
+            keep = largest_face(part().mesh, region.faces); // which is hardly one of a bend
+    model.start_steps("Proposing steps",
+                      [part = session.part, bends = document.bends, keep](const Progress& progress, const StepsSoFar&) {
+                          return propose_steps(part, bends, keep, progress);
+                      });
 }
 
 void ViewerModel::Apply::operator()(const RunSteps&)

@@ -67,6 +67,10 @@ CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
         verdict.kind = CrackVerdict::Kind::safe;
         verdict.text = fmt::format("No cracks expected: {}.", used);
     }
+    if (const int thick = faces(Zone::strong_thickening); thick > 0)
+        verdict.text += fmt::format(" Wrinkles are likely: {} by more than the allowed {:.0f} %.",
+                                    thick == 1 ? "1 face thickens" : fmt::format("{} faces thicken", thick),
+                                    100 * limits.settings.max_thickening);
     const Eigen::VectorXd& left = limits.zones.distance;
     const auto untold = std::count_if(left.begin(), left.end(), [](double each) { return !std::isfinite(each); });
     if (untold > 0)

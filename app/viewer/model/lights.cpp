@@ -40,8 +40,9 @@ void judge_sheet(const Document& document, LengthUnit lengths, std::vector<Doubt
                          : fmt::format("The thickness {} is assumed; the file gives none.", thick);
     }
     if (!is_given(document.material_from)) {
-        doubt.text +=
-            fmt::format("{}The grade {} is assumed.{}", doubt.text.empty() ? "" : " ", grade(document), file_says);
+        doubt.text += fmt::format(
+            "{}The grade {} is {}.{}", doubt.text.empty() ? "" : " ", grade(document),
+            document.material_from == SheetSource::before ? "that of the previous part" : "assumed", file_says);
     }
     doubt.next = "Choose them here, or confirm.";
     const bool neither = !is_given(document.thickness_from) && !is_given(document.material_from);

@@ -276,7 +276,7 @@ void ViewerModel::take_export_result()
     } catch (const Cancelled&) {
         cancelled();
     } catch (const std::exception& error) {
-        state_.exported = ExportOutcome{{}, error.what()};
+        state_.exported = ExportOutcome{exported_so_far_->fetch().value_or(Files{}), error.what()};
         say(Severity::error, error.what());
     }
 }

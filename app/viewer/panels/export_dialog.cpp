@@ -246,7 +246,7 @@ bool outcome_of_export(Frame& frame)
     }
     ImGui::PushFont(frame.ui.fonts.bold);
     if (!outcome->error.empty())
-        coloured(p.error, "Nothing was exported");
+        coloured(p.error, outcome->files.empty() ? "Nothing was written" : "Not all files were written");
     else if (outcome->cancelled)
         ImGui::TextUnformatted(outcome->files.empty() ? "Cancelled: nothing was written" : "Cancelled: written before");
     else
@@ -255,7 +255,9 @@ bool outcome_of_export(Frame& frame)
     ImGui::PopFont();
     if (!outcome->error.empty())
         coloured(ImGui::GetStyleColorVec4(ImGuiCol_Text), engine_words(frame, outcome->error));
-    else if (!outcome->files.empty()) {
+    if (!outcome->files.empty()) {
+        if (!outcome->error.empty())
+            ImGui::TextUnformatted("These were:");
         muted(frame, outcome->files[0].parent_path().string());
         for (const fs::path& file : outcome->files)
             ImGui::BulletText("%s", file.filename().c_str());

@@ -81,7 +81,7 @@ void fit_editor(Frame& frame, FitChoice fit)
         "Lets points slide along the surface while it is fitted (parameter correction): it then needs fewer control points, but its lines u and v no longer are those of the blank");
     ImGui::SetNextItemWidth(width);
     constexpr int least = 16, greatest = 4'000'000; // as SetFit takes
-    if (typed_integer(frame, "Control points, at most", fit.max_control_points)) {
+    if (typed_integer(frame, "Max control points", fit.max_control_points)) {
         fit.max_control_points = std::clamp(fit.max_control_points, least, greatest);
         changed = true;
     }

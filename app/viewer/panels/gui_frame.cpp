@@ -17,6 +17,12 @@ bool close_menus()
     return true;
 }
 
+bool menus_are_open()
+{
+    const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    return open.Size > 0 && open.back().Window && !(open.back().Window->Flags & ImGuiWindowFlags_Modal);
+}
+
 bool take_return_in_menus()
 {
     ImGuiIO& io = ImGui::GetIO();

@@ -8,6 +8,8 @@ namespace spia::viewer {
 
 /// Closes open menus, lists and pickers, but no dialog that waits for an answer. @returns whether there was any
 bool close_menus();
+/// Whether there are any. Before NewFrame(): that closes a menu itself with Escape, which then means nothing else.
+bool menus_are_open();
 
 /// Return takes what is chosen by the arrows in an open menu or list, as Space does; for ImGui it is for text alone. To be called
 /// before NewFrame(). @returns whether it did, so that the dialog that the entry opens does not take it for an answer

@@ -196,8 +196,8 @@ void worst_section(Frame& frame)
             frame.actions.push(FlyTo{f});
         tooltip("Click to zoom to it in all views; Escape goes back");
         const Eigen::Vector3d there = at / millimetres(frame.lengths());
-        const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g} {}", there[0] + 0., there[1] + 0., there[2] + 0.,
-                                              length_word(frame.lengths()));
+        const std::string place = fmt::format("{}, {}, {} {}", plain_number(there[0] + 0.), plain_number(there[1] + 0.),
+                                              plain_number(there[2] + 0.), length_word(frame.lengths()));
         const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x,
                     value_end = ImGui::CalcTextSize("8.  -88.8 %").x + 2 * ImGui::GetStyle().ItemSpacing.x;
         if (right < value_end)

@@ -183,6 +183,8 @@ void contents(Frame& frame, ManualWindow& window)
     const Manual& manual = *window.manual;
     ImGui::SetNextItemWidth(-1);
     ImGui::PushID(window.openings); // what was typed the last time is gone
+    if (window.appears)
+        ImGui::SetKeyboardFocusHere();
     text_input("##search", window.searched, false, "Search the manual");
     ImGui::PopID();
     ImGui::BeginChild("contents", {0, 0}, false, ImGuiWindowFlags_NoNavInputs);

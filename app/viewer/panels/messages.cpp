@@ -51,7 +51,6 @@ std::vector<Message> current(Frame& frame)
 {
     std::vector<Message> shown;
     const double now = ImGui::GetTime();
-    frame.ui.wake_at = 0;
     std::map<int, double> since;
     const auto& all = frame.state.messages;
     for (auto message = all.rbegin(); message != all.rend(); ++message) {

@@ -34,7 +34,7 @@ void pictures_column(const Frame& frame, ReportOptions& options)
         ImGui::EndDisabled();
     }
     heading(frame, "How they look");
-    if (ImGui::RadioButton("Standard: light background, whole part, thinning", options.standard_look))
+    if (ImGui::RadioButton("Standard: light, whole part, thinning", options.standard_look))
         options.standard_look = true;
     if (ImGui::RadioButton("Current views", !options.standard_look))
         options.standard_look = false;

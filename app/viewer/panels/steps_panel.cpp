@@ -332,12 +332,15 @@ void surface_step(Frame& frame)
                  light(frame, ChainStep::surface, status(frame, Stage::fit, session.surface != nullptr)));
     doubt_rows(frame, ChainStep::surface);
     if (!session.blank) {
-        muted(frame, "Make the grid first.");
+        muted(frame, "Unfold the part first.");
         return;
     }
     patches_editor(frame);
     if (!session.surface) {
-        muted(frame, session.options.patches ? "Unfold the part first." : "Make the grid first.");
+        if (session.lifted || session.options.patches) // say a run was cancelled before this step
+            fit_editor(frame, fit_choice(session.options));
+        else
+            muted(frame, "Make the grid first.");
         return;
     }
     fit_editor(frame, fit_choice(session.options));

@@ -324,6 +324,7 @@ void keep_in_place(Frame& frame)
     if (anchor.item == context.NavId && at_rest && y != anchor.y) {
         const float to = std::max(0.f, std::round(scroll + y - anchor.y));
         ImGui::SetScrollY(to);
+        frame.ui.wake_at = ImGui::GetTime(); // the next frame shows it
         anchor = {context.NavId, y, to, mouse};
         return;
     }

@@ -168,6 +168,7 @@ void workbench(Frame& frame)
     if (pressed(frame, GLFW_KEY_ESCAPE) && close_menus())
         std::erase_if(frame.ui.keys, [](const KeyPress& press) { return press.key == GLFW_KEY_ESCAPE; });
     frame.ui.items.clear();
+    frame.ui.wake_at = 0;
     const ImGuiIO& io = ImGui::GetIO();
     const float s = frame.ui.scale;
     ImGui::SetNextWindowPos({0, 0});

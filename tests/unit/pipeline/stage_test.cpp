@@ -342,6 +342,21 @@ TEST(Outputs, AFileNeverTakesThePlaceOfThePart)
     EXPECT_FALSE(std::filesystem::exists(folder / "new.json"));
 }
 
+TEST(Outputs, AFormatThatCannotBeWrittenKeepsNoOtherFromBeing)
+{
+    const ScratchFolder folder;
+    std::vector<std::string> written;
+    const auto fails_after_iges = [&](const std::filesystem::path& file) {
+        if (file.extension() == ".iges")
+            throw ExchangeError("the disk is full");
+        written.push_back(file.filename().string());
+    };
+    EXPECT_THROW(write_outputs(finished("dome.obj"), folder / "out", {"iges", "step", "glb"}, {}, {}, fails_after_iges),
+                 ExchangeError);
+    EXPECT_EQ(written, (std::vector<std::string>{"dome.step", "dome.glb"}));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / "dome.glb"));
+}
+
 TEST(Outputs, OptionsSayWhatIsWrittenUnderWhichName)
 {
     const ScratchFolder folder;

@@ -63,6 +63,19 @@ TEST(CrackVerdict, AboveTheLimitItCracksAndSaysWhere)
     EXPECT_THAT(verdict.text, HasSubstr("125 % of the forming limit"));
 }
 
+TEST(CrackVerdict, FacesThatThickenMoreThanAllowedMayWrinkle)
+{
+    Session session = stretched(0.1, 0.1, 0.40);
+    EXPECT_THAT(crack_verdict(session).text, testing::Not(HasSubstr("Wrinkles")));
+    auto limits = std::make_shared<LimitsResult>(*session.limits);
+    SheetFields face = session.blank->face;
+    face.thinning[1] = -0.15; // 10 % are allowed
+    limits->zones = zones(session.part->mesh, face, &*limits->curve, limits->settings);
+    session.limits = limits;
+    EXPECT_THAT(crack_verdict(session).text,
+                HasSubstr("Wrinkles are likely: 1 face thickens by more than the allowed 10 %."));
+}
+
 TEST(CrackVerdict, WithoutACurveItSaysThatItCannotTell)
 {
     const CrackVerdict verdict = crack_verdict(stretched(0.5, 0.1, {}));

@@ -144,6 +144,25 @@ TEST_F(LeftJobs, AnExportThatIsLeftWritesNothingMore)
     EXPECT_EQ(state.exported->files.size(), 2u);
 }
 
+TEST_F(LeftJobs, WhatIsFixedStaysWhereItIsInProposedSteps)
+{
+    shapes::write_mesh(folder / "part.obj", shapes::lipped_box());
+    model.apply(OpenPart{folder / "part.obj", ""});
+    rest();
+    model.apply(ProposeSteps{});
+    rest();
+    const int by_itself = document.proposal->root;
+    const BendMap& map = *document.bends->map;
+    int face = 0;
+    while (map.label[face] == by_itself || map.label[face] >= int(map.regions.size()))
+        ++face;
+    model.apply(SelectFaces{{face}});
+    model.apply(MakeRegion{"clamp", RegionKind::fixed});
+    model.apply(ProposeSteps{});
+    rest();
+    EXPECT_EQ(document.proposal->root, map.label[face]);
+}
+
 TEST_F(LeftJobs, StepsThatEndedBeforeARunIsLeftAreKept)
 {
     shapes::write_mesh(folder / "part.obj", shapes::lipped_box());
