@@ -152,7 +152,7 @@ TEST_F(LeftJobs, WhatIsFixedStaysWhereItIsInProposedSteps)
     model.apply(ProposeSteps{});
     rest();
     const int by_itself = document.proposal->root;
-    const BendMap& map = *document.bends->map;
+    const BendMap& map = document.bends->map;
     int face = 0;
     while (map.label[face] == by_itself || map.label[face] >= int(map.regions.size()))
         ++face;
