@@ -2,6 +2,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <memory>
+#include <optional>
 
 #include "app/viewer/model/camera.h"
 #include "app/viewer/model/script.h"
@@ -69,6 +70,20 @@ struct Mouse : testing::Test {
     {
         letter(key);
         return viewer->wait(name, [&](const Json& now) { return now["view"]["tool"] == name; });
+    }
+    /// On a line in the panel on the right.
+    void click_text(const char* line)
+    {
+        constexpr double panel = 1050; // where it begins
+        std::optional<Json> there;
+        viewer->wait(line, [&](const Json& now) {
+            for (const Json& text : now["window"]["texts"])
+                if (text["text"] == line && text["at"][0] > panel)
+                    there = text;
+            return there.has_value();
+        });
+        const Json &at = (*there)["at"], &size = (*there)["size"];
+        viewer->click(at[0].get<double>() + size[0].get<double>() / 2, at[1].get<double>() + size[1].get<double>() / 2);
     }
     Json wait_for(const char* pointer, const Json& value)
     {
@@ -231,11 +246,9 @@ TEST_F(Mouse, DragsACornerChoosesAFieldAndSaves)
     viewer->keys("ctrl+y");
     wait_for("/corners/0/vertex", moved[0]["vertex"]);
 
-    // The list of fields is the first below the title of the right panel. Open, its entries are 22 pixels high each.
-    constexpr double list_x = 1180, list_y = 71, first_entry = 100, major_strain = first_entry + 3 * 22;
     ASSERT_EQ(now["display"]["field"], "thinning");
-    viewer->click(list_x, list_y);
-    viewer->click(list_x, major_strain);
+    click_text("Thinning");
+    click_text("Major strain");
     now = wait_for("/display/field", "strain_major");
     EXPECT_LT(now["field"]["least"], now["field"]["greatest"]);
 
