@@ -76,8 +76,9 @@ bool ViewerModel::take_opening(const ChainResult& result)
 
 void ViewerModel::replace_document(Opening opening)
 {
-    if (!opening.project) { // a field stays chosen from part to part
+    if (!opening.project) { // how fields are drawn stays chosen from part to part; each begins with the thinning
         opening.document.display = state_.document.display;
+        opening.document.display.field = FieldDisplay{}.field;
         opening.document.display.range.reset();
     }
     state_.document = std::move(opening.document);

@@ -278,13 +278,15 @@ TEST_F(RefusedPart, UntilAnotherPartIsThereTheOneBeforeIsNotChangedButLookedAt)
     EXPECT_EQ(errors(), 1);
     FieldDisplay display = state.document.display;
     display.field = Field::strain_major;
+    display.bands = 8;
     model.apply(SetDisplay{display});
     EXPECT_EQ(errors(), 0) << "a refusal goes with the next change";
     while (model.busy())
         model.poll();
     EXPECT_NE(state.document.session.part, part);
     EXPECT_EQ(window_title(state), "inner-panel - SPIA");
-    EXPECT_EQ(state.document.display.field, Field::strain_major);
+    EXPECT_EQ(state.document.display.bands, 8) << "how fields are drawn is of the user";
+    EXPECT_EQ(state.document.display.field, Field::thinning) << "what another part is looked at for first";
     EXPECT_EQ(errors(), 0);
 }
 
