@@ -101,6 +101,8 @@ std::vector<double> borders_of_sides(const FitSource& source, const FitOptions& 
         const CurveSource side = [&](const std::vector<double>& t) -> Eigen::Matrix3Xd {
             const Eigen::Index n = Eigen::Index(t.size());
             const Eigen::Matrix3Xd both = along_u ? source.at(t, ends) : source.at(ends, t);
+            if (both.cols() != 2 * n)
+                throw InputError("the source of the fit gives another number of points than it was asked for");
             return along_u ? Eigen::Matrix3Xd(both.middleCols(across > 0 ? n : 0, n))
                            : Eigen::Matrix3Xd(both(Eigen::all, Eigen::seqN(across > 0 ? 1 : 0, n, 2)));
         };
