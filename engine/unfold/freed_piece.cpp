@@ -68,8 +68,8 @@ void require_sheet(const FreedPiece& piece)
 
 void number_vertices(const TriMesh& part, const std::vector<Around>& around, FreedPiece& piece)
 {
-    const auto triangles = part.triangle(Eigen::all, piece.face);
-    piece.vertex.assign(triangles.reshaped().begin(), triangles.reshaped().end());
+    const Eigen::Matrix3Xi triangles = part.triangle(Eigen::all, piece.face);
+    piece.vertex.assign(triangles.data(), triangles.data() + triangles.size());
     std::sort(piece.vertex.begin(), piece.vertex.end());
     piece.vertex.erase(std::unique(piece.vertex.begin(), piece.vertex.end()), piece.vertex.end());
     piece.mesh.position = part.position(Eigen::all, piece.vertex);
