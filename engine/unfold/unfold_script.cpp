@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/flips.h"
+#include "engine/forming/placing.h"
 #include "engine/forming/process.h"
 #include "engine/forming/sheet_fields.h"
 #include "engine/mesh/edge_uses.h"
@@ -184,11 +185,10 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     const Eigen::Vector3d normal = area_vectors(now).rowwise().sum().normalized();
     if (!((normal.transpose() * arm).cwiseAbs().maxCoeff() <= flat * bounding_diagonal(now)))
         return std::nullopt;
-    const Eigen::Vector3d u = normal.unitOrthogonal();
-    Eigen::Matrix2Xd seen(2, position.cols());
-    seen.row(0) = u.transpose() * arm;
-    seen.row(1) = normal.cross(u).transpose() * arm;
+    const Eigen::Matrix2Xd seen = blank_plane(normal).transpose() * arm;
     Blank blank{upright(boundary_loops(part).front(), seen)};
+    if (seen.cwiseProduct(blank.position).sum() < 0) // the same rectangle: of both ways round that of a blank of one step
+        blank.position = -blank.position;
     flipped = flipped_triangles(part.triangle, blank.position);
     return blank;
 }

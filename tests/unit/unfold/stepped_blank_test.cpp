@@ -1,10 +1,12 @@
 #include "engine/unfold/stepped_blank.h"
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/forming/flatten.h"
 #include "engine/forming/material_library.h"
 #include "tests/support/developable.h"
 
@@ -53,6 +55,21 @@ TEST_F(SteppedBlank, ReportsThePoorestOfItsSteps)
     EXPECT_FALSE(report().converged);
     EXPECT_EQ(report().system, SolvedSystem::energy);
     EXPECT_THAT(report().reason, Not(HasSubstr("converged")));
+}
+
+TEST_F(SteppedBlank, LiesTheSameWayRoundAsThatOfOneStepHoweverThePartLies)
+{
+    const TriMesh as_made = part;
+    for (int k = 0; k < 8; ++k) {
+        part = as_made;
+        const Eigen::AngleAxisd turn(k * M_PI / 4 + 0.1, Eigen::Vector3d(0.3, -0.2, 1).normalized());
+        part.position = turn.toRotationMatrix() * as_made.position;
+        run = run_unfolding(part, propose_sequence(part, find_bends(part)).steps, options);
+        const Eigen::Matrix2Xd one = flatten(part, options).blank.position;
+        const Eigen::Matrix2Xd stepped = stepped_blank(part, run, options).blank.position;
+        const Eigen::Matrix2Xd a = one.colwise() - one.rowwise().mean(), b = stepped.colwise() - stepped.rowwise().mean();
+        EXPECT_GT(a.cwiseProduct(b).sum(), 0) << "turned by 45 degrees " << k << " times";
+    }
 }
 
 TEST_F(SteppedBlank, OfAnotherPartIsRefused)
