@@ -39,19 +39,6 @@ std::shared_ptr<const PartFile> refused_part(const Session& session, const Progr
     return nullptr;
 }
 
-/// Share of the whole chain's time, roughly; the solver takes most of it.
-double share(Stage stage)
-{
-    switch (stage) {
-    case Stage::read: return 0.05;
-    case Stage::solve: return 0.8;
-    case Stage::grid: return 0.06;
-    case Stage::lift: return 0.01;
-    case Stage::fit: return 0.08;
-    }
-    return 0;
-}
-
 void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
 {
     switch (done) {
@@ -85,6 +72,17 @@ bool blank_holds(const Document& document)
 }
 
 } // namespace
+
+double share_of_time(Stage from, Stage to)
+{
+    // Of the drawn cone, the solver takes 72 % of the time and the fit 21 %, of a face 95 % and 4 %, of the recliner bracket 10 % and 85 %.
+    constexpr double share[] = {0.05, 0.6, 0.08, 0.02, 0.25};
+    double sum = 0;
+    for (const Stage stage : chain)
+        if (stage >= from && stage <= to)
+            sum += share[int(stage)];
+    return sum;
+}
 
 bool holds(const Document& document, const BlankOfSteps& steps)
 {
@@ -141,16 +139,14 @@ ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Sta
     result.session = std::move(session);
     result.session.options.deformation.reset(); // of the surface that comes of it, not of the chain
     result.made_with = std::move(made_with);
-    double whole = 0, done = 0;
-    for (const Stage stage : chain)
-        if (stage >= from && stage <= to)
-            whole += share(stage);
+    const double whole = share_of_time(from, to);
+    double done = 0;
     for (const Stage stage : chain) {
         if (stage < from || stage > to)
             continue;
         try {
             const double begin = done / whole;
-            done += share(stage);
+            done += share_of_time(stage, stage);
             result.session = run_stage(stage, result.session, progress.part(begin, done / whole));
             note(stage, result.session.options, result.made_with);
             if (stage == Stage::read)

@@ -34,6 +34,9 @@ struct ChainResult {
     std::shared_ptr<const PartFile> refused; ///< the part, if its mesh was the reason
 };
 
+/// Share of the time of the whole chain that these stages take, roughly; between 0 and 1.
+double share_of_time(Stage from, Stage to);
+
 /// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.
 /// @param ended  called on this thread after every stage, with all that has been finished so far
 ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,

@@ -1,5 +1,6 @@
 #include "app/viewer/model/viewer_model.h"
 
+#include <cmath>
 #include <fmt/core.h>
 
 #include "app/viewer/model/handles.h"
@@ -73,7 +74,10 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
         if (in_one_step)
             document.session.options.steps.reset();
+        const double done = progress_to_ < 1 ? progress_to_ : 0; // 1: it was all that had been asked for then
         run_to(*next, *next == Stage::solve ? "Unfolding" : "Updating all");
+        progress_from_ = state_.job.fraction = done;
+        progress_to_ = std::lerp(done, 1, progress_to_);
     }
     if (!chain_job_ && std::exchange(steps_next_, false) && !result.cancelled)
         run_missing_steps();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/core.h>
 #include <mutex>
 
@@ -92,6 +93,8 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
 {
     live_ = std::make_shared<Live>();
     cancelled_at_.reset();
+    progress_from_ = 0;
+    progress_to_ = 1;
     depth_at_start_ = state_.history.depth();
     Session session = document.session;
     if (session.options.steps) { // the tools are not in them
@@ -145,8 +148,14 @@ void ViewerModel::run_to(Stage to, const std::string& title)
         say(Severity::hint,
             "The steps, the part or its sheet have changed since the blank of the steps was computed; the part is unfolded in one step again.");
     }
-    if (from && *from <= to)
-        start(*from, to, title, state_.document);
+    if (!from || *from > to)
+        return;
+    // Blank and strains can be looked at while grid and surface are still being made.
+    const Stage first = *from <= Stage::solve && to > Stage::solve ? Stage::solve : to;
+    start(*from, first, title, state_.document);
+    progress_to_ = share_of_time(*from, first) / share_of_time(*from, to);
+    if (first < to)
+        next_ = to;
 }
 
 bool ViewerModel::poll()
@@ -160,7 +169,7 @@ bool ViewerModel::poll()
     pickers_.follow(state_.document.session);
     pickers_.follow_steps(state_);
     if (chain_job_) {
-        view.fraction = chain_job_->fraction();
+        view.fraction = std::lerp(progress_from_, progress_to_, chain_job_->fraction());
         view.step = chain_job_->step();
         view.cancelling = chain_job_->cancelling();
         if (auto blank = live_->blank.fetch()) {

@@ -145,6 +145,7 @@ private:
     std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
     std::optional<Stage> next_;          ///< run this far when the running job has ended
     bool next_in_one_step_ = false;      ///< and not from the blank of the steps
+    double progress_from_ = 0, progress_to_ = 1; ///< of what was asked for, that of the running job
     int said_ = 0;                       ///< messages so far
     DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
     int openings_ = 0, documents_ = 0;

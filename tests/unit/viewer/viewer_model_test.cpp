@@ -18,9 +18,16 @@ TEST_F(ViewerModelTest, RunsTheChainInTheBackgroundAndShowsTheBlankWhileItConver
     model.apply(RunTo{Stage::fit});
     EXPECT_TRUE(model.busy());
     size_t shapes = 0, steps = 0;
+    bool blank_first = false;
+    double fraction = 0;
     std::shared_ptr<const Eigen::Matrix2Xd> last;
     while (model.busy()) {
         model.poll();
+        blank_first |= model.busy() && document.session.blank && document.session.limits && !document.session.surface;
+        if (model.busy()) {
+            EXPECT_GE(state.job.fraction, fraction - 1e-12) << "progress goes back at " << state.job.step;
+            fraction = state.job.fraction;
+        }
         if (state.job.blank && state.job.blank != last) {
             last = state.job.blank;
             ++shapes;
@@ -28,6 +35,8 @@ TEST_F(ViewerModelTest, RunsTheChainInTheBackgroundAndShowsTheBlankWhileItConver
         }
         steps = std::max(steps, state.job.residual.size());
     }
+    EXPECT_TRUE(blank_first) << "the strains are there while the surface is still being made";
+    EXPECT_GT(fraction, 0.6) << "of the run as a whole";
     EXPECT_GT(shapes, 0u);
     EXPECT_GT(steps, 3u);
     ASSERT_NE(document.session.surface, nullptr);
