@@ -210,6 +210,22 @@ void judge_distance(const Document& document, LengthUnit lengths, std::vector<Do
          Remedy::fit_within_tolerance});
 }
 
+/// A surface with more control points than the part has vertices is bent along the facets of the mesh, which no sheet is.
+void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
+{
+    const SurfaceStage& surface = *document.session.surface;
+    if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's choice
+        return;
+    const int count = shared_controls(fitted_patches(surface)).count, vertices = document.session.part->mesh.vertices();
+    if (count > vertices)
+        doubts.push_back(
+            {ChainStep::surface,
+             fmt::format("The surface has {} control points, more than the part has vertices ({}): it follows the "
+                         "facets of the mesh.",
+                         count, vertices),
+             "A larger tolerance makes it smoother, a finer mesh of the part nearer to the sheet."});
+}
+
 /// Whether the normal only vanishes at a corner: on a smooth outline the grid has no angle there, which CAD does not mind.
 bool at_a_corner(const Refusal& refusal)
 {
@@ -343,6 +359,7 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
         upto.deformed = made.deformed;
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);
         judge_distance(document, lengths, doubts);
+        judge_control_points(document, doubts);
         judge_folds(document, doubts);
     }
     for (Doubt& doubt : doubts) { // the engine speaks of mm

@@ -21,6 +21,13 @@ std::vector<Action> confirmed(const Document& document)
     return actions;
 }
 
+int most_strained(const SheetFields& face)
+{
+    Eigen::Index most = 0;
+    face.strain_equivalent.maxCoeff(&most);
+    return int(most);
+}
+
 } // namespace
 
 std::optional<Field> shown_by(Remedy remedy)
@@ -52,7 +59,10 @@ std::vector<Action> actions_of(const Doubt& doubt, const Document& document)
         display.range.reset();
         display.map.reset();
         display.difference = false;
-        return {SetDisplay{display}};
+        std::vector<Action> actions{SetDisplay{display}};
+        if (doubt.remedy == Remedy::show_necking && document.session.blank)
+            actions.push_back(FlyTo{most_strained(document.session.blank->face)});
+        return actions;
     }
     case Remedy::finer_grid: {
         GridOptions grid = options.grid;

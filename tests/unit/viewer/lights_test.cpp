@@ -191,7 +191,7 @@ TEST_F(Lights, AFoldedSurfaceIsAmberHoweverNearItIs)
 {
     open();
     confirm_sheet();
-    model.apply(SetFit{{.tolerance = usual_tolerance}});
+    model.apply(SetFit{{.tolerance = 0.5}}); // with which it need not follow the facets
     run();
     ASSERT_TRUE(document.session.surface);
     EXPECT_TRUE(of(ChainStep::surface).empty()) << all();
@@ -210,6 +210,39 @@ TEST_F(Lights, AFoldedSurfaceIsAmberHoweverNearItIs)
     EXPECT_FALSE(says(find_doubts(folded), "fold")) << "at a corner on a smooth outline it has no angle";
     surface->deviation.normal.turned = 0.02;
     EXPECT_TRUE(says(find_doubts(folded), "2.00 %"));
+}
+
+TEST_F(Lights, ASurfaceThatFollowsTheFacetsIsAmber)
+{
+    open();
+    confirm_sheet();
+    model.apply(SetFit{{.tolerance = 0.5}}); // with which it need not follow the facets
+    run();
+    ASSERT_TRUE(document.session.surface->fit);
+    const int count = shared_controls(fitted_patches(*document.session.surface)).count;
+    ASSERT_LE(count, document.session.part->mesh.vertices());
+    EXPECT_TRUE(of(ChainStep::surface).empty()) << all();
+    Document coarse = document; // the same surface of a part with fewer vertices
+    auto part = std::make_shared<PartFile>(*document.session.part);
+    part->mesh.position.conservativeResize(3, count - 1);
+    coarse.session.part = part;
+    const auto doubts = find_doubts(coarse);
+    EXPECT_TRUE(std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) {
+        return doubt.text.find(fmt::format("has {} control points, more than the part has vertices ({})", count,
+                                           count - 1)) != std::string::npos;
+    }));
+}
+
+TEST_F(Lights, WhereTheStrainIsBeyondTheCurveIsGoneTo)
+{
+    open();
+    confirm_sheet();
+    run(Stage::solve);
+    press({ChainStep::unfold, "strained beyond", "", "Show where", Remedy::show_necking});
+    EXPECT_EQ(document.display.field, Field::necking);
+    ASSERT_TRUE(state.spot);
+    const auto& strain = document.session.blank->face.strain_equivalent;
+    EXPECT_EQ(strain[state.spot->face], strain.maxCoeff());
 }
 
 TEST_F(Lights, ABlankThatHasNotConvergedSaysWhyAndWhatNext)
