@@ -129,6 +129,8 @@ struct ViewerModel::Apply {
     void operator()(const UseVerticesAsCorners&);
 
     size_t region(int number) const;
+    /// @throws InputError if nothing would be left to be unfolded
+    void require_some_free(RegionKind kind, const std::vector<int>& faces) const;
     void operator()(const MakeRegion& action);
     void operator()(const ChangeRegion& action);
     void operator()(const RemoveRegion& action);

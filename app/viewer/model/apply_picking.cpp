@@ -139,6 +139,12 @@ size_t ViewerModel::Apply::region(int number) const
     return size_t(number);
 }
 
+void ViewerModel::Apply::require_some_free(RegionKind kind, const std::vector<int>& faces) const
+{
+    if (kind == RegionKind::fixed && int(faces.size()) == part().mesh.triangles())
+        throw InputError("That is the whole part, and what is fixed is not unfolded. Select one flat side of it.");
+}
+
 void ViewerModel::Apply::operator()(const MakeRegion& action)
 {
     constexpr size_t most = 62; // FaceMarks
@@ -149,6 +155,7 @@ void ViewerModel::Apply::operator()(const MakeRegion& action)
         throw InputError("Select faces first; a region is made of them.");
     if (document.regions.size() >= most)
         throw InputError(fmt::format("There are {} regions already; remove one first.", most));
+    require_some_free(action.kind, document.selected);
     change("Make region");
     FaceRegion made;
     made.kind = action.kind;

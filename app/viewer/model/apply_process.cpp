@@ -75,6 +75,7 @@ void ViewerModel::Apply::operator()(const SetThickness& action)
 void ViewerModel::Apply::operator()(const ChangeRegion& action)
 {
     const size_t number = region(action.region);
+    require_some_free(action.kind, document.regions[number].faces);
     change_process("Change region", true, [&](Document& edited) {
         FaceRegion& changed = edited.regions[number];
         changed.name = action.name;

@@ -11,6 +11,21 @@ namespace spia::viewer {
 
 using Picking = ModelFixture;
 
+TEST_F(Picking, TheWholePartIsNotFixed)
+{
+    open();
+    model.apply(SelectFaces{{}});
+    model.apply(InvertSelection{});
+    ASSERT_EQ(int(document.selected.size()), document.session.part->mesh.triangles());
+    model.apply(MakeRegion{"all", RegionKind::fixed});
+    EXPECT_TRUE(document.regions.empty());
+    EXPECT_TRUE(says(Severity::error, "Select one flat side"));
+    model.apply(MakeRegion{"all", RegionKind::binder});
+    ASSERT_EQ(document.regions.size(), 1u);
+    model.apply(ChangeRegion{0, "all", RegionKind::fixed, {}});
+    EXPECT_EQ(document.regions[0].kind, RegionKind::binder);
+}
+
 TEST_F(Picking, PicksStayOnTheirFacesHoweverReadingThePartAgainEnds)
 {
     open();
