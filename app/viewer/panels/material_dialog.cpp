@@ -17,11 +17,7 @@ using Kind = TensileOptions::Kind;
 
 void labelled(const char* label)
 {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(label);
-    ImGui::TableNextColumn();
+    form_row(label);
     ImGui::SetNextItemWidth(-1);
 }
 

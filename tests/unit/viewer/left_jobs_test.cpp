@@ -86,6 +86,14 @@ struct LeftJobs : testing::Test {
     {
         ASSERT_TRUE(wait(60, [&] { return !model.busy(); }));
     }
+    void propose_for_a_lipped_box()
+    {
+        shapes::write_mesh(folder / "part.obj", shapes::lipped_box());
+        model.apply(OpenPart{folder / "part.obj", ""});
+        rest();
+        model.apply(ProposeSteps{});
+        rest();
+    }
     /// Lets the job on from checkpoint to checkpoint until it stands at a step.
     bool stands_at(const std::string& step)
     {
@@ -146,11 +154,7 @@ TEST_F(LeftJobs, AnExportThatIsLeftWritesNothingMore)
 
 TEST_F(LeftJobs, WhatIsFixedStaysWhereItIsInProposedSteps)
 {
-    shapes::write_mesh(folder / "part.obj", shapes::lipped_box());
-    model.apply(OpenPart{folder / "part.obj", ""});
-    rest();
-    model.apply(ProposeSteps{});
-    rest();
+    propose_for_a_lipped_box();
     const int by_itself = document.proposal->root;
     const BendMap& map = document.bends->map;
     int face = 0;
@@ -165,11 +169,7 @@ TEST_F(LeftJobs, WhatIsFixedStaysWhereItIsInProposedSteps)
 
 TEST_F(LeftJobs, StepsThatEndedBeforeARunIsLeftAreKept)
 {
-    shapes::write_mesh(folder / "part.obj", shapes::lipped_box());
-    model.apply(OpenPart{folder / "part.obj", ""});
-    rest();
-    model.apply(ProposeSteps{});
-    rest();
+    propose_for_a_lipped_box();
     ASSERT_EQ(document.steps.size(), 5u);
     for (const bool edited : {false, true}) { // as they were proposed, and as a list of the user's own
         if (edited) {
@@ -194,11 +194,7 @@ TEST_F(LeftJobs, StepsThatEndedBeforeARunIsLeftAreKept)
 
 TEST_F(LeftJobs, AFileOfStepsThatIsLeftIsNotWritten)
 {
-    shapes::write_mesh(folder / "part.obj", shapes::lipped_box());
-    model.apply(OpenPart{folder / "part.obj", ""});
-    rest();
-    model.apply(ProposeSteps{});
-    rest();
+    propose_for_a_lipped_box();
     gate.shut();
     model.apply(SaveSteps{folder / "steps.json"});
     ASSERT_TRUE(stands_at("writing steps.json"));
