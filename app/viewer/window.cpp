@@ -66,7 +66,9 @@ public:
         int settle = 3;
         while (!quit_) {
             const bool was_moving = moving();
-            const bool moves = !script_.ended() || !queue_.empty() || files_.drawing() || settle > 0 || finishing();
+            // What the last frame has left to be drawn or done is no event: nobody would wake the window for it.
+            const bool unfinished = GlWindow::news() || images_.any_late() || !ui_.keys_later.empty();
+            const bool moves = unfinished || !script_.ended() || !queue_.empty() || files_.drawing() || settle > 0 || finishing();
             if (options_.follow && !moves && (ui_.busy || !was_moving))
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)
@@ -83,7 +85,7 @@ public:
                 glfwWaitEventsTimeout(ImGui::GetIO().WantTextInput ? std::min(0.4, until) : until);
             }
             constexpr int frames_to_settle = 3; // until everything that follows from an event has its place
-            if (images_.any_late() || !ui_.keys_later.empty())
+            if (unfinished)
                 GlWindow::news() = true;
             settle = std::exchange(GlWindow::news(), false) ? frames_to_settle : std::max(0, settle - 1);
             const size_t actions = actions_done_;

@@ -7,6 +7,7 @@
 #include <imgui_internal.h> // CloseButton
 
 #include "app/viewer/model/suggested_files.h"
+#include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -75,6 +76,36 @@ bool pressed(const Frame& frame, int key)
 }
 
 bool enter_pressed(const Frame& frame) { return pressed(frame, GLFW_KEY_ENTER) || pressed(frame, GLFW_KEY_KP_ENTER); }
+
+std::optional<size_t> stacked_answers(const Frame& frame, std::initializer_list<StackedAnswer> answers)
+{
+    size_t at = 0, k = 0;
+    for (const StackedAnswer& answer : answers) {
+        at = is_at(answer.label) ? k : at;
+        ++k;
+    }
+    const auto& keys = frame.ui.keys;
+    const auto tab =
+        std::find_if(keys.begin(), keys.end(), [](const KeyPress& press) { return press.key == GLFW_KEY_TAB; });
+    if (tab != keys.end())
+        at = (at + (tab->modifiers & GLFW_MOD_SHIFT ? answers.size() - 1 : 1)) % answers.size();
+    std::optional<size_t> chosen;
+    k = 0;
+    for (const StackedAnswer& answer : answers) {
+        if (k == 0 ? primary_button(frame, answer.label) : ImGui::Button(answer.label, {-1, 0}))
+            chosen = k;
+        if (ImGui::IsWindowAppearing() ? k == 0 : tab != keys.end() && k == at)
+            go_to_last_item();
+        if (*answer.help)
+            tooltip(answer.help);
+        ++k;
+    }
+    if (!chosen && enter_pressed(frame))
+        chosen = at;
+    if (!chosen && pressed(frame, GLFW_KEY_ESCAPE))
+        chosen = answers.size() - 1;
+    return chosen;
+}
 
 void form_row(const char* label)
 {

@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "app/viewer/panels/ui.h"
@@ -34,6 +36,13 @@ bool path_input(const Frame& frame, const char* id, std::string& path, const cha
 
 /// Says that a file is there already and will be replaced.
 void replaced_note(const Frame& frame, const std::filesystem::path& file);
+
+/// Buttons below each other, the first one in a colour. Tab and the arrows go from one to the next, Return takes the one that is marked,
+/// at the beginning the first, Escape the last. @returns which was chosen
+struct StackedAnswer {
+    const char *label, *help = "";
+};
+std::optional<size_t> stacked_answers(const Frame& frame, std::initializer_list<StackedAnswer> answers);
 
 /// Two buttons at the lower right: the one that does it, in a colour, and Cancel.
 enum class Answer { none, yes, cancel };

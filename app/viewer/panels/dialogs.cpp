@@ -81,27 +81,23 @@ void unsaved_dialog(Frame& frame)
         ui.confirmed = without_saving;
         return *std::exchange(ui.held, std::nullopt);
     };
-    if (primary_button(frame, "Save...") || enter_pressed(frame)) {
-        if (frame.state.project.empty()) {
-            choose_project_name(frame);
-            ui.after_save = then(false);
-        } else {
-            frame.actions.push(SaveProject{});
-            frame.actions.push(then(false));
-        }
+    const auto chosen = stacked_answers(frame, {{"Save..."}, {"Continue without saving"}, {"Cancel"}});
+    if (chosen)
         ImGui::CloseCurrentPopup();
-    }
-    if (ImGui::Button("Continue without saving", {-1, 0})) {
+    end_dialog();
+    if (chosen == 0u && frame.state.project.empty()) {
+        choose_project_name(frame);
+        ui.after_save = then(false);
+    } else if (chosen == 0u) {
+        frame.actions.push(SaveProject{});
+        frame.actions.push(then(false));
+    } else if (chosen == 1u)
         frame.actions.push(then(true));
-        ImGui::CloseCurrentPopup();
-    }
-    if (ImGui::Button("Cancel", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE)) {
+    else if (chosen) {
         if (!ui.held)
             frame.actions.push(DropOpened{});
         ui.held.reset();
-        ImGui::CloseCurrentPopup();
     }
-    end_dialog();
 }
 
 /// Unsaved work that is out of sight: nothing happens to it without an answer.
@@ -118,18 +114,14 @@ void recovery_dialog(Frame& frame)
     if (frame.state.document.session.part && !frame.ui.sample)
         muted(frame, fmt::format("Recovering it closes {}.", now.filename().string()));
     ImGui::Dummy({0, 2 * frame.ui.scale});
-    const auto answer = [&](LeftWork::Answer given) {
-        left->answer = given;
+    constexpr LeftWork::Answer answers[] = {LeftWork::Answer::recover, LeftWork::Answer::discard,
+                                            LeftWork::Answer::later};
+    if (const auto chosen = stacked_answers(
+            frame,
+            {{"Recover"}, {"Discard", "Deletes this work permanently"}, {"Later", "Asks again at the next start"}})) {
+        left->answer = answers[*chosen];
         ImGui::CloseCurrentPopup();
-    };
-    if (primary_button(frame, "Recover") || enter_pressed(frame))
-        answer(LeftWork::Answer::recover);
-    if (ImGui::Button("Later", {-1, 0}) || pressed(frame, GLFW_KEY_ESCAPE))
-        answer(LeftWork::Answer::later);
-    tooltip("Asks again at the next start");
-    if (ImGui::Button("Discard", {-1, 0}))
-        answer(LeftWork::Answer::discard);
-    tooltip("Deletes this work permanently");
+    }
     end_dialog();
 }
 

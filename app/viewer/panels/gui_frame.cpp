@@ -48,6 +48,18 @@ std::optional<std::array<ImVec2, 2>> marked_item()
                                  ImVec2(from.x + item.Max.x, from.y + item.Max.y)};
 }
 
+bool is_at(const char* label)
+{
+    return ImGui::GetCurrentContext()->NavId == ImGui::GetID(label);
+}
+
+void go_to_last_item()
+{
+    ImGuiContext& context = *ImGui::GetCurrentContext();
+    ImGui::SetFocusID(context.LastItemData.ID, context.CurrentWindow);
+    context.NavDisableHighlight = false;
+}
+
 void close_dialogs()
 {
     const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;

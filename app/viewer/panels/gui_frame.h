@@ -18,6 +18,11 @@ bool take_return_in_menus();
 /// The item that the keyboard is at, where a frame marks it; corners in the window, pixels. None: no item is marked.
 std::optional<std::array<ImVec2, 2>> marked_item();
 
+/// Whether the keyboard is at an item of the current window.
+bool is_at(const char* label);
+/// Puts the keyboard at the last item, and marks it.
+void go_to_last_item();
+
 /// Closes the dialog that is on the screen, with what it has opened.
 void close_dialogs();
 

@@ -52,6 +52,17 @@ protected:
     OpenViewer& viewer() { return hands->viewer(); }
 };
 
+TEST_F(PanelsByHand, AllIsDrawnWithoutAnotherKeyOrTheMouse)
+{
+    for (int times = 0; times < 5; ++times) {
+        unfold();
+        hands->see_no("Drawing...");
+        hands->keys("ctrl+z");
+        hands->see_that("no blank", [](const Json& r) { return r["stages"]["solve"] == false; });
+        hands->see_no("Drawing...");
+    }
+}
+
 TEST_F(PanelsByHand, TheSheetIsChosen)
 {
     hands->click("mild_steel");
