@@ -62,7 +62,9 @@ Eigen::Matrix3Xd outermost(const Camera& camera, const Eigen::Matrix3Xd& place)
     constexpr int columns = 1024; // of the picture
     if (place.cols() < many || camera.perspective)
         return place;
-    const auto row = [&](glm::dvec3 way) { return Eigen::RowVector3d(way.x, way.y, way.z) * place; };
+    const auto row = [&](glm::dvec3 way) -> Eigen::RowVectorXd {
+        return Eigen::RowVector3d(way.x, way.y, way.z) * place;
+    };
     const Eigen::RowVectorXd x = row(camera.turn * glm::dvec3(1, 0, 0)), y = row(camera.turn * glm::dvec3(0, 1, 0));
     Eigen::Index left = 0, right = 0;
     const double from = x.minCoeff(&left), width = x.maxCoeff(&right) - from;
