@@ -14,11 +14,12 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
         throw InputError("Open a part first.");
     if (model.busy())
         throw InputError("Cancel the running job first; then read the part with other options.");
+    const bool unsaved = state.unsaved;
     change(std::move(name));
     (*this)(DismissMessages{}); // of the part as it was read before
     edit(session.options.read);
     model.opening_ = true;
-    model.run_to(Stage::read, "Reading the part again");
+    run_of_change(Stage::read, "Reading the part again", unsaved);
 }
 
 void ViewerModel::Apply::run_of_change(Stage to, const std::string& title, bool unsaved)
@@ -89,11 +90,14 @@ void ViewerModel::Apply::operator()(const RunTo& action)
     // Asked for by name, the one-step solve takes the place of the blank of the steps; else only where that does not hold.
     const bool instead = session.options.steps && action.stage == Stage::solve;
     if (!instead && (!first_stale(document) || *first_stale(document) > action.stage)) {
+        const bool fixed = std::any_of(document.regions.begin(), document.regions.end(),
+                                       [](const FaceRegion& region) { return region.kind == RegionKind::fixed; });
         model.say(
             Severity::hint,
             session.options.steps
                 ? "Everything is up to date, with the blank of the steps. Unfold (F6) unfolds the part in one step instead."
-                : "Everything is up to date.");
+            : fixed ? "Everything is up to date. Fixed regions stay where they are in Step by step only: propose steps there."
+                    : "Everything is up to date.");
         return;
     }
     part();

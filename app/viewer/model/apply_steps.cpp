@@ -112,6 +112,7 @@ void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)
     const bool unsaved = state.unsaved;
     change(action.polish ? "Polish the blank of the steps" : "Use the blank of the steps");
     session.options.steps = wanted;
+    model.show_step(std::nullopt, 0); // the part is looked at again, with the strains of its blank
     model.run_to(Stage::fit, action.polish ? "Polishing the blank of the steps" : "Using the blank of the steps");
     if (model.chain_job_)
         model.unsaved_before_ = unsaved;

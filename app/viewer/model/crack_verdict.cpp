@@ -76,6 +76,8 @@ CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
     if (untold > 0)
         verdict.text +=
             fmt::format(" It cannot be told for {}, whose sheet has no forming limit curve.", counted(int(untold)));
+    if (above == 0 && near == 0)
+        verdict.text += " Bending over radii is not counted.";
     if (!session.blank->report.whole())
         verdict.text += " The result has not converged, so this is a guess.";
     return verdict;

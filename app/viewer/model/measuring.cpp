@@ -161,7 +161,7 @@ Measured freeform_bend(const TriMesh& part, const Probe& probe, const FaceSet& r
         {"Radius along the bend", least * straight > most ? std::vector{1 / least} : std::vector<double>{}, "straight"},
         {"Over a circle of", {2 * here.reach_mm}},
         {"Farthest from the fit", {here.distance_mm}},
-        {"Fit", {}, fmt::format("{:.1f} % of the rise of {:.3g} mm", 100 * here.distance_mm / rise, rise)},
+        {"Fit", {}, fmt::format("{:.1f} % of the rise", 100 * here.distance_mm / rise)},
         {"Side", {}, here.curvature[0] < 0 ? "outer, bulges" : "inner, hollow"}};
     const Vector3d middle = here.place + here.normal / here.curvature[0], arm = here.place - middle;
     const Vector3d axis = here.normal.cross(here.across).normalized();

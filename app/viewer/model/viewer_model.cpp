@@ -169,7 +169,8 @@ bool ViewerModel::poll()
     pickers_.follow(state_.document.session);
     pickers_.follow_steps(state_);
     if (chain_job_) {
-        view.fraction = std::lerp(progress_from_, progress_to_, chain_job_->fraction());
+        // A fit whose next round has more to do than the last one goes back; its bar stands.
+        view.fraction = std::max(view.fraction, std::lerp(progress_from_, progress_to_, chain_job_->fraction()));
         view.step = chain_job_->step();
         view.cancelling = chain_job_->cancelling();
         if (auto blank = live_->blank.fetch()) {

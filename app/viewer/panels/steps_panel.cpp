@@ -113,7 +113,11 @@ void sheet_step(Frame& frame)
     tooltip(fmt::format("{}\n{}", material.name, material.source));
     double thickness = document.session.options.flatten.thickness;
     ImGui::SetNextItemWidth((frame.lengths() == LengthUnit::inch ? 126 : 110) * frame.ui.scale); // four decimals
-    if (length_input(frame, "Thickness", thickness, {.mm = "%.3g", .step_mm = 0.05, .step_inch = 0.002}))
+    const bool typing = frame.ui.typed.has_value();
+    const bool changed =
+        length_input(frame, "Thickness", thickness, {.mm = "%.3g", .step_mm = 0.05, .step_inch = 0.002});
+    // What was assumed and is typed once more was chosen.
+    if (changed || (typing && !frame.ui.typed && enter_pressed(frame) && !is_given(document.thickness_from)))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
     if (document.material_from == SheetSource::preference || document.thickness_from == SheetSource::preference)
