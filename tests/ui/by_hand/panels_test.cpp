@@ -54,7 +54,7 @@ protected:
 
 TEST_F(PanelsByHand, AllIsDrawnWithoutAnotherKeyOrTheMouse)
 {
-    for (int times = 0; times < 5; ++times) {
+    for (int times = 0; times < 3; ++times) {
         unfold();
         hands->see_no("Drawing...");
         hands->keys("ctrl+z");
