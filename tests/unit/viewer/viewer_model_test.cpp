@@ -44,6 +44,22 @@ TEST_F(ViewerModelTest, RunsTheChainInTheBackgroundAndShowsTheBlankWhileItConver
     EXPECT_FALSE(first_stale(document));
 }
 
+TEST(ViewerModelMemory, WhatARunHasMadeGoesWithTheModel)
+{
+    std::weak_ptr<const FlattenResult> blank;
+    {
+        ViewerModel model{SPIA_SOURCE_DIR "/assets"};
+        for (const Action& action : {Action{OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""}}, Action{RunTo{Stage::fit}}}) {
+            model.apply(action);
+            while (model.busy())
+                model.poll();
+        }
+        blank = model.state().document.session.blank;
+        ASSERT_FALSE(blank.expired());
+    }
+    EXPECT_TRUE(blank.expired());
+}
+
 TEST_F(ViewerModelTest, TheTitleOfTheWindowNamesThePartAndMarksWhatIsNotSaved)
 {
     EXPECT_EQ(window_title(state), "SPIA");
