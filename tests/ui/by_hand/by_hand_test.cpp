@@ -213,7 +213,7 @@ TEST_P(ByHandOnScreens, FromAnEmptyStartToFilesAndBack)
     EXPECT_EQ(now["display"]["field"], "thinning");
 
     // The web stays: what is flat in the middle of the view.
-    hands->tool("Flood");
+    hands->tool("Smooth");
     const glm::dvec2 middle = in_view(hands->viewer().report(), "part", 0.5, 0.5);
     hands->click_at(middle.x, middle.y);
     now = hands->see_that("picked faces", [](const Json& r) { return r["selection"]["faces"] > 0; });
@@ -281,8 +281,7 @@ TEST_P(ByHandOnScreens, FromAnEmptyStartToFilesAndBack)
     EXPECT_EQ(hands->viewer().wait_for_end(), 0);
 
     start();
-    hands->click("File");
-    hands->click("Recent");
+    hands->menu("File", "Recent");
     hands->click_part("channel.spia");
     now = hands->see_that("the project", all_fresh);
     EXPECT_EQ(kept_state(now).flatten(), kept.flatten());

@@ -38,6 +38,7 @@ public:
     void click_beside(const std::string& line, double dx, double dy); ///< pixels from the middle of a line
     void click_at(double x, double y);
     void tool(const std::string& name); ///< in the bar, whether its name is written there or not
+    void open_menu(const std::string& title, const std::string& entry); ///< where the entry is to be seen
     void menu(const std::string& title, const std::string& entry);
     void menu(const std::string& title, const std::string& entry, const std::string& under);
     /// By Alt and the arrows, Return takes. @param under  an entry of the menu that opens beside; empty: none does
