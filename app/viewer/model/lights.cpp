@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <numbers>
 
 #include "app/viewer/model/chain.h"
 #include "app/viewer/model/export_check.h"
@@ -12,7 +13,9 @@
 #include "app/viewer/model/state.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/coons/cell_quality.h"
+#include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/nurbs/smooth_joins.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/shortcomings.h"
 
@@ -226,6 +229,40 @@ void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
              "A larger tolerance makes it smoother, a finer mesh of the part nearer to the sheet."});
 }
 
+/// Radians, between the normals of neighbouring triangles.
+double greatest_turn(const TriMesh& part)
+{
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    const auto uses = edge_uses(part.triangles(), [&](int f, int k) { return part.triangle(k, f); });
+    double greatest = 0;
+    for (size_t i = 1; i < uses.size(); ++i)
+        if (uses[i].same_edge(uses[i - 1])) {
+            const Eigen::Vector3d a = normal.col(uses[i - 1].face), b = normal.col(uses[i].face);
+            greatest = std::max(greatest, std::atan2(a.cross(b).norm(), a.dot(b)));
+        }
+    return greatest;
+}
+
+/// Patches that meet at a greater angle than there is anywhere in the part.
+void judge_joints(const Document& document, std::vector<Doubt>& doubts)
+{
+    const auto& joints = document.session.surface->certificate.interfaces;
+    double angle = 0;
+    for (const InterfaceCertificate& joint : joints)
+        angle = std::max(angle, joint.greatest_angle);
+    if (angle <= SmoothJoinsOptions{}.sharp)
+        return;
+    const double turn = greatest_turn(document.session.part->mesh);
+    if (angle <= turn)
+        return;
+    const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
+    doubts.push_back({ChainStep::surface,
+                      fmt::format("Patches meet at up to {:.3g} degrees, where the part turns by {:.2g} degrees from "
+                                  "triangle to triangle at most.",
+                                  degrees(angle), degrees(turn)),
+                      "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
+}
+
 /// Whether the normal only vanishes at a corner: on a smooth outline the grid has no angle there, which CAD does not mind.
 bool at_a_corner(const Refusal& refusal)
 {
@@ -360,6 +397,7 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);
         judge_distance(document, lengths, doubts);
         judge_control_points(document, doubts);
+        judge_joints(document, doubts);
         judge_folds(document, doubts);
     }
     for (Doubt& doubt : doubts) { // the engine speaks of mm

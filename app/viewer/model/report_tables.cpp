@@ -9,6 +9,7 @@
 #include "app/viewer/model/lengths.h"
 #include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/svg_chart.h"
+#include "app/viewer/model/viewer_words.h"
 #include "engine/exchange/text_encoding.h"
 #include "engine/pipeline/certificate_report.h"
 
@@ -244,7 +245,10 @@ std::string key_figures(const Session& session, const Json& figures, LengthUnit 
         if (const auto& fit = session.surface->fit)
             rows += row("Tolerance of the surface",
                         fmt::format("{}, {} in {} rounds; {} % of the area within it", in.text(fit->tolerance),
-                                    fit->reached ? "met" : "not met", fit->rounds, fixed(100 * deviation.within(), 2)));
+                                    !fit->reached                      ? "not met"
+                                    : deviation.max() > fit->tolerance ? "met on the remeshed part, not on the file's,"
+                                                                       : "met",
+                                    fit->rounds, fixed(100 * deviation.within(), 2)));
         constexpr double degrees = 180 / std::numbers::pi;
         if (!patches)
             rows += row("Normals of the surface",
@@ -389,9 +393,9 @@ std::string repairs(const PartFile& part, LengthUnit lengths)
     std::string rows;
     for (const Finding& finding : part.doctor.findings)
         rows += row(finding.severity == spia::Severity::repaired ? "Repaired" : "Noted",
-                    in_shown_lengths(finding.text, lengths));
+                    in_shown_lengths(in_viewer_words(finding.text), lengths));
     for (const std::string& note : part.notes)
-        rows += row("Noted", in_shown_lengths(note, lengths));
+        rows += row("Noted", in_shown_lengths(in_viewer_words(note), lengths));
     return rows.empty() ? "" : facts("Input part", rows);
 }
 

@@ -344,7 +344,7 @@ void surface_step(Frame& frame)
         if (session.lifted || session.options.patches) // say a run was cancelled before this step
             fit_editor(frame, fit_choice(session.options));
         else
-            muted(frame, "Make the grid first.");
+            muted(frame, frame.model.busy() ? "The grid is being made." : "Make the grid first.");
         return;
     }
     fit_editor(frame, fit_choice(session.options));

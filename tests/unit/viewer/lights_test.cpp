@@ -233,6 +233,30 @@ TEST_F(Lights, ASurfaceThatFollowsTheFacetsIsAmber)
     }));
 }
 
+TEST_F(Lights, PatchesThatKinkWhereThePartDoesNotAreAmber)
+{
+    open("perforated-channel.obj");
+    confirm_sheet();
+    model.apply(SetFit{{.tolerance = 0.5}});
+    model.apply(SetPatches{LayoutOptions{}});
+    run();
+    ASSERT_TRUE(document.session.surface && document.session.surface->patches);
+    const auto kinks = [](const Document& shown) {
+        const auto doubts = find_doubts(shown);
+        return std::any_of(doubts.begin(), doubts.end(),
+                           [](const Doubt& doubt) { return doubt.text.find("Patches meet at up to") == 0; });
+    };
+    Document bent = document;
+    auto surface = std::make_shared<SurfaceStage>(*document.session.surface);
+    ASSERT_FALSE(surface->certificate.interfaces.empty());
+    for (InterfaceCertificate& joint : surface->certificate.interfaces)
+        joint.greatest_angle = 0.01;
+    bent.session.surface = surface;
+    EXPECT_FALSE(kinks(bent));
+    surface->certificate.interfaces.back().greatest_angle = 1.5;
+    EXPECT_TRUE(kinks(bent));
+}
+
 TEST_F(Lights, WhereTheStrainIsBeyondTheCurveIsGoneTo)
 {
     open();
