@@ -41,9 +41,11 @@ struct UsedBlank : UnfoldingSteps {
 TEST_F(UsedBlank, TakesTheWholeChainAlong)
 {
     unfold_box();
+    ASSERT_GT(step_position(state), 0);
     use();
     ASSERT_TRUE(document.session.surface) << last(Severity::error);
     EXPECT_EQ(first_stale(document), std::nullopt);
+    EXPECT_EQ(step_position(state), 0) << "the part is looked at again";
     EXPECT_EQ(document.session.blank->blank.position, document.unfolding->run.blank->position);
     EXPECT_EQ(document.session.blank->face.thinning, document.unfolding->run.states.back().face.thinning);
     EXPECT_EQ(source(), "steps");

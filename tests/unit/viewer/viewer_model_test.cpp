@@ -93,6 +93,32 @@ TEST_F(ViewerModelTest, CancellingKeepsWhatWasThere)
     EXPECT_TRUE(says(Severity::hint, "cancelled"));
 }
 
+TEST_F(ViewerModelTest, AReadingThatIsCancelledTakesItsOptionsBack)
+{
+    open();
+    model.apply(RunTo{Stage::solve});
+    wait();
+    model.apply(SetRemeshing{RemeshOptions{}});
+    ASSERT_EQ(first_stale(document), Stage::read);
+    model.apply(CancelJob{});
+    wait();
+    EXPECT_FALSE(document.session.options.read.remesh);
+    EXPECT_NE(first_stale(document), Stage::read);
+    EXPECT_FALSE(state.unsaved);
+    EXPECT_TRUE(says(Severity::hint, "The options are again those of the result that is shown"));
+}
+
+TEST_F(ViewerModelTest, WhatFixedRegionsActOnIsSaidWhereNothingIsToBeDone)
+{
+    open();
+    model.apply(SelectFaces{{1, 2, 3}});
+    model.apply(MakeRegion{"clamp", RegionKind::fixed});
+    model.apply(RunTo{Stage::solve});
+    wait();
+    model.apply(RunTo{Stage::solve});
+    EXPECT_TRUE(says(Severity::hint, "Fixed regions stay where they are in Step by step only"));
+}
+
 TEST_F(ViewerModelTest, AFirstRunThatIsCancelledLeavesNothingToSaveOrToTakeBack)
 {
     open("square-cup.obj");
