@@ -189,7 +189,8 @@ Zones judged(const TriMesh& part, const SheetFields& face, const std::vector<Jud
     const int faces = part.triangles();
     Zones out;
     out.zone.resize(size_t(faces));
-    if (std::any_of(judges.begin(), judges.end(), [](const Judge& judge) { return judge.curve != nullptr; }))
+    if (std::any_of(judge_of.begin(), judge_of.end(),
+                    [&](int judge) { return judges[size_t(judge)].curve != nullptr; }))
         out.distance = Eigen::VectorXd::Constant(faces, std::nan(""));
     const Eigen::VectorXd area = area_vectors(part).colwise().norm();
     const double whole = area.sum();

@@ -271,6 +271,7 @@ TEST(FormingLimits, APieceThatIsTheWholePartIsJudgedAsIfItWereTheSheet)
             const LimitsResult piece = forming_limits(part, face, steel(), 1, {}, std::array{whole}),
                                sheet = forming_limits(part, face, material, thickness);
             EXPECT_EQ(piece.zones.zone, sheet.zones.zone);
+            ASSERT_EQ(piece.zones.distance.size(), sheet.zones.distance.size()) << "none where no face has a curve";
             EXPECT_EQ(piece.zones.distance, sheet.zones.distance);
             EXPECT_EQ(piece.beyond_curve, sheet.beyond_curve);
             ASSERT_EQ(piece.pieces.size(), 1u);
