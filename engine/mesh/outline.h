@@ -12,8 +12,9 @@ struct OutlineCrossing {
     friend bool operator==(const OutlineCrossing&, const OutlineCrossing&) = default;
 };
 
-/// Pairs of edges of closed polygons in the plane that cross or touch: none if the sheet nowhere lies on itself at its edge.
-/// Neighbours on one loop only count where one lies on the other. Exact (orient2d.h).
+/// Pairs of edges of closed polygons in the plane that cross: none if the sheet nowhere lies on itself at its edge. To touch is not to
+/// cross: a vertex may lie on another one of the same coordinates, or on an edge, as long as the way through it stays on one side, and
+/// the lips of a slit may lie on each other vertex by vertex. Edges in one line that overlap otherwise count. Exact (orient2d.h).
 /// @param loops vertex indices; @param position 2 by #V
 std::vector<OutlineCrossing> outline_crossings(const std::vector<std::vector<int>>& loops,
                                                const Eigen::Matrix2Xd& position);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -43,6 +44,31 @@ double signed_area(const Eigen::Matrix2Xd& uv)
         area += (a.x() * b.y() - a.y() * b.x()) / 2;
     }
     return area;
+}
+
+/// A border that comes back to a place, where a hole is pinched to a point, as the borders of the holes on both sides of it.
+std::vector<std::vector<int>> simple_loops(const std::vector<int>& loop, const TriMesh& part)
+{
+    const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    };
+    std::map<Eigen::Vector3d, size_t, decltype(before)> open(before); // places of `rest` by their row
+    std::vector<int> rest;
+    std::vector<std::vector<int>> result;
+    for (const int v : loop) {
+        const auto [found, is_new] = open.try_emplace(part.position.col(v), rest.size());
+        if (!is_new) {
+            const size_t from = found->second;
+            result.emplace_back(rest.begin() + long(from), rest.end());
+            for (size_t i = from + 1; i < rest.size(); ++i)
+                open.erase(part.position.col(rest[i]));
+            rest.resize(from);
+        }
+        rest.push_back(v);
+    }
+    result.push_back(std::move(rest));
+    std::erase_if(result, [](const std::vector<int>& each) { return each.size() < 3; });
+    return result;
 }
 
 Border border_of(const std::vector<int>& loop, const TriMesh& part, const SurfaceProjection& projection, double corner)
@@ -200,6 +226,11 @@ void leave_crossing_ones(TrimResult& result, const std::vector<int>& first_verte
                                     : other == loop ? "its border crosses itself on the surface"
                                                     : "it touches another hole on the surface";
     }
+    // Holes may touch each other in a point, but one that touches the border of the surface is no hole.
+    for (Eigen::Index i = 0; i < chords.point.cols(); ++i)
+        if (const int loop = chords.loop_of[size_t(i)];
+            loop != border && (chords.point.col(i).minCoeff() <= 0 || chords.point.col(i).maxCoeff() >= 1))
+            why[size_t(loop)] = "its border touches that of the surface";
     std::vector<TrimLoop> kept;
     for (size_t k = 0; k < why.size(); ++k)
         if (why[k].empty())
@@ -226,15 +257,17 @@ TrimResult trim_holes(const TriMesh& part, int outer, const NurbsSurface& surfac
     if (!(options.tolerance > 0) || !(options.corner > 0))
         throw InputError("the tolerance of trimming curves and the angle of their corners must be above 0");
     TrimResult result;
-    const std::vector<std::vector<int>> loops = boundary_loops(part);
-    if (loops.size() < 2)
+    std::vector<std::vector<int>> loops;
+    for (const std::vector<int>& loop : boundary_loops(part))
+        if (std::find(loop.begin(), loop.end(), outer) == loop.end())
+            for (std::vector<int>& simple : simple_loops(loop, part))
+                loops.push_back(std::move(simple));
+    if (loops.empty())
         return result;
     const SurfaceProjection projection(surface, 4, progress.part(0, 0));
     std::vector<int> first_vertex;
     for (size_t k = 0; k < loops.size(); ++k) {
         progress.checkpoint(double(k) / double(loops.size()), "trimming the surface at the holes");
-        if (std::find(loops[k].begin(), loops[k].end(), outer) != loops[k].end())
-            continue;
         const Border border = border_of(loops[k], part, projection, options.corner);
         const std::vector<int> start = starts(border);
         TrimLoop loop;

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -62,7 +63,7 @@ TEST(Outline, LoopsThatOverlapCrossEachOther)
     EXPECT_EQ(crossings({{0, 1, 2, 3}, {4, 5, 6, 7}}, points), 2);
 }
 
-TEST(Outline, NamesTheEdgesThatMeetEvenWhereTheyOnlyTouch)
+TEST(Outline, ACornerOnAnEdgeTouchesAndOneBeyondItCrosses)
 {
     // A corner of the second loop lies on an edge of the first one, up to one unit in the last place.
     Eigen::Matrix2Xd points(2, 6);
@@ -71,16 +72,54 @@ TEST(Outline, NamesTheEdgesThatMeetEvenWhereTheyOnlyTouch)
     ASSERT_EQ(on, 0.3);
     const auto found = outline_crossings({{0, 1, 2}, {3, 4, 5}}, points);
     const int side = orient2d(points.col(0), points.col(1), points.col(3));
-    EXPECT_EQ(found.size(), side >= 0 ? 2u : 0u);
-    points.col(3) << 0.25, 0.75; // on it, exactly
+    EXPECT_EQ(found.size(), side > 0 ? 2u : 0u);
     points.col(1) << 0.5, 1.5;
     for (const double mirror : {1.0, -1.0}) { // either loop comes first in the sweep
-        Eigen::Matrix2Xd seen = points;
-        seen.row(0) *= mirror;
-        const auto touching = outline_crossings({{0, 1, 2}, {3, 4, 5}}, seen);
-        ASSERT_EQ(touching.size(), 2u); // with both edges of the corner
-        EXPECT_EQ(mirror > 0 ? touching[0].edge : touching[0].other, (std::array{0, 1}));
+        const auto times = [&](const Eigen::Vector2d& corner) {
+            Eigen::Matrix2Xd seen = points;
+            seen.col(3) = corner;
+            seen.row(0) *= mirror;
+            return outline_crossings({{0, 1, 2}, {3, 4, 5}}, seen);
+        };
+        EXPECT_TRUE(times({0.25, 0.75}).empty()) << "on it, exactly";
+        const auto beyond = times({std::nextafter(0.25, 0), 0.75});
+        ASSERT_EQ(beyond.size(), 2u) << "with both edges of the corner";
+        EXPECT_EQ(mirror > 0 ? beyond[0].edge : beyond[0].other, (std::array{0, 1}));
     }
+}
+
+namespace {
+
+/// Two squares of one corner in common, the second one turned about it by so many right angles; each has its own vertices.
+int crossings_of_squares(int quarters)
+{
+    Eigen::Matrix2Xd points(2, 8);
+    points << 0, 1, 1, 0, /**/ 0, 1, 1, 0, /**/ 0, 0, 1, 1, /**/ 0, 0, 1, 1;
+    for (int k = 0; k < quarters; ++k)
+        for (int v = 4; v < 8; ++v)
+            points.col(v) = Eigen::Vector2d(-points(1, v), points(0, v));
+    return crossings({{0, 1, 2, 3}, {4, 5, 6, 7}}, points);
+}
+
+} // namespace
+
+TEST(Outline, SquaresThatMeetInACornerOrAlongASideTouch)
+{
+    EXPECT_EQ(crossings_of_squares(1), 0); // beside each other
+    EXPECT_EQ(crossings_of_squares(2), 0); // over the corner
+    EXPECT_EQ(crossings_of_squares(3), 0);
+    EXPECT_EQ(crossings_of_squares(0), 4) << "on each other";
+}
+
+TEST(Outline, WaysThroughOnePlaceCrossIfTheyChangeSides)
+{
+    // The tips of two triangles at the origin: one points up, the other down, or one stands in the other.
+    Eigen::Matrix2Xd points(2, 6);
+    points << 0, -1, 1, /**/ 0, 1, -1, /**/ 0, -1, -1, /**/ 0, 1, 1;
+    EXPECT_EQ(crossings({{0, 1, 2}, {3, 4, 5}}, points), 0);
+    points.col(4) << 3, -1; // now its sides are on both sides of the first one's right side
+    points.col(5) << 0, -3;
+    EXPECT_GT(crossings({{0, 1, 2}, {3, 4, 5}}, points), 0);
 }
 
 TEST(Outline, AnEdgeThatGoesBackOnItsNeighbourCounts)

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/mesh/doctor.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/basis.h"
 #include "engine/nurbs/evaluate.h"
@@ -145,6 +146,32 @@ TEST(Trim, HolesThatTouchTheBorderOrEachOtherStayFilled)
     both.triangle.rightCols(f) = other.triangle.array() + int(v);
     EXPECT_NE(why(both, 32).find("another hole"), std::string::npos);
     EXPECT_THROW(trim_holes(both, 32, plane(100, 60), {.tolerance = 0}), InputError);
+}
+
+TEST(Trim, AHolePinchedToAPointIsTrimmedOnBothSidesOfIt)
+{
+    // A grid of 6 x 6 squares without two that have a corner in common, which is a vertex on each side as the doctor leaves it.
+    for (const bool middle : {false, true}) { // of three in a row
+        PolygonSoup soup;
+        for (int j = 0; j <= 6; ++j)
+            for (int i = 0; i <= 6; ++i)
+                soup.position.emplace_back(10 * i, 10 * j, 0);
+        for (int j = 0; j < 6; ++j)
+            for (int i = 0; i < 6; ++i)
+                if (!(i == j && (i == 2 || i == 3 || (middle && i == 1)))) {
+                    const int a = 7 * j + i;
+                    soup.add_polygon(std::array{a, a + 1, a + 8, a + 7});
+                }
+        const Examination examination = examine(soup, {});
+        ASSERT_TRUE(examination.report.healthy());
+        const TrimResult trim = trim_holes(examination.mesh, 0, plane(60, 60));
+        EXPECT_TRUE(trim.left_filled.empty());
+        ASSERT_EQ(trim.loop.size(), middle ? 3u : 2u);
+        for (const TrimLoop& loop : trim.loop) {
+            expect_closed(loop);
+            EXPECT_NEAR(area_of(loop, 60, 60), -100, 1e-6);
+        }
+    }
 }
 
 TEST(Trim, ASheetWithoutHolesHasNone)
