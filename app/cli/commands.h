@@ -54,7 +54,8 @@ struct RunArguments {
     double max_thinning = 25, max_thickening = 10; ///< percent
     std::string seam = "auto";                     ///< auto, none, or a file of paths
     RemeshArguments remesh;
-    bool strict = false, weld = false, keep_largest = false, skins = false;
+    bool strict = false, keep_largest = false, skins = false;
+    std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
 };
 
@@ -67,7 +68,8 @@ struct InfoArguments {
     std::string unit, seam = "auto", skin;
     std::vector<std::string> parts; ///< of a solver deck, ids or names
     RemeshArguments remesh;
-    bool weld = false, keep_largest = false;
+    bool keep_largest = false;
+    std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
 };
 
@@ -81,7 +83,8 @@ struct CompareArguments {
     std::optional<double> thickness; ///< mm; not given: that of the deck, else 1
     std::vector<double> direction;
     std::vector<std::string> methods;
-    bool markdown = false, weld = false, keep_largest = false;
+    bool markdown = false, keep_largest = false;
+    std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
 };
 
@@ -103,7 +106,8 @@ struct UnfoldArguments {
     std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
     RemeshArguments remesh;
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
-    bool strict = false, weld = false, keep_largest = false;
+    bool strict = false, keep_largest = false;
+    std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
 };
 
@@ -128,6 +132,9 @@ int fit_material(const FitArguments& arguments);
 
 /// Whether the part is remeshed, and what its triangles should be like.
 void set_remeshing(ReadOptions& options, const RemeshArguments& arguments);
+
+/// @param gap  mm, up to which open edges are joined; 0: what is at one place; not given: as the format needs
+void set_welding(ReadOptions& options, std::optional<double> gap);
 MeshTargets mesh_targets(const RemeshArguments& arguments);
 
 /// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.

@@ -22,8 +22,7 @@ int compare(const CompareArguments& arguments)
     ReadOptions read;
     if (!arguments.unit.empty())
         read.unit = length_unit(arguments.unit);
-    if (arguments.weld)
-        read.weld = true;
+    set_welding(read, arguments.weld);
     read.parts = arguments.parts;
     read.cad = cad_options(arguments.cad, arguments.part);
     read.cad.keep_triangles = true; // methods are compared on the triangles of the file

@@ -51,8 +51,7 @@ int info(const InfoArguments& arguments)
     ReadOptions options;
     if (!arguments.unit.empty())
         options.unit = length_unit(arguments.unit);
-    if (arguments.weld)
-        options.weld = true;
+    set_welding(options, arguments.weld);
     options.parts = arguments.parts;
     options.cad = cad_options(arguments.cad, arguments.part);
     options.doctor.keep_largest = arguments.keep_largest;

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -97,6 +98,33 @@ void add_remesh(CLI::App* command, spia::cli::RemeshArguments& remesh)
         ->type_name("RATIO");
 }
 
+void add_weld(CLI::App* command, std::optional<double>& gap)
+{
+    command
+        ->add_option("--weld", gap,
+                     "join vertices at one place (always done for STL and glTF), with a number also across gaps up to "
+                     "it; `spia info` proposes one where it finds a crack")
+        ->check(CLI::Range(0., 1e3))
+        ->type_name("[MM]");
+}
+
+/// The words of the command line. The number behind --weld may be left out, which CLI11 would take the next word for.
+std::vector<std::string> words_of(int count, char** values)
+{
+    std::vector<std::string> words;
+    for (int i = 1; i < count; ++i) {
+        words.emplace_back(values[i]);
+        double number = 0;
+        if (words.back() != "--weld")
+            continue;
+        if (i + 1 < count && CLI::detail::lexical_cast(std::string(values[i + 1]), number))
+            words.back() += fmt::format("={}", values[++i]);
+        else
+            words.back() += "=0";
+    }
+    return words;
+}
+
 enum ExitCode { fine = 0, poorer = 1, bad_input = 2, no_solution = 3, bad_file = 4, internal = 5, cancelled = 130 };
 
 int failed(ExitCode code, std::string_view what)
@@ -136,7 +164,7 @@ int main(int count, char** values)
     add_remesh(run_command, run.remesh);
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
-    run_command->add_flag("--weld", run.weld, "join vertices at one place (always done for STL and glTF)");
+    add_weld(run_command, run.weld);
     run_command->add_flag("--keep-largest", run.keep_largest,
                           "leave out all but the largest piece, and ribs on edges of three faces");
     run_command
@@ -297,7 +325,7 @@ int main(int count, char** values)
     add_remesh(info_command, info.remesh);
     info_command->add_option("--unit", info.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
-    info_command->add_flag("--weld", info.weld, "join vertices at one place (always done for STL and glTF)");
+    add_weld(info_command, info.weld);
     info_command->add_flag("--keep-largest", info.keep_largest,
                            "leave out all but the largest piece, and ribs on edges of three faces");
     info_command
@@ -344,7 +372,7 @@ int main(int count, char** values)
     add_skin(compare_command, comparison.skin);
     compare_command->add_option("--unit", comparison.unit, "length unit of the file")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
-    compare_command->add_flag("--weld", comparison.weld, "join vertices at one place (always done for STL and glTF)");
+    add_weld(compare_command, comparison.weld);
     compare_command->add_flag("--keep-largest", comparison.keep_largest,
                               "leave out all but the largest piece, and ribs on edges of three faces");
     compare_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
@@ -406,7 +434,7 @@ int main(int count, char** values)
     add_remesh(unfold_command, unfolding.remesh);
     unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
-    unfold_command->add_flag("--weld", unfolding.weld, "join vertices at one place (always done for STL and glTF)");
+    add_weld(unfold_command, unfolding.weld);
     unfold_command->add_flag("--keep-largest", unfolding.keep_largest,
                              "leave out all but the largest piece, and ribs on edges of three faces");
     unfold_command->add_option("--seam", unfolding.seam, "where a closed part is cut open, as for `spia run`")
@@ -468,7 +496,9 @@ int main(int count, char** values)
             return failed(bad_input, word.empty() ? fmt::format("the word after '{}' is empty", values[i - 1])
                                                   : fmt::format("nothing stands behind '{}'", word));
     try {
-        app.parse(count, values);
+        std::vector<std::string> words = words_of(count, values);
+        std::reverse(words.begin(), words.end()); // as CLI11 wants them
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? fine : bad_input;
     }

@@ -17,4 +17,13 @@ void set_remeshing(ReadOptions& options, const RemeshArguments& arguments)
     options.targets.edge_ratio = arguments.edge_ratio;
 }
 
+void set_welding(ReadOptions& options, std::optional<double> gap)
+{
+    if (!gap)
+        return;
+    options.weld = true;
+    if (*gap > 0)
+        options.doctor.weld_gap = *gap;
+}
+
 } // namespace spia::cli

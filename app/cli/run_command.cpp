@@ -46,8 +46,7 @@ SessionOptions options(const RunArguments& arguments)
     SessionOptions result;
     if (!arguments.unit.empty())
         result.read.unit = length_unit(arguments.unit);
-    if (arguments.weld)
-        result.read.weld = true;
+    set_welding(result.read, arguments.weld);
     result.read.parts = arguments.parts;
     result.read.cad = cad_options(arguments.cad, arguments.part);
     result.read.doctor.keep_largest = arguments.keep_largest;

@@ -52,8 +52,7 @@ PartFile part_of(const UnfoldArguments& arguments)
     ReadOptions read;
     if (!arguments.unit.empty())
         read.unit = length_unit(arguments.unit);
-    if (arguments.weld)
-        read.weld = true;
+    set_welding(read, arguments.weld);
     read.parts = arguments.parts;
     read.cad = cad_options(arguments.cad, arguments.part);
     read.doctor.keep_largest = arguments.keep_largest;

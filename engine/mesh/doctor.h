@@ -16,6 +16,7 @@ enum class Fault {
     bad_index,          ///< a polygon names a vertex that does not exist [face]
     bad_coordinate,     ///< not a number, infinite, or beyond any part [vertex]
     coincident_vertex,  ///< several vertices at one place [vertex]
+    crack,              ///< open edges so close to others that they seem to be the same [vertex]
     repeated_corner,    ///< a polygon names a vertex twice [face]
     duplicate_face,     ///< the same corners as an earlier face [face]
     polygon,            ///< more than three corners [face]
@@ -33,6 +34,7 @@ enum class Fault {
     sliver,             ///< a very small angle [face]
     gap,                ///< between faces of a CAD file, or a sliver of a face, closed [vertex]
     unmeshed_face,      ///< a face of a CAD file that gave no triangle [none]
+    damaged_entity,     ///< of a CAD file, which no shape needs [none]
     overlap             ///< faces of a CAD file that lie on one another [face]
 };
 std::string_view name(Fault fault);
@@ -68,7 +70,8 @@ struct Finding {
     std::string advice;          ///< what to do about it; empty if nothing has to be done
     std::vector<int> where = {}; ///< as `first`, at most a thousand; empty if none can be named
     std::vector<Eigen::Vector3d> place = {}; ///< of `where`, as in the soup; also of what was taken out
-    std::vector<std::string> what = {};      ///< of `where`, e.g. how wide; empty if there is nothing to tell them apart
+    std::vector<std::string> what = {};  ///< of `where`, e.g. how wide; empty if there is nothing to tell them apart
+    std::optional<double> weld_gap = {}; ///< mm, of a crack: what would close it
 };
 
 /// What the examination found. The numbers describe the mesh after the repairs; those without a value have no
@@ -88,8 +91,9 @@ struct DoctorReport {
 struct DoctorOptions {
     bool weld = false;            ///< join vertices at one place; right for files that repeat a vertex in each face
     double weld_tolerance = 1e-6; ///< of the diagonal: gaps closed at open edges; 0: equal coordinates only
-    bool keep_largest = false;    ///< leave out all but the largest piece, and what hangs on edges of three faces
-    double sliver_angle_deg = 1;  ///< a triangle with a smaller angle is noted
+    std::optional<double> weld_gap = {}; ///< mm, in its place
+    bool keep_largest = false;   ///< leave out all but the largest piece, and what hangs on edges of three faces
+    double sliver_angle_deg = 1; ///< a triangle with a smaller angle is noted
 };
 
 /// A soup turned into a mesh, and what was found on the way.

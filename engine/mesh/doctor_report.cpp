@@ -20,6 +20,7 @@ std::string_view name(Fault fault)
     case Fault::bad_index: return "missing vertex";
     case Fault::bad_coordinate: return "bad coordinate";
     case Fault::coincident_vertex: return "coincident vertices";
+    case Fault::crack: return "crack";
     case Fault::repeated_corner: return "repeated corner";
     case Fault::duplicate_face: return "duplicate face";
     case Fault::polygon: return "polygon";
@@ -37,6 +38,7 @@ std::string_view name(Fault fault)
     case Fault::sliver: return "sliver";
     case Fault::gap: return "gap";
     case Fault::unmeshed_face: return "face not meshed";
+    case Fault::damaged_entity: return "damaged entity";
     case Fault::overlap: return "overlapping faces";
     }
     return "";
@@ -63,8 +65,8 @@ void DoctorReport::add(Fault fault, Severity severity, const Tally& tally, std::
 
 bool counts_vertices(Fault fault)
 {
-    return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::stray_vertex ||
-           fault == Fault::touching_fans || fault == Fault::seam || fault == Fault::gap;
+    return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::crack ||
+           fault == Fault::stray_vertex || fault == Fault::touching_fans || fault == Fault::seam || fault == Fault::gap;
 }
 
 void require_healthy(const DoctorReport& report)

@@ -38,14 +38,16 @@ void count_pieces(const MendedSurface& s, DoctorReport& report)
         sizes += fmt::format("{}{}", i > 0 ? ", " : "", size[i].second);
     const Finding* coincident = report.find(Fault::coincident_vertex);
     const bool unjoined = coincident && coincident->severity == Severity::note;
+    const Finding* crack = report.find(Fault::crack);
     report.add(
         Fault::several_components, Severity::fatal, others,
         fmt::format(
             "there are {} separate pieces, the largest by area first: of {}{} triangles (first face outside it: {})",
             report.components, sizes, size.size() > 5 ? ", ..." : "", others.first),
-        unjoined
-            ? "weld vertices at the same place (--weld) if the pieces touch; otherwise keep the largest (--keep-largest), or save each piece as a separate file"
-            : "keep the largest (--keep-largest), or save each piece as a separate file");
+        fmt::format("{}keep the largest (--keep-largest), or save each piece as a separate file",
+                    unjoined ? "weld vertices at the same place (--weld) if the pieces touch; otherwise "
+                    : crack  ? crack->advice + "; otherwise "
+                             : ""));
 }
 
 /// Edges of the surface, and boundary loops of each piece.

@@ -31,10 +31,27 @@ double diagonal_of_faces(const PolygonSoup& soup)
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
+void note_cracks(const PolygonSoup& soup, const std::vector<int>& same_as, DoctorReport& report)
+{
+    const auto cracks = find_cracks(soup, same_as);
+    if (!cracks)
+        return;
+    Tally vertices;
+    for (const int v : cracks->vertex)
+        vertices.add(v);
+    report.add(Fault::crack, Severity::note, vertices,
+               fmt::format("open edges lie up to {:.3g} mm beside others and seem to be the same: a crack along {} "
+                           "vertices (first: vertex {})",
+                           cracks->widest, vertices.count, vertices.first),
+               fmt::format("close the crack if the sheet is whole there (--weld {:.2g})", cracks->tolerance));
+    report.findings.back().weld_gap = cracks->tolerance;
+}
+
 /// Per vertex the one that stands for it.
 std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report)
 {
-    const Weld found = weld(soup, options.weld ? options.weld_tolerance * diagonal_of_faces(soup) : 0);
+    const double gap = options.weld_gap.value_or(options.weld_tolerance * diagonal_of_faces(soup));
+    const Weld found = weld(soup, options.weld ? gap : 0);
     Tally joined;
     for (int v = 0; v < soup.vertices(); ++v)
         if (found.same_as[size_t(v)] != v)
@@ -45,6 +62,9 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
         if (found.near > 0)
             text += fmt::format(", {} of them across gaps of up to {:.3g} mm", found.near, found.widest);
         report.add(Fault::coincident_vertex, Severity::repaired, joined, text, "");
+    }
+    if (options.weld) {
+        note_cracks(soup, found.same_as, report);
         return found.same_as;
     }
     if (joined.count > 0)
@@ -55,6 +75,8 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                    "if faces that should be connected are not, weld vertices at the same place (--weld)");
     std::vector<int> themselves(size_t(soup.vertices()));
     std::iota(themselves.begin(), themselves.end(), 0);
+    if (joined.count == 0) // else welding comes first
+        note_cracks(soup, themselves, report);
     return themselves;
 }
 

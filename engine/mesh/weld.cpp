@@ -32,8 +32,8 @@ std::vector<int> join_equal(const std::vector<Vector3d>& position)
     return same_as;
 }
 
-/// Vertices at the ends of edges that one polygon uses alone, in increasing order.
-std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& same_as)
+/// Edges that one polygon uses alone, the lower end first, in increasing order.
+std::vector<std::array<int, 2>> open_edges(const PolygonSoup& soup, const std::vector<int>& same_as)
 {
     std::vector<std::array<int, 2>> edges;
     for (int p = 0; p < soup.polygons(); ++p) {
@@ -45,10 +45,19 @@ std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& 
         }
     }
     std::sort(edges.begin(), edges.end());
-    std::vector<int> open;
+    std::vector<std::array<int, 2>> open;
     for (size_t i = 0; i < edges.size(); ++i)
         if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1]))
-            open.insert(open.end(), edges[i].begin(), edges[i].end());
+            open.push_back(edges[i]);
+    return open;
+}
+
+/// Their ends, in increasing order.
+std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& same_as)
+{
+    std::vector<int> open;
+    for (const auto& edge : open_edges(soup, same_as))
+        open.insert(open.end(), edge.begin(), edge.end());
     std::sort(open.begin(), open.end());
     open.erase(std::unique(open.begin(), open.end()), open.end());
     return open;
@@ -199,6 +208,47 @@ Weld weld(const PolygonSoup& soup, double tolerance)
     if (tolerance > 0)
         close_gaps(soup, tolerance, result);
     return result;
+}
+
+std::optional<Cracks> find_cracks(const PolygonSoup& soup, const std::vector<int>& same_as)
+{
+    const auto edges = open_edges(soup, same_as);
+    std::vector<int> open;
+    std::vector<double> lengths;
+    std::unordered_map<int, double> shortest; // of the open edges at a vertex
+    for (const auto& edge : edges) {
+        const double length = (soup.position[size_t(edge[1])] - soup.position[size_t(edge[0])]).norm();
+        lengths.push_back(length);
+        for (const int v : edge) {
+            const auto [found, is_new] = shortest.try_emplace(v, length);
+            found->second = std::min(found->second, length);
+            if (is_new)
+                open.push_back(v);
+        }
+    }
+    if (open.empty())
+        return std::nullopt;
+    std::sort(open.begin(), open.end());
+    std::nth_element(lengths.begin(), lengths.begin() + long(lengths.size() / 2), lengths.end());
+    constexpr double narrow = 0.02; // of an edge: a slit that was cut is wider, digits that were cut off are not
+    Cracks cracks;
+    for (const Gap& gap : gaps(soup.position, open, narrow * lengths[lengths.size() / 2])) {
+        const int a = open[size_t(gap.a)], b = open[size_t(gap.b)];
+        if (gap.width > narrow * std::min(shortest.at(a), shortest.at(b)))
+            continue;
+        cracks.vertex.push_back(a);
+        cracks.vertex.push_back(b);
+        cracks.widest = std::max(cracks.widest, gap.width);
+    }
+    if (cracks.vertex.empty())
+        return std::nullopt;
+    std::sort(cracks.vertex.begin(), cracks.vertex.end());
+    cracks.vertex.erase(std::unique(cracks.vertex.begin(), cracks.vertex.end()), cracks.vertex.end());
+    const double digit = std::pow(10, std::floor(std::log10(std::max(cracks.widest, 1e-300))) - 1);
+    cracks.tolerance = std::ceil(cracks.widest / digit * (1 + 1e-9)) * digit;
+    if (open_edges(soup, weld(soup, cracks.tolerance).same_as).size() + 1 >= edges.size()) // two edges become one
+        return std::nullopt;
+    return cracks;
 }
 
 } // namespace spia

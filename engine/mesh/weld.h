@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "engine/mesh/soup.h"
@@ -20,5 +21,17 @@ struct Weld {
 /// @param tolerance  mm; 0 joins equal coordinates only
 /// The soup's indices must be in range and its coordinates finite.
 Weld weld(const PolygonSoup& soup, double tolerance);
+
+/// Open edges that lie so close to others that they seem to be the same: of a sheet in two pieces with rounded coordinates, say.
+struct Cracks {
+    std::vector<int> vertex; ///< along them, in increasing order
+    double widest = 0;       ///< mm
+    double tolerance = 0;    ///< mm, that closes them all: `widest`, rounded up to two digits
+};
+
+/// Looks for gaps narrower than 2 % of the shortest open edge at both of their ends; those that would join no edges do not count.
+/// @param same_as  as weld() gave it, or all themselves
+/// @returns nothing where there are none
+std::optional<Cracks> find_cracks(const PolygonSoup& soup, const std::vector<int>& same_as);
 
 } // namespace spia

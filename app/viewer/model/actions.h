@@ -22,7 +22,8 @@ namespace spia::viewer {
 enum class PickMode { replace, add, remove };
 
 // --- the chain
-/// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), keep_largest (all
+/// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), weld_gap_mm
+/// (with weld: gaps between open edges up to this are closed, too; not given: only what is at one place), keep_largest (all
 /// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
 /// all), skin (of a solid of sheet: "outer", the default, "inner" or "middle"), and of CAD files sewing_mm (gaps up to this are closed;
 /// not given: found from the gaps), deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal), leave_out_bad_faces
@@ -34,6 +35,7 @@ struct Reading {
     std::optional<Skin> skin = {};
     std::optional<double> sewing_mm = {}, deflection_mm = {};
     bool leave_out_bad_faces = false, keep_triangles = false;
+    std::optional<double> weld_gap_mm = {};
 
     friend bool operator==(const Reading&, const Reading&) = default;
 };

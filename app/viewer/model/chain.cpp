@@ -11,8 +11,9 @@ namespace {
 
 bool same(const ReadOptions& a, const ReadOptions& b)
 {
-    return a.unit == b.unit && a.weld == b.weld && a.doctor.keep_largest == b.doctor.keep_largest && a.seam == b.seam &&
-           a.parts == b.parts && a.skin == b.skin && a.cad == b.cad && a.remesh == b.remesh;
+    return a.unit == b.unit && a.weld == b.weld && a.doctor.weld_gap == b.doctor.weld_gap &&
+           a.doctor.keep_largest == b.doctor.keep_largest && a.seam == b.seam && a.parts == b.parts &&
+           a.skin == b.skin && a.cad == b.cad && a.remesh == b.remesh;
 }
 
 bool same(const FlattenOptions& a, const FlattenOptions& b)

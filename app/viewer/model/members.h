@@ -80,6 +80,7 @@ inline constexpr auto members_of<SeamOptions> =
 inline constexpr auto gap_width = Between{0, 1e3}, chord_height = Between{1e-6, 1e3}; ///< mm
 template <>
 inline constexpr auto members_of<Reading> = std::tuple{member("weld", &Reading::weld),
+                                                       member("weld_gap_mm", &Reading::weld_gap_mm, gap_width),
                                                        member("keep_largest", &Reading::keep_largest),
                                                        member("parts", &Reading::parts),
                                                        member("skin", &Reading::skin),

@@ -149,6 +149,7 @@ inline constexpr auto members_of<StoredPart> =
     std::tuple{required("path", &StoredPart::path),
                member("unit", &StoredPart::unit),
                member("weld", &StoredPart::weld),
+               member("weld_gap_mm", &StoredPart::weld_gap_mm, gap_width),
                member("keep_largest", &StoredPart::keep_largest),
                member("seam", &StoredPart::seam),
                member("parts", &StoredPart::parts),

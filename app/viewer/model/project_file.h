@@ -13,7 +13,7 @@
 /// | member | what |
 /// |---|---|
 /// | `part.path` | `file`: relative to the project's folder; `was_at`: where it was when saved, tried second |
-/// | `part.unit`, `part.weld` | of the file; null: as its format has it |
+/// | `part.unit`, `part.weld`, `part.weld_gap_mm` | of the file; null: as its format has it |
 /// | `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`, `part.leave_out_bad_faces`, `part.keep_triangles`, `part.seam`, `part.remesh` | as in the script actions set_reading, set_seam and set_remeshing |
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |

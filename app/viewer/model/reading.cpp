@@ -11,12 +11,14 @@ Reading reading_of(const ReadOptions& options)
             options.cad.sewing_tolerance,
             options.cad.deflection,
             options.cad.leave_out_unmeshed,
-            options.cad.keep_triangles};
+            options.cad.keep_triangles,
+            options.doctor.weld_gap};
 }
 
 void set_reading(ReadOptions& options, const Reading& reading)
 {
     options.weld = reading.weld;
+    options.doctor.weld_gap = reading.weld_gap_mm;
     options.doctor.keep_largest = reading.keep_largest;
     options.parts = reading.parts;
     options.skin = reading.skin;

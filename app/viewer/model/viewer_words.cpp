@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <regex>
+#include <string_view>
 
 #include "app/viewer/model/lengths.h"
-#include <string_view>
 
 namespace spia::viewer {
 
 std::string in_viewer_words(std::string text)
 {
     constexpr std::string_view words[][2] = {
+        {"--weld MM", "\"Close the crack\" in the step Part"},
         {"--weld", "\"Weld vertices\" in the step Part"},
         {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
         {"--unit", "in the step Part"},
@@ -37,6 +39,8 @@ std::string in_viewer_words(std::string text)
         {"pick others that stay, or give it a target",
          "select fixed faces and press \"Fit to selection\", or choose a target"},
         {"pick those that carry the target, or give one", "choose another fixed region"}};
+    // The gap to be closed is on its button's tooltip.
+    text = std::regex_replace(text, std::regex("--weld [0-9.e-]+"), "--weld MM");
     for (const auto& [flag, button] : words)
         for (size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + button.size()))
             text.replace(at, flag.size(), button);

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "app/viewer/model/lengths.h"
 #include "app/viewer/model/lights.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
@@ -94,7 +95,8 @@ void fix_button(Frame& frame, const Finding& finding)
     const bool cut = (finding.fault == Fault::several_components || finding.fault == Fault::crowded_edge) &&
                      !read.doctor.keep_largest;
     const bool apart = finding.fault == Fault::coincident_vertex && finding.severity == spia::Severity::note;
-    if (!cut && !apart)
+    const std::optional<double> gap = finding.weld_gap;
+    if (!cut && !apart && !gap)
         return;
     if (!finding.place.empty())
         ImGui::SameLine();
@@ -103,9 +105,17 @@ void fix_button(Frame& frame, const Finding& finding)
         read_with(frame, [](Reading& reading) { reading.keep_largest = true; });
     if (apart && small_button(frame, "Weld vertices"))
         read_with(frame, [](Reading& reading) { reading.weld = true; });
+    if (gap && small_button(frame, "Close the crack"))
+        read_with(frame, [&](Reading& reading) {
+            reading.weld = true;
+            reading.weld_gap_mm = gap;
+        });
     ImGui::EndDisabled();
     tooltip(
-        cut ? "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them."
+        gap ? fmt::format("Reads the part again and joins open edges up to {} apart. Undo separates them again.",
+                          length_text(*gap, frame.lengths()))
+        : cut
+            ? "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them."
             : "Reads the part again and welds vertices at the same place. Undo separates them again.");
 }
 

@@ -38,6 +38,7 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
         fresh.chosen = std::move(items.item);
         fresh.others = std::move(items.others);
         fresh.weld = read.weld;
+        fresh.weld_gap = read.doctor.weld_gap;
         fresh.unit = read.unit ? std::string(name(*read.unit)) : "";
         fresh.skin = read.skin;
         fresh.keep_largest = read.doctor.keep_largest;
@@ -339,6 +340,7 @@ std::optional<Reading> reading_fields(Frame& frame, const FileItems& items)
     reading.parts = choices_of(items, choices.chosen);
     reading.parts.insert(reading.parts.end(), choices.others.begin(), choices.others.end());
     reading.weld = choices.weld;
+    reading.weld_gap_mm = choices.weld_gap;
     const bool sewing = read_length(choices.sewing, frame.lengths(), gap_width, reading.sewing_mm),
                deflection = read_length(choices.deflection, frame.lengths(), chord_height, reading.deflection_mm);
     const float s = frame.ui.scale, width = 118 * s;

@@ -26,6 +26,7 @@ struct ImportChoices {
     bool fresh = true;                       ///< the list has not been shown yet
     std::vector<std::string> others;         ///< chosen as well, faces by their numbers
     std::optional<bool> weld;                ///< as the part was read
+    std::optional<double> weld_gap;          ///< mm, likewise
     std::string unit;                        ///< empty: as the file says, else mm
     std::optional<Skin> skin;
     bool keep_largest = false, leave_out_bad_faces = false, keep_triangles = false;

@@ -496,4 +496,46 @@ TEST(SplitPolygon, CornersOnAStraightEdgeMakeNoFlatTriangle)
                   0.1);
 }
 
+/// A sheet of two halves with a row of vertices each at x = 10, the second moved by up to `gap` in x and y.
+PolygonSoup torn_sheet(double gap)
+{
+    PolygonSoup soup;
+    for (const int half : {0, 1})
+        for (int i = 0; i <= 2; ++i)
+            for (int j = 0; j <= 4; ++j) {
+                const bool seam = half == 1 && i == 0;
+                soup.position.emplace_back(10 * half + 5 * i + (seam ? gap * (0.5 + 0.5 * (j % 2)) : 0.), 5 * j, 0);
+            }
+    for (const int half : {0, 1})
+        for (int i = 0; i < 2; ++i)
+            for (int j = 0; j < 4; ++j) {
+                const int a = 15 * half + 5 * i + j;
+                soup.add_polygon(std::array{a, a + 5, a + 6, a + 1});
+            }
+    return soup;
+}
+
+TEST(Doctor, ACrackIsNotedWithTheGapThatClosesIt)
+{
+    for (const double gap : {0.0049, 0.01, 1e-4}) {
+        const Examination torn = examine(torn_sheet(gap), {.weld = true});
+        const Finding* crack = torn.report.find(Fault::crack);
+        ASSERT_TRUE(crack) << gap;
+        EXPECT_EQ(crack->count, 10);
+        EXPECT_GE(crack->weld_gap.value(), gap);
+        EXPECT_LE(crack->weld_gap.value(), 1.11 * gap);
+        EXPECT_EQ(torn.report.components, 2);
+        EXPECT_NE(torn.report.find(Fault::several_components)->advice.find(crack->advice), std::string::npos);
+
+        const Examination whole = examine(torn_sheet(gap), {.weld = true, .weld_gap = crack->weld_gap});
+        EXPECT_TRUE(whole.report.healthy());
+        EXPECT_EQ(whole.report.components, 1);
+        EXPECT_EQ(whole.report.boundary_loops, 1);
+        EXPECT_FALSE(whole.report.find(Fault::crack));
+        EXPECT_NEAR(area(whole.mesh), 20 * 20, 20 * gap);
+    }
+    EXPECT_FALSE(examine(torn_sheet(0.2), {.weld = true}).report.find(Fault::crack)) << "a slit that was cut";
+    EXPECT_FALSE(examine(torn_sheet(0), {.weld = true}).report.find(Fault::crack));
+}
+
 } // namespace spia

@@ -26,6 +26,8 @@ TEST(ViewerWords, ASentenceBeginsWithACapitalLetter)
 
 TEST(ViewerWords, NameButtonsInPlaceOfFlags)
 {
+    EXPECT_EQ(in_viewer_words("close the crack (--weld 0.0062); keep one"),
+              "close the crack (\"Close the crack\" in the step Part); keep one");
     EXPECT_EQ(in_viewer_words("join them (--weld); keep one (--keep-largest)"),
               "join them (\"Weld vertices\" in the step Part); keep one (\"Keep the largest piece\" in the step Part)");
     EXPECT_EQ(in_viewer_words("nothing -- to say"), "nothing -- to say");
