@@ -98,6 +98,7 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.gaps);
     way.row(cad.lost);
     way.row(cad.lost_elsewhere);
+    way.row(cad.aside);
     way.row(cad.unmeshed);
     way.row(cad.slivers);
     way.one(cad.unmeshed_left_out);

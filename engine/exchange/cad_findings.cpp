@@ -99,6 +99,23 @@ void report_unmeshed(const CadContent& cad, std::vector<Finding>& findings)
                             {}});
 }
 
+void report_aside(const CadContent& cad, std::vector<Finding>& findings)
+{
+    if (cad.aside.empty())
+        return;
+    const int count = int(cad.aside.size());
+    findings.push_back({Fault::damaged_entity,
+                        Severity::note,
+                        count,
+                        -1,
+                        fmt::format("{} of the file {} damaged and {} passed over: {}; no shape needs {}",
+                                    counted(count, "entity", "entities"), count == 1 ? "is" : "are",
+                                    count == 1 ? "was" : "were", listed(cad.aside), count == 1 ? "it" : "them"),
+                        "",
+                        {},
+                        {}});
+}
+
 void report_slivers(const CadContent& cad, std::vector<Finding>& findings)
 {
     if (cad.slivers.empty())
@@ -322,6 +339,7 @@ void report_cad(const CadContent& cad, PartFile& part)
     std::vector<Finding> findings;
     report_bodies(cad, part, findings);
     report_unmeshed(cad, findings);
+    report_aside(cad, findings);
     report_doubles(cad, findings);
     report_overlaps(cad, findings);
     report_gaps(cad, findings);

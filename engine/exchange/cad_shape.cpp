@@ -5,14 +5,12 @@
 #include <IGESControl_Reader.hxx>
 #include <IGESData_BasicEditor.hxx>
 #include <IGESData_IGESModel.hxx>
-#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Reader.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cctype>
 #include <fmt/core.h>
@@ -21,6 +19,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/brep_check.h"
+#include "engine/exchange/cad_damage.h"
 #include "engine/exchange/cad_names.h"
 #include "engine/exchange/file_content.h"
 #include "engine/exchange/iges_check.h"
@@ -53,14 +52,6 @@ std::string unit_of(IGESControl_Reader& reader)
     return unit;
 }
 
-std::string first_fail(Interface_CheckIterator checks)
-{
-    for (checks.Start(); checks.More(); checks.Next())
-        if (const Handle(Interface_Check)& check = checks.Value(); check->HasFailed())
-            return check->CFail(1);
-    return "";
-}
-
 void list_faces(CadShape& whole)
 {
     if (!whole.shape.IsNull())
@@ -74,8 +65,10 @@ CadNames read_model(XSControl_Reader& reader, const std::filesystem::path& path,
     if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
         refuse("OpenCASCADE finds no model in it");
     progress.checkpoint(0.4, "reading the CAD model");
-    if (const Interface_CheckIterator checks = reader.WS()->ModelCheckList(); checks.Status() == Interface_CheckFail)
-        refuse("OpenCASCADE finds it damaged: " + first_fail(checks));
+    CadDamage damage = damage_in(reader);
+    if (!damage.fatal.empty())
+        refuse("OpenCASCADE finds it damaged: " + damage.fatal);
+    result.aside = std::move(damage.aside);
     const Handle(OcctProgress) passed_on = new OcctProgress(progress.part(0.4, 1), "making its faces");
     reader.TransferRoots(passed_on->Start());
     result.shape = reader.OneShape();

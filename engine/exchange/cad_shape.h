@@ -14,11 +14,12 @@ namespace spia {
 /// A CAD file as OpenCASCADE gives it, in mm.
 struct CadShape {
     TopoDS_Shape shape;
-    std::vector<TopoDS_Face> face; ///< by its number: the order of the file
-    CadTree tree;                  ///< assemblies and bodies with these faces
-    std::vector<LostShape> lost;   ///< what could not be made
-    std::string format;            ///< e.g. "STEP"
-    std::string unit;              ///< of the file, e.g. "INCH"; empty: the format has none (BREP)
+    std::vector<TopoDS_Face> face;  ///< by its number: the order of the file
+    CadTree tree;                   ///< assemblies and bodies with these faces
+    std::vector<LostShape> lost;    ///< what could not be made
+    std::vector<std::string> aside; ///< labels of damaged entities that no shape needs
+    std::string format;             ///< e.g. "STEP"
+    std::string unit;               ///< of the file, e.g. "INCH"; empty: the format has none (BREP)
 };
 
 /// For .cpp files of engine/exchange that hold an OcctSession.

@@ -105,6 +105,7 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     result.taken = int(numbers.size());
     for (LostShape& lost : shape.lost)
         (may_lack(numbers, lost) ? result.lost : result.lost_elsewhere).push_back(std::move(lost.label));
+    result.aside = std::move(shape.aside);
     result.tree = std::move(shape.tree);
     result.solid = std::any_of(numbers.begin(), numbers.end(), [&](int face) {
         return result.tree.item[size_t(result.tree.body_of[size_t(face)])].kind == CadItem::Kind::solid;

@@ -50,6 +50,7 @@ struct CadContent {
     std::vector<std::string>
         lost; ///< labels of faces and bodies of the file that could not be made, and may be missing; without numbers
     std::vector<std::string> lost_elsewhere; ///< those of other bodies than were chosen
+    std::vector<std::string> aside;          ///< labels of damaged entities that no shape needs
     std::vector<int> unmeshed;               ///< faces without triangles, but for slivers
     std::vector<CadSliver> slivers;          ///< that were closed
     bool unmeshed_left_out = false;          ///< as was asked for

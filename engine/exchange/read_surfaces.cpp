@@ -4,17 +4,16 @@
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <IGESControl_Reader.hxx>
-#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <XSControl_WorkSession.hxx>
 #include <fmt/core.h>
 #include <fstream>
 
 #include "engine/core/error.h"
+#include "engine/exchange/cad_damage.h"
 #include "engine/exchange/iges_check.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/occt_surface.h"
@@ -52,9 +51,8 @@ std::vector<NurbsSurface> surfaces_of(XSControl_Reader& reader, const std::files
 {
     if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
         refuse(path, "OpenCASCADE finds no model in it");
-    const Interface_CheckIterator checks = reader.WS()->ModelCheckList();
-    if (checks.Status() == Interface_CheckFail)
-        refuse(path, "OpenCASCADE finds it damaged");
+    if (const CadDamage damage = damage_in(reader); !damage.fatal.empty())
+        refuse(path, "OpenCASCADE finds it damaged: " + damage.fatal);
     reader.TransferRoots();
     std::vector<NurbsSurface> surfaces;
     for (TopExp_Explorer face(reader.OneShape(), TopAbs_FACE); face.More(); face.Next())
