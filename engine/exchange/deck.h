@@ -43,6 +43,7 @@ struct Deck {
     std::vector<DeckPart> parts;            ///< also those without shells; in the order in which they are first named
     std::vector<DeckSet> sets;
     std::vector<std::string> notes; ///< what was passed over, left out, or deserves a word
+    bool copies = false; ///< some shells are moved copies: nodes of edges that they share with others are apart
     std::vector<std::string> doubts = {}; ///< those of the notes after which shells may be missing
 
     int elements() const { return int(corner.size()); }

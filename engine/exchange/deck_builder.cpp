@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <set>
 
 #include "engine/core/error.h"
 #include "engine/exchange/checked_file.h"
@@ -52,6 +53,34 @@ void DeckBuilder::add_node(std::int64_t id, const Eigen::Vector3d& position)
         throw InputError(fmt::format("there are more than {} nodes", most_elements));
     deck_.node.push_back(usable_id(id, "node"));
     deck_.position.push_back(position);
+}
+
+void DeckBuilder::move_nodes(std::span<const std::int64_t> ids, const Eigen::Affine3d& move)
+{
+    for (size_t v = 0; v < deck_.node.size(); ++v)
+        if (std::binary_search(ids.begin(), ids.end(), deck_.node[v]))
+            deck_.position[v] = move * deck_.position[v];
+}
+
+void DeckBuilder::move_all_nodes(const Eigen::Affine3d& move)
+{
+    for (Eigen::Vector3d& x : deck_.position)
+        x = move * x;
+}
+
+std::optional<Eigen::Vector3d> DeckBuilder::node(std::int64_t id) const
+{
+    const auto found = std::find(deck_.node.begin(), deck_.node.end(), id);
+    return found == deck_.node.end() ? std::nullopt : std::optional(deck_.position[size_t(found - deck_.node.begin())]);
+}
+
+std::vector<std::int64_t> DeckBuilder::nodes_of(int part) const
+{
+    std::set<std::int64_t> ids;
+    for (size_t e = first_shell_; e < shell_.size(); ++e)
+        if (shell_[e].part == part)
+            ids.insert(shell_[e].corner.begin(), shell_[e].corner.begin() + (shell_[e].triangle ? 3 : 4));
+    return {ids.begin(), ids.end()};
 }
 
 void DeckBuilder::add_shell(int part, std::int64_t id, std::span<const std::int64_t> corners, double thickness)
@@ -209,6 +238,9 @@ void DeckBuilder::write_notes()
             broken, first->broken_element, first->missing_node));
     if (!others_.empty())
         note("elements that are no shells are left out: " + listed(others_));
+    if (!unread_geometry_.empty())
+        doubt("keywords that move, copy or make geometry are not read: " + listed(unread_geometry_) +
+              "; apply them in the program that wrote the deck and write it again");
     if (!skipped_.empty())
         note("keywords that are not read: " + listed(skipped_));
     std::vector<std::int64_t> ids = deck_.element;

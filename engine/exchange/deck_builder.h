@@ -1,5 +1,7 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +18,12 @@ class DeckBuilder {
 public:
     /// @throws InputError if there are more nodes than are read
     void add_node(std::int64_t id, const Eigen::Vector3d& position);
+
+    /// Those that are there of these ids, sorted; or all.
+    void move_nodes(std::span<const std::int64_t> ids, const Eigen::Affine3d& move);
+    void move_all_nodes(const Eigen::Affine3d& move);
+    std::optional<Eigen::Vector3d> node(std::int64_t id) const; ///< goes through all of them
+    std::vector<std::int64_t> nodes_of(int part) const;         ///< sorted ids, of the scope that is open
 
     /// @param part       number of a part
     /// @param corners    ids of three or four nodes; a fourth that is 0 or repeats the third makes a triangle
@@ -44,6 +52,9 @@ public:
         note(std::move(text));
     }
     void count_skipped(std::string_view keyword) { count(skipped_, keyword); } ///< not read
+    /// Not read, and nodes or shells are missing without it, or lie where they should not.
+    void count_unread_geometry(std::string_view keyword) { count(unread_geometry_, keyword); }
+    void set_copies() { deck_.copies = true; }
     void count_other_elements(std::string_view type) { count(others_, type); } ///< no shell
 
     /// @throws InputError if a node is given twice at different places, or there is no shell
@@ -68,7 +79,7 @@ private:
     std::vector<double> thickness_; ///< per shell, or empty if none has its own
     std::unordered_map<std::int64_t, int> part_of_id_;
     std::map<std::string, int, std::less<>> part_of_name_;
-    std::map<std::string, int, std::less<>> skipped_, others_;
+    std::map<std::string, int, std::less<>> skipped_, others_, unread_geometry_;
     size_t first_node_ = 0, first_shell_ = 0;
 };
 

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t deepest = 20; ///< files that include files; LS-DYNA stops at 10
+constexpr size_t deepest = 20;        ///< files that include files; LS-DYNA stops at 10
+constexpr size_t most_files = 10'000; ///< a few that include each other more than once are soon without number
 
 fs::path unique_name(const fs::path& path)
 {
@@ -66,6 +67,20 @@ bool DeckLines::next()
     return true;
 }
 
+std::string_view DeckLines::bytes(size_t count)
+{
+    File& file = open_.back();
+    if (count > file.rest.size())
+        fail("the file is cut off");
+    const std::string_view taken = file.rest.substr(0, count);
+    file.rest.remove_prefix(count);
+    constexpr size_t between_checkpoints = size_t(1) << 20;
+    if (taken_ / between_checkpoints != (taken_ + count) / between_checkpoints)
+        checkpoint();
+    taken_ += count;
+    return taken;
+}
+
 void DeckLines::checkpoint() const
 {
     const double whole = double(content_.front()->size());
@@ -89,7 +104,7 @@ void DeckLines::add_folder(std::string_view name, bool relative)
     }
 }
 
-void DeckLines::include(std::string_view name)
+void DeckLines::include(std::string_view name, bool again)
 {
     if (name.empty() || name.find('\0') != name.npos)
         fail("an included file has no name");
@@ -109,11 +124,13 @@ void DeckLines::include(std::string_view name)
                     fail(fmt::format("the file {} includes itself", file.string()));
             if (fs::file_size(file, problem) == 0)
                 return;
-            if (seen_.contains(unique)) {
+            if (seen_.contains(unique) && !again) {
                 return note(fmt::format("the file {} is included more than once; it was taken once", name));
             }
             if (open_.size() >= deepest)
                 fail(fmt::format("files are included {} deep", deepest));
+            if (content_.size() >= most_files)
+                fail(fmt::format("more than {} files are included", most_files));
             try {
                 open(file, file_content(file));
             } catch (const InputError& error) {
@@ -161,6 +178,13 @@ double DeckLines::coordinate(std::string_view field) const
     const double value = number(field);
     if (!(std::abs(value) <= largest_coordinate))
         fail(fmt::format("the coordinate '{}' is not a usable number", trimmed(field).substr(0, 40)));
+    return value;
+}
+
+double DeckLines::checked_coordinate(double value) const
+{
+    if (!(std::abs(value) <= largest_coordinate))
+        fail(fmt::format("the coordinate {} is not a usable number", value));
     return value;
 }
 

@@ -55,11 +55,11 @@ void DynaParts::part(std::string_view line)
 
 void DynaParts::first_card()
 {
-    part_ = deck_.part(values_.whole(0));
+    part_ = deck_.part(values_.id(0, &DynaPlacement::part));
     deck_.at(part_).name = title_;
     if (!composite_) {
-        section_of_[part_] = values_.whole_or_zero(1);
-        deck_.at(part_).material_id = values_.whole_or_zero(2);
+        section_of_[part_] = values_.id(1, &DynaPlacement::section);
+        deck_.at(part_).material_id = values_.id(2, &DynaPlacement::material);
     }
     count_ = 2;
     more_ = cards_behind_ + (inertia_ ? 3 : 0);
@@ -73,7 +73,7 @@ void DynaParts::ply()
             DeckPart& composite = deck_.at(part_);
             composite.thickness = composite.thickness.value_or(0) + *t;
             if (!composite.material_id)
-                composite.material_id = values_.whole_or_zero(k);
+                composite.material_id = values_.id(k, &DynaPlacement::material);
         }
 }
 
@@ -95,7 +95,7 @@ void DynaParts::section(std::string_view line)
         if (trimmed(line).empty())
             return;
         values_.cut(line, {10, 10, 10, 10, 10, 10, 10, 10});
-        section_ = values_.whole(0);
+        section_ = values_.id(0, &DynaPlacement::section);
         const bool angles_follow = values_.whole_or_zero(6) == 1;
         constexpr std::int64_t usual_layers = 2; // where the card says none [LS-DYNA Keyword Manual, NIP]
         const std::int64_t layers = angles_follow ? values_.whole_or_zero(3) : 0;
@@ -137,7 +137,7 @@ void DynaParts::material(std::string_view line)
     }
     values_.cut(line, {10});
     if (const auto id = deck_whole(values_.fields()[0])) // newer decks may give a name instead
-        materials_[*id] = {keyword_, title_};
+        materials_[*id + values_.placement.material] = {keyword_, title_};
     count_ = -1;
 }
 

@@ -4,6 +4,12 @@
 
 namespace spia {
 
+DynaPlacement DynaPlacement::of_inner(const DynaPlacement& inner) const
+{
+    return {node + inner.node,       element + inner.element, part + inner.part,  material + inner.material,
+            section + inner.section, length * inner.length,   place * inner.place};
+}
+
 std::string_view DynaValues::meant(std::string_view field)
 {
     if (!DynaParameters::is_name(field))
@@ -21,9 +27,9 @@ std::optional<double> DynaValues::thickness(size_t i)
     if (field.empty())
         return 0;
     if (!DynaParameters::is_name(field))
-        return lines_.number(field);
+        return placement.length * lines_.number(field);
     const std::optional<std::string> value = parameters.find(field);
-    return value ? std::optional(lines_.number(*value)) : std::nullopt;
+    return value ? std::optional(placement.length * lines_.number(*value)) : std::nullopt;
 }
 
 } // namespace spia

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 namespace spia {
@@ -35,50 +36,60 @@ std::optional<Eigen::Vector3d> NastranSystems::in_space(std::int64_t id, const E
 
 const std::optional<NastranSystems::Frame>& NastranSystems::frame(std::int64_t id)
 {
-    // From the system down to one that is known, then up again: no recursion on what a file says.
-    std::vector<std::int64_t> chain;
-    for (std::int64_t next = id; next != 0 && !frame_.contains(next); next = system_.at(next).reference) {
-        chain.push_back(next);
-        if (!system_.contains(next)) {
-            frame_[next] = std::nullopt;
-            break;
-        }
-        if (chain.size() > system_.size()) { // it refers to itself
-            for (const std::int64_t each : chain)
-                frame_[each] = std::nullopt;
-            break;
-        }
-    }
-    for (auto each = chain.rbegin(); each != chain.rend(); ++each) {
-        if (frame_.contains(*each))
+    // Down to systems that are known, then up again: no recursion on what a file says.
+    std::vector<std::int64_t> open = {id};
+    std::set<std::int64_t> under_way;
+    while (!open.empty()) {
+        const std::int64_t here = open.back();
+        if (frame_.contains(here)) {
+            open.pop_back();
             continue;
-        const System& system = system_.at(*each);
-        std::optional<Frame>& result = frame_[*each] = std::nullopt;
-        Eigen::Matrix3d points;
-        bool placed = true;
-        for (int k = 0; k < 3; ++k) {
-            const std::optional<Frame>* outer = system.reference ? &frame_.at(system.reference) : nullptr;
-            placed = placed && (!outer || *outer);
-            if (placed)
-                points.col(k) = outer
-                                    ? Eigen::Vector3d((*outer)->origin +
-                                                      (*outer)->axes * along_axes((*outer)->kind, system.points.col(k)))
-                                    : Eigen::Vector3d(system.points.col(k));
         }
-        if (!placed)
+        const auto system = system_.find(here);
+        if (system == system_.end()) {
+            frame_[here] = std::nullopt;
             continue;
-        const Eigen::Vector3d third = points.col(1) - points.col(0), side = points.col(2) - points.col(0);
-        const Eigen::Vector3d second = third.cross(side);
-        constexpr double in_line = 1e-10; // sine of the angle between them
-        if (!(second.norm() > in_line * third.norm() * side.norm()))
-            continue;
-        Eigen::Matrix3d axes;
-        axes.col(2) = third.normalized();
-        axes.col(1) = second.normalized();
-        axes.col(0) = axes.col(1).cross(axes.col(2));
-        result = Frame{system.kind, points.col(0), axes};
+        }
+        const bool again = !under_way.insert(here).second;
+        bool waits = false;
+        for (const std::int64_t reference : system->second.reference)
+            if (reference != 0 && !frame_.contains(reference)) {
+                waits = true;
+                if (under_way.contains(reference)) // it refers to itself
+                    frame_[reference] = std::nullopt;
+                else
+                    open.push_back(reference);
+            }
+        if (!waits || (again && open.back() == here))
+            frame_[here] = frame_of(system->second);
     }
     return frame_.at(id);
+}
+
+std::optional<NastranSystems::Frame> NastranSystems::frame_of(const System& system) const
+{
+    Eigen::Matrix3d points;
+    for (int k = 0; k < 3; ++k) {
+        const std::int64_t reference = system.reference[size_t(k)];
+        if (reference == 0) {
+            points.col(k) = system.points.col(k);
+            continue;
+        }
+        const std::optional<Frame>& outer = frame_.at(reference);
+        if (!outer)
+            return std::nullopt;
+        points.col(k) = outer->origin + outer->axes * along_axes(outer->kind, system.points.col(k));
+    }
+    const Eigen::Vector3d third = points.col(1) - points.col(0), side = points.col(2) - points.col(0);
+    const Eigen::Vector3d second = third.cross(side);
+    constexpr double in_line = 1e-10; // sine of the angle between them
+    if (!(second.norm() > in_line * third.norm() * side.norm()))
+        return std::nullopt;
+    Eigen::Matrix3d axes;
+    axes.col(2) = third.normalized();
+    axes.col(1) = second.normalized();
+    axes.col(0) = axes.col(1).cross(axes.col(2));
+    return Frame{system.kind, points.col(0), axes};
 }
 
 } // namespace spia

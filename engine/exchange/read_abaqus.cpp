@@ -1,5 +1,8 @@
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
+#include <numbers>
 #include <set>
 
 #include "engine/exchange/abaqus_keyword.h"
@@ -13,10 +16,11 @@
 namespace spia {
 namespace {
 
-/// Nodes of a shell or membrane element by its type, the digit of "S4R", "STRI65", "M3D4"; 0: it is none.
+/// Nodes of a shell, membrane or plane element by its type, the digit of "S4R", "STRI65", "M3D4", "CPS3"; 0: it is none. Gmsh writes
+/// all surfaces as plane stress.
 int nodes_of(const std::string& type)
 {
-    for (const std::string_view start : {"STRI", "SFM3D", "M3D", "DS", "S"})
+    for (const std::string_view start : {"STRI", "SFM3D", "M3D", "CPEG", "CPE", "CPS", "DS", "S"})
         if (type.size() > start.size() && type.starts_with(start)) {
             const char digit = type[start.size()];
             return std::string_view("34689").find(digit) != std::string_view::npos ? digit - '0' : 0;
@@ -44,9 +48,11 @@ public:
             }
         }
         close_scope();
-        if (moved_ > 0)
-            deck_.note(fmt::format(
-                "{} instances are moved or turned in the assembly; their parts are taken as they were drawn", moved_));
+        if (moved_ > 0) {
+            const std::string text = fmt::format(
+                "{} instances are moved or turned in the assembly; their parts are taken as they were drawn", moved_);
+            instances_ > 1 ? deck_.doubt(text) : deck_.note(text); // one alone has the same blank anywhere
+        }
         if (middle_nodes_ > 0)
             deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
         return deck_.finish("Abaqus input", lines_);
@@ -87,35 +93,87 @@ private:
         else if (keyword.name == "PART" || keyword.name == "INSTANCE") {
             close_scope();
             scope_ = keyword["NAME"];
-            if (keyword.name == "INSTANCE")
+            system_ = Eigen::Affine3d::Identity();
+            if (keyword.name == "INSTANCE") {
+                ++instances_;
                 card_ = &AbaqusReader::placement;
+            }
         } else if (keyword.name == "END PART" || keyword.name == "END INSTANCE" || keyword.name == "ASSEMBLY")
             close_scope();
-        else if (keyword.name == "SYSTEM")
+        else if (keyword.name == "SYSTEM") {
+            system_points_.clear();
+            system_ = Eigen::Affine3d::Identity();
             card_ = &AbaqusReader::system;
+        } else if (makes_geometry(keyword.name))
+            deck_.count_unread_geometry("*" + keyword.name);
         else if (keyword.name != "HEADING")
             deck_.count_skipped("*" + keyword.name);
         if (card_ && keyword.has("INPUT"))
             lines_.include(keyword["INPUT"]);
     }
 
+    /// Whether nodes or elements come from it, or are moved by it.
+    static bool makes_geometry(const std::string& keyword)
+    {
+        static const std::set<std::string> known = {"NGEN",  "NFILL",  "NCOPY",  "NMAP",
+                                                    "ELGEN", "ELCOPY", "IMPORT", "SUBSTRUCTURE COPY"};
+        return known.contains(keyword);
+    }
+
     void begin_nodes(const AbaqusKeyword& keyword)
     {
-        if (const std::string system = upper_case(keyword["SYSTEM"]); !system.empty() && system != "R")
-            lines_.fail("nodes in cylindrical or spherical coordinates are not read; write them in rectangular ones");
+        const std::string system = upper_case(keyword["SYSTEM"]);
+        if (!system.empty() && system != "R" && system != "C")
+            lines_.fail("nodes in spherical coordinates are not read; write them in rectangular ones");
+        cylindrical_ = system == "C";
         card_ = &AbaqusReader::node;
     }
 
     void node()
     {
-        Eigen::Vector3d x = Eigen::Vector3d::Zero();
-        for (int k = 0; k < 3; ++k)
-            if (const std::string_view field = fields_[size_t(1 + k)]; !field.empty())
-                x[k] = lines_.coordinate(field);
-        deck_.add_node(lines_.whole(fields_[0]), x);
+        Eigen::Vector3d x = point(1);
+        if (cylindrical_) { // radius, degrees, height
+            const double angle = x.y() * std::numbers::pi / 180;
+            x = {x.x() * std::cos(angle), x.x() * std::sin(angle), x.z()};
+        }
+        deck_.add_node(lines_.whole(fields_[0]), system_ * x);
     }
 
-    void system() { lines_.fail("nodes in a coordinate system of their own (*SYSTEM) are not read"); }
+    Eigen::Vector3d point(size_t first) const
+    {
+        Eigen::Vector3d x = Eigen::Vector3d::Zero();
+        for (size_t k = 0; k < 3; ++k)
+            if (const std::string_view field = fields_[first + k]; !field.empty())
+                x[Eigen::Index(k)] = lines_.coordinate(field);
+        return x;
+    }
+
+    /// That of the nodes that follow: its origin, a point on its first axis and one in the plane of the first and second; without
+    /// the last its third axis stays that of the space, without both all do [Abaqus Keywords Reference, *SYSTEM].
+    void system()
+    {
+        system_points_.push_back(point(0));
+        if (!fields_[3].empty() || !fields_[4].empty() || !fields_[5].empty())
+            system_points_.push_back(point(3));
+        if (system_points_.size() > 3)
+            lines_.fail("*SYSTEM has more than three points");
+        system_ = Eigen::Translation3d(system_points_[0]);
+        if (system_points_.size() == 1)
+            return;
+        Eigen::Vector3d first = system_points_[1] - system_points_[0], third = Eigen::Vector3d::UnitZ();
+        if (system_points_.size() == 2)
+            first.z() = 0;
+        else
+            third = first.cross(system_points_[2] - system_points_[0]);
+        constexpr double on_a_line = 1e-12; // of the lengths
+        if (!(first.norm() > 0) || !(third.norm() > on_a_line * first.norm()))
+            lines_.fail("the points of *SYSTEM lie on a line");
+        first.normalize();
+        third.normalize();
+        Eigen::Matrix3d axes;
+        axes << first, third.cross(first), third;
+        system_.linear() = axes;
+    }
 
     void begin_elements(const AbaqusKeyword& keyword)
     {
@@ -305,12 +363,15 @@ private:
 
     DeckLines& lines_;
     DeckBuilder deck_;
+    Eigen::Affine3d system_ = Eigen::Affine3d::Identity(); // of the nodes that are read
+    std::vector<Eigen::Vector3d> system_points_;
+    bool cylindrical_ = false;
     DeckFields fields_;
     Card card_ = nullptr;
     std::string type_, element_set_, set_, scope_;
     size_t wanted_ = 0;
     std::vector<std::int64_t> numbers_; // of the element that is being read
-    int part_ = 0, moved_ = 0, middle_nodes_ = 0, lost_sections_ = 0;
+    int part_ = 0, instances_ = 0, moved_ = 0, middle_nodes_ = 0, lost_sections_ = 0;
     std::vector<int> first_part_; // per shell, before sections
     ElementSets sets_;
     std::vector<Section> sections_;

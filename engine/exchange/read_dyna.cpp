@@ -7,6 +7,7 @@
 #include "engine/exchange/deck_number.h"
 #include "engine/exchange/dyna_card.h"
 #include "engine/exchange/dyna_parts.h"
+#include "engine/exchange/dyna_transforms.h"
 #include "engine/exchange/dyna_values.h"
 #include "engine/exchange/read_deck.h"
 
@@ -17,7 +18,9 @@ namespace {
 
 class DynaReader {
 public:
-    explicit DynaReader(DeckLines& lines) : lines_(lines), values_(lines), parts_(values_, deck_) {}
+    explicit DynaReader(DeckLines& lines) : lines_(lines), values_(lines), parts_(values_, deck_), transforms_(values_)
+    {
+    }
 
     Deck read()
     {
@@ -28,12 +31,13 @@ public:
             }
             const std::string_view line = lines_.line();
             values_.format = top().format;
+            values_.placement = top().placement;
             if (line.starts_with('*'))
                 begin_block(line);
             else if (!line.starts_with('$') && top().card)
                 (this->*top().card)(line);
             while (int(file_.size()) < lines_.depth()) {
-                file_.push_back({.usual = child_format_, .format = child_format_});
+                file_.push_back({.usual = child_format_, .format = child_format_, .placement = child_placement_});
                 values_.parameters.enter_file();
             }
         }
@@ -48,15 +52,19 @@ private:
         Card card = nullptr;                                                    // null: lines are passed over
         std::string keyword = {};
         std::string text = {}; // the beginning of a file name
+        int cards = 0;         // of an *INCLUDE_TRANSFORM so far
+        DynaPlacement placement = {};
     };
     File& top() { return file_.back(); }
 
     void begin_block(std::string_view line)
     {
         require_whole_shell();
+        if (top().cards > 0)
+            lines_.fail("the cards of *INCLUDE_TRANSFORM before this are not complete");
         const DynaKeyword keyword(line, top().usual);
         File& file = top();
-        file = {.usual = file.usual, .format = keyword.format, .keyword = keyword.name};
+        file = {.usual = file.usual, .format = keyword.format, .keyword = keyword.name, .placement = file.placement};
         if (keyword.name == "KEYWORD") {
             file.usual = dyna_format(keyword.options, file.usual);
             end_missing_ = end_missing_ || lines_.depth() == 1;
@@ -80,6 +88,19 @@ private:
             rest.remove_prefix(end);
         }
         return true;
+    }
+
+    /// Whether nodes or shells come from it, or are moved by it, in ways that are not read.
+    static bool makes_geometry(const DynaKeyword& keyword)
+    {
+        const auto is_one_of = [&](std::initializer_list<const char*> names) {
+            return std::any_of(names.begin(), names.end(), [&](const char* name) { return keyword.is(name); });
+        };
+        // These hold results, the course of a compensation, or where material enters.
+        if (is_one_of({"INCLUDE_STAMPED", "INCLUDE_COMPENSATION", "INCLUDE_MULTISCALE", "ELEMENT_SHELL_SOURCE_SINK"}))
+            return false;
+        return is_one_of({"INCLUDE", "NODE_TRANSFORM", "NODE_MERGE", "ELEMENT_SHELL", "ELEMENT_GENERATE_SHELL",
+                          "PART_MOVE", "PART_DUPLICATE", "COMPONENT"});
     }
 
     /// What reads the cards of a block; null if it is not read.
@@ -106,12 +127,22 @@ private:
         }
         if (keyword.name == "INCLUDE")
             return &DynaReader::include;
+        if (keyword.name == "INCLUDE_TRANSFORM")
+            return &DynaReader::include_transform;
         if (keyword.is("INCLUDE_PATH"))
             return &DynaReader::folder;
+        if (keyword.is("DEFINE_TRANSFORMATION")) {
+            transforms_.begin(keyword);
+            return &DynaReader::transformation;
+        }
         if (keyword.name == "PARAMETER" || keyword.name == "PARAMETER_GLOBAL" || keyword.name == "PARAMETER_LOCAL")
             return &DynaReader::parameter;
         if (keyword.is("PARAMETER_EXPRESSION"))
             return &DynaReader::expression;
+        if (makes_geometry(keyword)) {
+            deck_.count_unread_geometry("*" + keyword.name);
+            return nullptr;
+        }
         if (keyword.is("ELEMENT"))
             return &DynaReader::other_element;
         if (keyword.name != "TITLE" && keyword.name != "COMMENT")
@@ -124,7 +155,8 @@ private:
         if (trimmed(line).empty())
             return;
         values_.cut(line, {8, 16, 16, 16});
-        deck_.add_node(values_.whole(0), {values_.coordinate(1), values_.coordinate(2), values_.coordinate(3)});
+        const Eigen::Vector3d x(values_.coordinate(1), values_.coordinate(2), values_.coordinate(3));
+        deck_.add_node(values_.id(0, &DynaPlacement::node), values_.placement.place * x);
     }
 
     void shell(std::string_view line)
@@ -138,9 +170,9 @@ private:
         if (trimmed(line).empty())
             return;
         values_.cut(line, {8, 8, 8, 8, 8, 8, 8, 8, 8, 8});
-        shell_ = {values_.whole(0), values_.whole(1), {}};
+        shell_ = {values_.id(0, &DynaPlacement::element), values_.id(1, &DynaPlacement::part), {}};
         for (size_t k = 0; k < 4; ++k)
-            shell_.corner[k] = values_.whole_or_zero(2 + k);
+            shell_.corner[k] = values_.id(2 + k, &DynaPlacement::node);
         const bool middle_nodes = values_.whole_or_zero(6) > 0;
         middle_nodes_ += middle_nodes;
         directed_ += not_written_back_;
@@ -176,19 +208,61 @@ private:
     void section(std::string_view line) { parts_.section(line); }
     void material(std::string_view line) { parts_.material(line); }
 
-    void include(std::string_view line)
+    /// @returns whether the name is complete
+    bool file_name(std::string_view line)
     {
         line = trimmed(line);
-        if (line.empty())
+        const bool goes_on = line.ends_with(" +");
+        top().text += goes_on ? trimmed(line.substr(0, line.size() - 2)) : line;
+        return !goes_on && !top().text.empty();
+    }
+    void include(std::string_view line)
+    {
+        if (!file_name(line))
             return;
-        if (line.ends_with(" +")) {
-            top().text += trimmed(line.substr(0, line.size() - 2));
+        child_format_ = top().format;
+        child_placement_ = top().placement;
+        lines_.include(std::exchange(top().text, {}));
+    }
+
+    /// Five cards, blank ones too: name, offsets, offset of all other ids, factors, number of the transformation.
+    void include_transform(std::string_view line)
+    {
+        int& card = top().cards;
+        if (card == 0) {
+            card = int(file_name(line));
             return;
         }
-        const std::string name = std::exchange(top().text, {}) + std::string(line);
-        child_format_ = top().format;
-        lines_.include(name);
+        values_.cut(line, {10, 10, 10, 10, 10, 10, 10, 10});
+        if (++card == 2)
+            inner_ = {.node = values_.whole_or_zero(0),
+                      .element = values_.whole_or_zero(1),
+                      .part = values_.whole_or_zero(2),
+                      .material = values_.whole_or_zero(3)};
+        else if (card == 3)
+            inner_.section = values_.whole_or_zero(0);
+        else if (card == 4) {
+            if (const double factor = values_.coordinate(2); factor != 0)
+                inner_.length = factor;
+        } else {
+            const std::string name = std::exchange(top().text, {});
+            card = 0;
+            inner_.place = Eigen::Scaling(inner_.length);
+            if (const std::int64_t id = values_.whole_or_zero(0); id != 0) {
+                const auto transform = transforms_.find(id);
+                if (!transform)
+                    deck_.doubt(fmt::format("{} is not moved: its *DEFINE_TRANSFORMATION {} is not there or not read",
+                                            name, id));
+                inner_.place = transform.value_or(Eigen::Affine3d::Identity()) * inner_.place;
+            }
+            child_format_ = top().format;
+            child_placement_ = top().placement.of_inner(inner_);
+            deck_.set_copies();
+            lines_.include(name, true);
+        }
     }
+    void transformation(std::string_view line) { transforms_.card(line); }
+
     void folder(std::string_view line)
     {
         if (!trimmed(line).empty())
@@ -238,8 +312,10 @@ private:
     DynaValues values_;
     DeckBuilder deck_;
     DynaParts parts_;
+    DynaTransforms transforms_;
     std::vector<File> file_ = {File()}; // those that are open
     DynaFormat child_format_ = DynaFormat::standard;
+    DynaPlacement child_placement_, inner_;
     Shell shell_ = {};
     bool with_thickness_ = false, thickness_next_ = false, not_written_back_ = false;
     bool end_missing_ = false; // of a deck that says where it begins

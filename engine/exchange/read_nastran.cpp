@@ -7,7 +7,7 @@
 #include "engine/exchange/nastran_systems.h"
 #include "engine/exchange/read_deck.h"
 
-// Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD2R, CTRIA3, CQUAD4, PSHELL).
+// Entry layouts: Quick Reference Guide of MSC and NX Nastran (GRID, GRDSET, CORD1R, CORD2R, CTRIA3, CQUAD4, PSHELL).
 namespace spia {
 namespace {
 
@@ -36,6 +36,11 @@ public:
     }
 
 private:
+    struct Node {
+        std::int64_t id, system; ///< system -1: as GRDSET says
+        Eigen::Vector3d coordinates;
+    };
+
     void take()
     {
         const std::string& name = entry_.name();
@@ -53,6 +58,8 @@ private:
             usual_system_ = lines_.whole_or_zero(entry_[1]);
         else if (name == "CORD2R" || name == "CORD2C" || name == "CORD2S")
             system(name.back());
+        else if (name == "CORD1R" || name == "CORD1C" || name == "CORD1S")
+            systems_by_nodes(name.back());
         else if (name.starts_with("MAT") && name.size() > 3 && name[3] >= '0' && name[3] <= '9') // MATS1 adds to MAT1
             material_[lines_.whole_or_zero(entry_[0])] = name;
         else if (is_solid_or_bar(name))
@@ -156,25 +163,71 @@ private:
             part.thickness = same_letters(entry_[7], "SYM") ? 2 * sum : sum;
     }
 
-    void system(char kind)
+    static NastranSystems::Kind kind_of(char letter)
+    {
+        return letter == 'R'   ? NastranSystems::Kind::rectangular
+               : letter == 'C' ? NastranSystems::Kind::cylindrical
+                               : NastranSystems::Kind::spherical;
+    }
+
+    void system(char letter)
     {
         entry_.require_whole();
-        NastranSystems::System system{kind == 'R'   ? NastranSystems::Kind::rectangular
-                                      : kind == 'C' ? NastranSystems::Kind::cylindrical
-                                                    : NastranSystems::Kind::spherical,
-                                      lines_.whole_or_zero(entry_[1]), Eigen::Matrix3d::Zero()};
+        const std::int64_t reference = lines_.whole_or_zero(entry_[1]);
+        NastranSystems::System system{kind_of(letter), {reference, reference, reference}, Eigen::Matrix3d::Zero()};
         for (int k = 0; k < 9; ++k)
             if (const std::string_view x = entry_[size_t(2 + k)]; !x.empty())
                 system.points(k % 3, k / 3) = lines_.coordinate(x);
         systems_.add(lines_.whole(entry_[0]), system);
     }
 
+    /// One entry has up to two of them, each of four fields.
+    void systems_by_nodes(char letter)
+    {
+        entry_.require_whole();
+        for (const size_t at : {size_t(0), size_t(4)})
+            if (!entry_[at].empty())
+                by_nodes_.push_back(
+                    {lines_.whole(entry_[at]),
+                     kind_of(letter),
+                     {lines_.whole(entry_[at + 1]), lines_.whole(entry_[at + 2]), lines_.whole(entry_[at + 3])}});
+    }
+
+    /// Nodes may stand behind the systems that they make.
+    void add_systems_by_nodes()
+    {
+        std::map<std::int64_t, const Node*> node;
+        for (const SystemByNodes& system : by_nodes_)
+            for (const std::int64_t id : system.node)
+                node[id] = nullptr;
+        for (const Node& each : nodes_)
+            if (const auto wanted = node.find(each.id); wanted != node.end())
+                wanted->second = &each;
+        for (const SystemByNodes& each : by_nodes_) {
+            NastranSystems::System system{each.kind, {}, Eigen::Matrix3d::Zero()};
+            bool whole = true;
+            for (size_t k = 0; k < 3; ++k) {
+                const Node* const at = node.at(each.node[k]);
+                whole &= at != nullptr;
+                if (!at)
+                    continue;
+                system.reference[k] = system_of(*at);
+                system.points.col(Eigen::Index(k)) = at->coordinates;
+            }
+            if (whole)
+                systems_.add(each.id, system);
+        }
+    }
+
+    std::int64_t system_of(const Node& node) const { return node.system < 0 ? usual_system_ : node.system; }
+
     void place_nodes()
     {
+        add_systems_by_nodes();
         int unplaced = 0;
         std::int64_t first = 0, in_system = 0;
         for (const Node& node : nodes_) {
-            const std::int64_t system = node.system < 0 ? usual_system_ : node.system;
+            const std::int64_t system = system_of(node);
             if (const auto place = systems_.in_space(system, node.coordinates))
                 deck_.add_node(node.id, *place);
             else if (unplaced++ == 0) {
@@ -183,10 +236,10 @@ private:
             }
         }
         if (unplaced > 0)
-            deck_.note(
-                fmt::format("{} nodes are left out, for their coordinate systems are not given by CORD2R, CORD2C or "
-                            "CORD2S (first: node {} in system {})",
-                            unplaced, first, in_system));
+            deck_.doubt(fmt::format(
+                "{} nodes are left out, for their coordinate systems are not given by CORD1R, CORD1C, CORD1S, "
+                "CORD2R, CORD2C or CORD2S (first: node {} in system {})",
+                unplaced, first, in_system));
         if (middle_nodes_ > 0)
             deck_.note(fmt::format("{} shells have nodes on their edges; their corners are taken", middle_nodes_));
     }
@@ -207,10 +260,12 @@ private:
         bool relative;
         std::array<std::optional<double>, 4> corner;
     };
-    struct Node {
-        std::int64_t id, system; ///< system -1: as GRDSET says
-        Eigen::Vector3d coordinates;
+    struct SystemByNodes {
+        std::int64_t id;
+        NastranSystems::Kind kind;
+        std::array<std::int64_t, 3> node; ///< origin, on the third axis, in the plane of the first and third
     };
+    std::vector<SystemByNodes> by_nodes_;
     DeckLines& lines_;
     NastranEntries entry_;
     DeckBuilder deck_;

@@ -39,6 +39,7 @@ DeckOrigin origin_of(const Deck& deck, const DeckChoice& choice)
     origin.last_element = *std::max_element(deck.element.begin(), deck.element.end());
     origin.parts = deck.parts;
     origin.unit_stated = deck.unit.has_value();
+    origin.copies = deck.copies;
     for (const DeckSet& set : deck.sets)
         origin.sets.push_back(set.name);
     return origin;
@@ -189,7 +190,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     PartFile part;
     if (is_deck("." + extension)) {
         const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
-        fill(part, soup, options, false, false, progress.part(0.5, 1));
+        fill(part, soup, options, part.deck->copies, false, progress.part(0.5, 1));
         return part;
     }
     if (is_cad("." + extension)) {

@@ -48,6 +48,7 @@ struct DeckOrigin {
     std::vector<DeckPart> parts;                  ///< all of the deck; thicknesses in its unit
     std::vector<std::string> sets;                ///< names of element sets that can be chosen as well
     bool unit_stated = false;                     ///< the deck says its unit of length
+    bool copies = false;                          ///< as of Deck
 };
 
 /// What a part from a CAD file comes from. Its "faces of the file" are triangles, made from the CAD faces in their order.

@@ -6,6 +6,7 @@
 #include "engine/exchange/deck_builder.h"
 #include "engine/exchange/deck_fields.h"
 #include "engine/exchange/deck_number.h"
+#include "engine/exchange/radioss_transforms.h"
 #include "engine/exchange/read_deck.h"
 
 // Layouts: Radioss block format, starter input (/BEGIN, /NODE, /SHELL, /SH3N, /PART, /PROP/TYPE1, /MAT), columns of ten and twenty.
@@ -14,7 +15,7 @@ namespace {
 
 class RadiossReader {
 public:
-    explicit RadiossReader(DeckLines& lines) : lines_(lines) {}
+    explicit RadiossReader(DeckLines& lines) : lines_(lines), transforms_(lines, deck_) {}
 
     Deck read()
     {
@@ -31,6 +32,7 @@ public:
                 ++count_;
             }
         }
+        transforms_.apply();
         for (const auto& [part, property] : property_of_)
             if (const auto found = thickness_.find(property); found != thickness_.end() && found->second != 0)
                 deck_.at(part).thickness = found->second;
@@ -85,7 +87,17 @@ private:
         else if (is_other_element(name)) {
             other_ = "/" + name;
             card_ = &RadiossReader::other_element;
-        } else if (name != "TITLE")
+        } else if (name == "GRNOD") {
+            if (!word[2].empty() && transforms_.begin_group(upper_case(word[1]), lines_.whole(word[2])))
+                card_ = &RadiossReader::group;
+        } else if (name == "TRANSFORM") {
+            if (transforms_.begin_transform(upper_case(word[1]), !word[3].empty() && lines_.whole(word[3]) != 0))
+                card_ = &RadiossReader::transform;
+            else
+                deck_.count_unread_geometry("/TRANSFORM/" + upper_case(word[1]));
+        } else if (name == "/SUBMODEL" || name == "SUBMODEL")
+            deck_.count_unread_geometry(name == "SUBMODEL" ? "/SUBMODEL" : "//SUBMODEL");
+        else if (name != "TITLE")
             deck_.count_skipped("/" + name);
     }
 
@@ -190,10 +202,14 @@ private:
             material_[id_] = trimmed(line);
     }
 
+    void group(std::string_view line) { transforms_.group(line, count_); }
+    void transform(std::string_view line) { transforms_.transform(line, count_); }
+
     void other_element(std::string_view) { deck_.count_other_elements(other_ + " lines"); }
 
     DeckLines& lines_;
     DeckBuilder deck_;
+    RadiossTransforms transforms_;
     DeckFields fields_;
     Card card_ = nullptr;
     int count_ = 0; // lines of this block so far

@@ -217,8 +217,9 @@ TEST(AbaqusDeck, IsRefusedWithItsLineWhereItIsWrong)
         EXPECT_NE(refusal("a.inp", text).find(words), std::string::npos) << words << "\nin: " << refusal("a.inp", text);
     };
     expect("*NODE\n1,0,y,0\n", "line 2: 'y' is not a number");
-    expect("*NODE, SYSTEM=C\n1,1,90,0\n", "line 1: nodes in cylindrical");
-    expect("*SYSTEM\n1,0,0\n", "line 2: nodes in a coordinate system");
+    expect("*NODE, SYSTEM=S\n1,1,90,0\n", "line 1: nodes in spherical");
+    expect("*SYSTEM\n1,0,0,2,0,0\n3,0,0\n", "line 3: the points of *SYSTEM lie on a line");
+    expect("*SYSTEM\n1,0,0,1,0,5\n", "line 2: the points of *SYSTEM lie on a line");
     expect("*ELEMENT\n1,1,2,3\n", "does not say which TYPE");
     expect(nodes + "*ELEMENT, TYPE=S4\n1,1,2,3\n*NODE\n", "element 1 of type S4 has 4 nodes, not 3");
     expect(nodes + "*ELEMENT, TYPE=S3\n1,1,2,3,4\n", "line 11: an element of type S3 has 3 nodes, not 4");
@@ -231,4 +232,24 @@ TEST(AbaqusDeck, IsRefusedWithItsLineWhereItIsWrong)
 }
 
 } // namespace
+TEST(AbaqusDeck, NodesStandInTheSystemBeforeThem)
+{
+    const auto third = [](const std::string& system, const std::string& nodes = "*NODE\n") {
+        const Deck deck = read("*NODE\n1,0,0,0\n2,1,0,0\n" + system + nodes +
+                               "3,2,30,5\n*SYSTEM\n*NODE\n4,7,8,9\n*ELEMENT,TYPE=S4\n1,1,2,3,4\n");
+        EXPECT_EQ(deck.position.at(3), Eigen::Vector3d(7, 8, 9)) << "*SYSTEM alone ends it";
+        return deck.position.at(2);
+    };
+    const auto expect = [](const Eigen::Vector3d& x, const Eigen::Vector3d& expected) {
+        EXPECT_LT((x - expected).norm(), 1e-12) << x.transpose();
+    };
+    expect(third(""), {2, 30, 5});
+    expect(third("*SYSTEM\n10,20,30\n"), {12, 50, 35});
+    expect(third("*SYSTEM\n10,20,30,\n"), {12, 50, 35});
+    expect(third("*SYSTEM\n10,20,30,10,21,39\n"), {10 - 30, 20 + 2, 30 + 5}); // the first axis seen from above is y
+    expect(third("*SYSTEM\n10,20,30,10,20,31\n10,21,30\n"), {10 - 5, 20 + 30, 30 + 2});
+    expect(third("", "*NODE, SYSTEM=C\n"), {std::sqrt(3), 1, 5});
+    expect(third("*SYSTEM\n0,0,0,0,1,0\n", "*NODE, SYSTEM=C\n"), {-1, std::sqrt(3), 5});
+}
+
 } // namespace spia

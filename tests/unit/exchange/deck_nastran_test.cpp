@@ -149,7 +149,8 @@ TEST(NastranDeck, NodesInOtherSystemsArePlaced)
 TEST(NastranDeck, NodesWhoseSystemIsNotThereAreLeftOut)
 {
     for (const std::string system :
-         {"", "CORD1R,1,1,2,3\n", "CORD2R,1,1,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n",
+         {"", "CORD1R,1,1,2,2\n", "CORD1R,1,1,2,99\n", "CORD1R,1,1,2,5\n",
+          "CORD2R,1,1,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n",
           "CORD2R,1,2,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\nCORD2R,2,1,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n",
           "CORD2R,1,,0.,0.,0.,0.,0.,1.,+\n+,0.,0.,2.\n", "CORD2R,1,9,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n"}) {
         const Deck deck = read(square + "GRID,5,1,9.,9.,9.\nCTRIA3,2,8,1,2,5\n" + system);
