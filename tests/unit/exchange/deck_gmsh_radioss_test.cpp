@@ -48,10 +48,10 @@ TEST(GmshDeck, IsRefusedWithItsLineWhereItIsWrong)
     const auto expect = [](const std::string& text, const std::string& words) {
         EXPECT_NE(refusal("a.msh", text).find(words), std::string::npos) << words << "\nin: " << refusal("a.msh", text);
     };
-    expect("$MeshFormat\n2.2 1 8\n\x01\x00\x00\x00", "line 2: this is a binary mesh");
-    expect("$MeshFormat\n1 0 8\n", "version 1 of the format is not read");
+    expect("$MeshFormat\n4 1 8\n\x01", "line 2: binary meshes of version 4.0 are not read");
+    expect("$MeshFormat\n1 0 8\n", "version 1 of the format is not read, but 2, 4 and 4.1 and, with $NOD, 1");
     expect("$MeshFormat\n4.2 0 8\n", "version 4.2 of the format is not read");
-    expect("(0 \"a mesh of another program\")\n", "this is no mesh of Gmsh");
+    expect("(0 \"a mesh of another program\")\n", "this is no mesh of Gmsh: there is neither $MeshFormat nor $NOD");
     expect(nodes, "$MeshFormat must come first");
     expect(head + "$Nodes\n9000000000000000000\n1 0 0 0\n", "the file ends in the middle of a section");
     expect(head + "$Nodes\n5\n1 0 0 0\n$EndNodes\n", "line 7: the section is shorter than it says");
