@@ -197,18 +197,23 @@ void require_room(const Header& header)
                         least, header.body.size()));
 }
 
-const Element& only(const Header& header, std::string_view name)
+/// The only element of that name; null: there is none.
+const Element* only(const Header& header, std::string_view name)
 {
     const auto is = [&](const Element& e) { return e.name == name; };
-    if (std::count_if(header.elements.begin(), header.elements.end(), is) != 1)
-        throw InputError(
-            fmt::format("the file must have exactly one element '{}'; save the mesh with vertices and faces (strips "
-                        "are not read)",
-                        name));
-    return *std::find_if(header.elements.begin(), header.elements.end(), is);
+    const auto count = std::count_if(header.elements.begin(), header.elements.end(), is);
+    if (count > 1)
+        throw InputError(fmt::format("the file has {} elements '{}', where one is read", count, name));
+    return count == 0 ? nullptr : &*std::find_if(header.elements.begin(), header.elements.end(), is);
 }
 
-void read_vertex(Values& values, const Element& element, int i, CheckedFile& result)
+bool is_corners(const Property& property)
+{
+    return property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+void read_vertex(Values& values, const Element& element, int i, std::vector<Eigen::Vector3d>& position,
+                 std::string& content)
 {
     Eigen::Vector3d p = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     for (const Property& property : element.properties) {
@@ -223,25 +228,69 @@ void read_vertex(Values& values, const Element& element, int i, CheckedFile& res
     }
     if (!(p.cwiseAbs().maxCoeff() <= largest_coordinate) || !p.allFinite())
         throw InputError(fmt::format("vertex {} has no usable x, y, z: {}, {}, {}", i, p.x(), p.y(), p.z()));
-    result.position.push_back(p);
+    position.push_back(p);
     for (int k = 0; k < 3; ++k)
-        append(result.content, float(p[k]));
+        append(content, float(p[k]));
 }
 
-void read_face(Values& values, const Element& element, int i, int vertices, CheckedFile& result)
+/// Polygons as OpenMesh reads them.
+struct Polygons {
+    int vertices = 0; ///< that there are
+    int count = 0;
+    std::string content;
+
+    void add(const std::vector<int>& corners)
+    {
+        if (++count > most_elements)
+            throw InputError(fmt::format("the file has more than {} faces", most_elements));
+        append(content, int32_t(corners.size()));
+        for (const int corner : corners)
+            append(content, int32_t(corner));
+    }
+};
+
+void read_face(Values& values, const Element& element, int i, Polygons& polygons)
 {
     for (const Property& property : element.properties) {
         const double value = values.next(property.list ? property.length_type : property.type);
         if (!property.list)
             continue;
         const int length = whole(value, most_elements, element, i);
-        const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
-        if (corners)
-            append(result.content, int32_t(length));
+        std::vector<int> corners;
         for (int k = 0; k < length; ++k) {
             const double entry = values.next(property.type);
-            if (corners)
-                append(result.content, int32_t(whole(entry, vertices, element, i)));
+            if (is_corners(property))
+                corners.push_back(whole(entry, polygons.vertices, element, i));
+        }
+        if (is_corners(property))
+            polygons.add(corners);
+    }
+}
+
+/// Strips of triangles in one list, each ended by -1: every second triangle runs through its corners the other way about. A corner
+/// that is repeated only joins strips. [Turk, The PLY Polygon File Format, 1994; vtkPLYReader]
+void read_strips(Values& values, const Element& element, int i, Polygons& polygons)
+{
+    for (const Property& property : element.properties) {
+        const double value = values.next(property.list ? property.length_type : property.type);
+        if (!property.list)
+            continue;
+        const int length = whole(value, most_elements, element, i);
+        std::array<int, 2> last{};
+        int there = 0; // corners of the strip so far
+        for (int k = 0; k < length; ++k) {
+            const double entry = values.next(property.type);
+            if (!is_corners(property))
+                continue;
+            if (entry == -1) {
+                there = 0;
+                continue;
+            }
+            const int corner = whole(entry, polygons.vertices, element, i);
+            if (there >= 2 && corner != last[0] && corner != last[1] && last[0] != last[1])
+                polygons.add({last[size_t(there % 2)], last[size_t(1 - there % 2)], corner});
+            last = {last[1], corner};
+            ++there;
         }
     }
 }
@@ -252,40 +301,50 @@ CheckedFile check_ply(std::string_view file)
 {
     const Header header = read_header(file);
     require_room(header);
-    const Element &vertex = only(header, "vertex"), &face = only(header, "face");
-    const auto lists = std::count_if(face.properties.begin(), face.properties.end(), [](const Property& p) {
-        return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
-    });
-    if (lists != 1)
-        throw InputError("the faces must have one list 'vertex_indices'");
-    if (&vertex > &face)
-        throw InputError("the faces stand before the vertices; save the mesh anew");
+    const Element *vertex = only(header, "vertex"), *face = only(header, "face"), *strips = only(header, "tristrips");
+    if (!vertex || (!face && !strips))
+        throw InputError("the file must have the elements 'vertex' and 'face' or 'tristrips'; save it as a mesh");
+    for (const Element* shape : {face, strips}) {
+        if (!shape)
+            continue;
+        if (std::count_if(shape->properties.begin(), shape->properties.end(), is_corners) != 1)
+            throw InputError(fmt::format("the element '{}' must have one list 'vertex_indices'", shape->name));
+        if (vertex > shape)
+            throw InputError("the faces stand before the vertices; save the mesh anew");
+    }
     for (const Element& element : header.elements)
         if (element.properties.empty() && element.count > 0)
             throw InputError(fmt::format("the element '{}' has no properties", element.name.substr(0, 40)));
 
     CheckedFile result{
         .format = header.encoding == Header::text ? "PLY (text)" : "PLY (binary)", .extension = "ply", .binary = true};
-    result.faces = face.count;
     result.content =
         fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-                    "property float z\nelement face {}\nproperty list int int vertex_indices\nend_header\n",
-                    vertex.count, face.count);
+                    "property float z\nelement face ",
+                    vertex->count);
+    std::string positions;
+    Polygons polygons{.vertices = vertex->count, .content = {}};
     Values values(header);
+    const Element* const last = std::max(face, strips); // nothing behind it is of interest
     for (const Element& element : header.elements) {
         for (int i = 0; i < element.count; ++i)
-            if (&element == &vertex)
-                read_vertex(values, element, i, result);
-            else if (&element == &face)
-                read_face(values, element, i, vertex.count, result);
+            if (&element == vertex)
+                read_vertex(values, element, i, result.position, positions);
+            else if (&element == face)
+                read_face(values, element, i, polygons);
+            else if (&element == strips)
+                read_strips(values, element, i, polygons);
             else
                 for (const Property& p : element.properties)
                     for (int rest = p.list ? whole(values.next(p.length_type), most_elements, element, i) : 1; rest > 0;
                          --rest)
                         values.next(p.type);
-        if (&element == &face)
-            break; // nothing behind the faces is of interest
+        if (&element == last)
+            break;
     }
+    result.faces = polygons.count;
+    result.content += fmt::format("{}\nproperty list int int vertex_indices\nend_header\n", polygons.count) +
+                      positions + polygons.content;
     return result;
 }
 

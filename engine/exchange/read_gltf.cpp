@@ -17,9 +17,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "engine/core/error.h"
 #include "engine/exchange/checked_file.h"
+#include "engine/exchange/gltf_compression.h"
 
 namespace spia {
 namespace {
@@ -82,14 +84,12 @@ void require_shallow(std::string_view text)
     }
 }
 
-void require_plain_geometry(const json& scene)
+void require_known_extensions(const json& scene)
 {
     for (const json& extension : scene.value("extensionsRequired", json::array())) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-        if (name.find("draco") != name.npos || name.find("meshopt") != name.npos)
-            throw InputError(
-                fmt::format("the mesh is compressed ({}); save it without compression", name.substr(0, 60)));
-        const bool harmless = name == "KHR_mesh_quantization" || name.rfind("KHR_materials", 0) == 0 ||
+        const bool harmless = name == "KHR_mesh_quantization" || name == "EXT_meshopt_compression" ||
+                              name == "KHR_draco_mesh_compression" || name.rfind("KHR_materials", 0) == 0 ||
                               name.rfind("KHR_texture", 0) == 0 || name.rfind("KHR_lights", 0) == 0 ||
                               name.rfind("EXT_texture", 0) == 0;
         if (!harmless)
@@ -98,16 +98,11 @@ void require_plain_geometry(const json& scene)
     }
 }
 
-/// Drops everything but geometry, and notes compression that is left.
+/// Drops everything but geometry.
 void keep_geometry(json& value)
 {
     if (value.is_object()) {
-        if (const auto extensions = value.find("extensions"); extensions != value.end()) {
-            if (extensions->is_object() &&
-                (extensions->contains("KHR_draco_mesh_compression") || extensions->contains("EXT_meshopt_compression")))
-                throw InputError("the mesh is compressed; save it without compression");
-            value.erase(extensions);
-        }
+        value.erase("extensions");
         value.erase("extras");
     }
     if (value.is_structured())
@@ -116,17 +111,18 @@ void keep_geometry(json& value)
 }
 
 /// The scene as tinygltf gets it.
-json geometry_of(const Parts& parts)
+json geometry_of(const Parts& parts, GltfCompression& compression)
 {
     require_shallow(parts.json);
     json scene = json::parse(parts.json, nullptr, false);
     if (!scene.is_object())
         throw InputError("the glTF file is cut off or damaged: its JSON does not end well");
-    require_plain_geometry(scene);
+    require_known_extensions(scene);
     json kept = json::object();
     for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"})
         if (scene.contains(key))
             kept[key] = std::move(scene[key]);
+    compression = take_compression(kept);
     keep_geometry(kept);
     if (kept.contains("buffers")) {
         const auto& buffers = kept["buffers"];
@@ -201,9 +197,9 @@ std::string pack(const json& scene, std::string_view binary)
     return file;
 }
 
-tinygltf::Model run_tinygltf(const fs::path& path, const Parts& parts)
+tinygltf::Model run_tinygltf(const fs::path& path, const Parts& parts, GltfCompression& compression)
 {
-    const std::string packed = pack(geometry_of(parts), parts.binary);
+    const std::string packed = pack(geometry_of(parts, compression), parts.binary);
     if (packed.size() > std::numeric_limits<uint32_t>::max())
         throw InputError("the file is too large");
     std::error_code problem;
@@ -235,48 +231,66 @@ template <class T> const T& at(const std::vector<T>& list, int i, const char* wh
     return list[size_t(i)];
 }
 
-/// The bytes of an accessor, checked to lie inside their buffer.
-class Elements {
+/// Bytes of a buffer. @throws InputError if they do not lie in it
+std::span<const unsigned char> bytes_of(const tinygltf::Model& model, int buffer, size_t offset, size_t length)
+{
+    const auto& data = at(model.buffers, buffer, "buffer").data;
+    if (offset > data.size() || length > data.size() - offset)
+        throw InputError(fmt::format("the glTF file has {} bytes in a buffer where {} from {} on are meant; it is cut "
+                                     "off or damaged",
+                                     data.size(), length, offset));
+    return {data.data() + offset, length};
+}
+
+/// Puts what compressed buffer views hold into buffers of their own.
+void decode_views(tinygltf::Model& model, const GltfCompression& compression)
+{
+    size_t left = size_t(2) << 30; // bytes, of all together
+    for (const auto& [v, compressed] : compression.views) {
+        if (size_t(v) >= model.bufferViews.size() || compressed.count * compressed.stride > left)
+            throw InputError("the compressed mesh is too large, or damaged");
+        left -= compressed.count * compressed.stride;
+        tinygltf::Buffer buffer;
+        buffer.data = decoded(compressed, bytes_of(model, compressed.buffer, compressed.offset, compressed.length));
+        auto& view = model.bufferViews[size_t(v)];
+        view.buffer = int(model.buffers.size());
+        view.byteOffset = 0;
+        view.byteLength = buffer.data.size();
+        view.byteStride = compressed.mode == "ATTRIBUTES" ? compressed.stride : 0;
+        model.buffers.push_back(std::move(buffer));
+    }
+}
+
+/// Elements in a row, checked to lie inside their buffer.
+class Row {
 public:
-    Elements(const tinygltf::Model& model, int index) : accessor_(at(model.accessors, index, "accessor"))
+    /// @param index  of the accessor, for messages
+    Row(const tinygltf::Model& model, int index, int buffer_view, size_t offset, size_t count, int component_type,
+        int components, bool normalized)
+        : component_type_(component_type), normalized_(normalized)
     {
-        if (accessor_.sparse.isSparse)
-            throw InputError(
-                fmt::format("accessor {} is sparse, which is not read; save the mesh with plain accessors", index));
-        const auto& view = at(model.bufferViews, accessor_.bufferView, "buffer view");
+        const auto& view = at(model.bufferViews, buffer_view, "buffer view");
         const auto& buffer = at(model.buffers, view.buffer, "buffer");
-        component_bytes_ = size_t(std::max(0, tinygltf::GetComponentSizeInBytes(uint32_t(accessor_.componentType))));
-        const size_t element =
-            component_bytes_ * size_t(std::max(0, tinygltf::GetNumComponentsInType(uint32_t(accessor_.type))));
+        component_bytes_ = size_t(std::max(0, tinygltf::GetComponentSizeInBytes(uint32_t(component_type))));
+        const size_t element = component_bytes_ * size_t(std::max(0, components)), size = buffer.data.size();
         stride_ = view.byteStride > 0 ? view.byteStride : element;
-        const size_t size = buffer.data.size();
         // Each step is a division or subtraction of what is already known to fit: nothing can overflow.
-        const bool fits = element > 0 && accessor_.count > 0 && accessor_.count <= size_t(most_elements) &&
-                          view.byteOffset <= size && view.byteLength <= size - view.byteOffset &&
-                          accessor_.byteOffset <= view.byteLength &&
-                          element <= view.byteLength - accessor_.byteOffset &&
-                          (accessor_.count - 1) <= (view.byteLength - accessor_.byteOffset - element) / stride_;
+        const bool fits = element > 0 && count > 0 && count <= size_t(most_elements) && view.byteOffset <= size &&
+                          view.byteLength <= size - view.byteOffset && offset <= view.byteLength &&
+                          element <= view.byteLength - offset &&
+                          count - 1 <= (view.byteLength - offset - element) / stride_;
         if (!fits)
             throw InputError(
                 fmt::format("accessor {} ({} elements) is empty or does not fit into its buffer of {} bytes; the file "
                             "is cut off or damaged",
-                            index, accessor_.count, size));
-        bytes_ = buffer.data.data() + view.byteOffset + accessor_.byteOffset;
-    }
-
-    int count() const { return int(accessor_.count); }
-    int type() const { return accessor_.type; }
-    bool whole_numbers() const
-    {
-        const int c = accessor_.componentType;
-        return c == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || c == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-               c == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+                            index, count, size));
+        bytes_ = buffer.data.data() + view.byteOffset + offset;
     }
 
     double value(int i, int component) const
     {
         const unsigned char* from = bytes_ + size_t(i) * stride_ + size_t(component) * component_bytes_;
-        switch (accessor_.componentType) {
+        switch (component_type_) {
         case TINYGLTF_COMPONENT_TYPE_BYTE: return scaled<int8_t>(from);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return scaled<uint8_t>(from);
         case TINYGLTF_COMPONENT_TYPE_SHORT: return scaled<int16_t>(from);
@@ -299,12 +313,82 @@ private:
     template <class T> double scaled(const unsigned char* from) const // KHR_mesh_quantization
     {
         const double value = load<T>(from);
-        return accessor_.normalized ? std::max(value / double(std::numeric_limits<T>::max()), -1.0) : value;
+        return normalized_ ? std::max(value / double(std::numeric_limits<T>::max()), -1.0) : value;
     }
 
-    const tinygltf::Accessor& accessor_;
+    int component_type_;
+    bool normalized_;
     size_t component_bytes_ = 0, stride_ = 0;
     const unsigned char* bytes_ = nullptr;
+};
+
+/// Of the whole numbers of a type, which stands for 1 (KHR_mesh_quantization).
+double greatest(int component_type)
+{
+    switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return std::numeric_limits<int8_t>::max();
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return std::numeric_limits<uint8_t>::max();
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return std::numeric_limits<int16_t>::max();
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return std::numeric_limits<uint16_t>::max();
+    default: return 1;
+    }
+}
+
+bool whole_numbers(int component_type)
+{
+    return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+/// What an accessor holds: its row, or zeros, and in their places the values of its sparse list.
+class Elements {
+public:
+    Elements(const tinygltf::Model& model, int index) : accessor_(at(model.accessors, index, "accessor"))
+    {
+        const auto row = [&](int view, size_t offset, size_t count) {
+            return Row(model, index, view, offset, count, accessor_.componentType,
+                       tinygltf::GetNumComponentsInType(uint32_t(accessor_.type)), accessor_.normalized);
+        };
+        const auto& sparse = accessor_.sparse;
+        if (accessor_.bufferView >= 0 || !sparse.isSparse)
+            base_ = row(accessor_.bufferView, accessor_.byteOffset, accessor_.count);
+        else if (accessor_.count < 1 || accessor_.count > size_t(most_elements))
+            throw InputError(fmt::format("accessor {} has {} elements; the file is damaged", index, accessor_.count));
+        if (!sparse.isSparse)
+            return;
+        const size_t count = sparse.count > 0 ? size_t(sparse.count) : 0;
+        replaced_ = row(sparse.values.bufferView, size_t(std::max(0, sparse.values.byteOffset)), count);
+        const Row places(model, index, sparse.indices.bufferView, size_t(std::max(0, sparse.indices.byteOffset)), count,
+                         sparse.indices.componentType, 1, false);
+        if (!whole_numbers(sparse.indices.componentType))
+            throw InputError(fmt::format("accessor {} replaces elements by numbers that are not whole", index));
+        for (size_t k = 0; k < count; ++k) {
+            const double place = places.value(int(k), 0);
+            if (!(place < double(accessor_.count)) || (k > 0 && !(place > place_.back())))
+                throw InputError(
+                    fmt::format("accessor {} replaces its element {}, but the numbers must rise and be below {}", index,
+                                place, accessor_.count));
+            place_.push_back(int(place));
+        }
+    }
+
+    int count() const { return int(accessor_.count); }
+    int type() const { return accessor_.type; }
+    bool is_whole() const { return whole_numbers(accessor_.componentType); }
+
+    double value(int i, int component) const
+    {
+        const auto found = std::lower_bound(place_.begin(), place_.end(), i);
+        if (found != place_.end() && *found == i)
+            return replaced_->value(int(found - place_.begin()), component);
+        return base_ ? base_->value(i, component) : 0;
+    }
+
+private:
+    const tinygltf::Accessor& accessor_;
+    std::optional<Row> base_, replaced_;
+    std::vector<int> place_; ///< of the elements that are replaced
 };
 
 Eigen::Affine3d transform_of(const tinygltf::Node& node)
@@ -326,8 +410,8 @@ Eigen::Affine3d transform_of(const tinygltf::Node& node)
 /// Collects the scene's triangles.
 class Collector {
 public:
-    Collector(const tinygltf::Model& model, const Progress& progress)
-        : model_(model), progress_(progress), visited_(model.nodes.size(), 0)
+    Collector(const tinygltf::Model& model, const GltfCompression& compression, const Progress& progress)
+        : model_(model), compression_(compression), progress_(progress), visited_(model.nodes.size(), 0)
     {
     }
 
@@ -386,7 +470,9 @@ private:
     {
         progress_.checkpoint(0.5, "reading glTF meshes");
         std::map<int, int> first_vertex; // of each position accessor: primitives may share one
+        int p = -1;
         for (const auto& primitive : at(model_.meshes, m, "mesh").primitives) {
+            ++p;
             morphed_ = morphed_ || !primitive.targets.empty();
             if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
                 primitive.mode != TINYGLTF_MODE_TRIANGLE_FAN) {
@@ -396,6 +482,10 @@ private:
             const auto position = primitive.attributes.find("POSITION");
             if (position == primitive.attributes.end())
                 throw InputError(fmt::format("mesh {} has a primitive without positions", m));
+            if (const auto draco = compression_.primitives.find({m, p}); draco != compression_.primitives.end()) {
+                add_draco(draco->second, position->second, transform);
+                continue;
+            }
             if (const auto [entry, is_new] = first_vertex.try_emplace(position->second, content_.soup.vertices());
                 is_new)
                 add_vertices(position->second, transform);
@@ -416,6 +506,27 @@ private:
                 transform * Eigen::Vector3d(positions.value(i, 0), positions.value(i, 1), positions.value(i, 2)));
     }
 
+    void add_draco(const DracoPrimitive& primitive, int accessor, const Eigen::Affine3d& transform)
+    {
+        const auto& view = at(model_.bufferViews, primitive.view, "buffer view");
+        const DracoMesh mesh =
+            decoded_draco(bytes_of(model_, view.buffer, view.byteOffset, view.byteLength), primitive.position);
+        const auto& said = at(model_.accessors, accessor, "accessor");
+        const double scale = said.normalized && !mesh.scaled ? 1 / greatest(said.componentType) : 1;
+        const int first = content_.soup.vertices();
+        if (int(mesh.position.size()) > most_elements - first ||
+            int(mesh.triangle.size()) > most_elements - content_.soup.polygons())
+            throw InputError(fmt::format("the scene has more than {} vertices or triangles", most_elements));
+        for (const Eigen::Vector3d& x : mesh.position)
+            content_.soup.position.push_back(transform * (scale * x));
+        const bool mirrored = transform.linear().determinant() < 0;
+        for (std::array<int, 3> t : mesh.triangle) {
+            if (mirrored)
+                std::swap(t[1], t[2]);
+            content_.soup.add_polygon(std::array{first + t[0], first + t[1], first + t[2]});
+        }
+    }
+
     void add_triangles(const tinygltf::Primitive& primitive, int first, int vertices, bool mirrored)
     {
         std::vector<int> index;
@@ -424,7 +535,7 @@ private:
                 index.push_back(i);
         } else {
             const Elements numbers(model_, primitive.indices);
-            if (numbers.type() != TINYGLTF_TYPE_SCALAR || !numbers.whole_numbers())
+            if (numbers.type() != TINYGLTF_TYPE_SCALAR || !numbers.is_whole())
                 throw InputError(fmt::format("accessor {} holds indices that are no whole numbers", primitive.indices));
             for (int i = 0; i < numbers.count(); ++i) {
                 const double v = numbers.value(i, 0);
@@ -454,6 +565,7 @@ private:
     }
 
     const tinygltf::Model& model_;
+    const GltfCompression& compression_;
     const Progress& progress_;
     std::vector<char> visited_; // a node has one parent at most
     GltfContent content_;
@@ -465,8 +577,10 @@ private:
 
 GltfContent read_gltf(const std::filesystem::path& path, std::string_view file, const Progress& progress)
 {
-    const tinygltf::Model model = run_tinygltf(path, parts_of(file));
-    return Collector(model, progress).collect();
+    GltfCompression compression;
+    tinygltf::Model model = run_tinygltf(path, parts_of(file), compression);
+    decode_views(model, compression);
+    return Collector(model, compression, progress).collect();
 }
 
 } // namespace spia

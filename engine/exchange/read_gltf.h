@@ -18,7 +18,8 @@ struct GltfContent {
 /// transforms of their nodes; a mirrored node keeps the outer side outside. The axes stay as they are: Y is up.
 /// @param path  for .gltf: its folder is where buffers in files of their own are looked for, and nowhere else
 /// @param file  the content of the file, text or binary
-/// @throws InputError for damage, compression and required extensions that change the geometry
+/// What is compressed by EXT_meshopt_compression or KHR_draco_mesh_compression is decoded.
+/// @throws InputError for damage and required extensions that change the geometry
 GltfContent read_gltf(const std::filesystem::path& path, std::string_view file, const Progress& progress = {});
 
 } // namespace spia

@@ -21,6 +21,7 @@
 #include "engine/pipeline/unfold_file.h"
 #include "tests/fuzz/require.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/exchange/sample_compressed.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/sample_meshes.h"
 
@@ -284,6 +285,19 @@ const std::vector<std::string> deck_words = {"*",
                                              "*SHELL SECTION, ELSET=A, COMPOSITE\n",
                                              "*INCLUDE, INPUT=a.inp\n",
                                              "*ELEMENT, TYPE=STRI65\n",
+                                             "CORD1R,1,1,2,3\n",
+                                             "*DEFINE_TRANSFORMATION\n1\n",
+                                             "ROTATE,0,0,1,0,0,0,90\n",
+                                             "POS6P,1,2,3,4,5,6\n",
+                                             "MIRROR,0,0,0,1,0,0\n",
+                                             "*INCLUDE_TRANSFORM\n",
+                                             "/TRANSFORM/ROT/1\n",
+                                             "/GRNOD/PART/5\n",
+                                             "*NGEN, NSET=A\n",
+                                             "*INSTANCE, NAME=A, PART=B\n1,2,3\n",
+                                             "$NOD\n",
+                                             "$ELM\n",
+                                             "$ParametricNodes\n",
                                              "$EndNodes\n",
                                              "$Elements\n",
                                              "$PhysicalNames\n",
@@ -293,6 +307,56 @@ const std::vector<std::string> deck_words = {"*",
                                              "/PROP/SHELL/-1\n",
                                              "/PART/",
                                              "#include a.rad\n"};
+
+std::vector<std::string> with(std::vector<std::string> seeds, const std::string& seed)
+{
+    seeds.push_back(seed);
+    return seeds;
+}
+
+const char* const ply_strip =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 0 1 2 3 -1 1 2 3 -1\n";
+
+const char* const moved_k =
+    "*KEYWORD\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n*ELEMENT_SHELL\n1,1,1,2,3\n*DEFINE_TRANSFORMATION\n7\n"
+    "TRANSL,1,2,3\nSCALE,1,2,1\nMIRROR,0,0,0,1,0,0\nROTATE,0,0,1,0,0,0,90\nROTATE,1,2,30\nPOINT,1,5,6,7\n"
+    "POS6P,1,2,3,1,2,3\n*INCLUDE_TRANSFORM\nhalf.k\n1000,1000,0\n0\n,,2\n7\n*END\n";
+
+const char* const moved_bdf =
+    "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCORD1R,1,1,2,3,2,2,3,1\n"
+    "CORD1C,5,1,2,3\nCORD1S,6,1,2,3\nGRID,4,1,1.,1.,0.\nGRID,5,5,1.,30.,0.\nGRID,6,6,1.,30.,9.\n"
+    "CQUAD4,1,1,1,2,3,4\nCTRIA3,2,1,4,5,6\nPSHELL,1,1,1.\nENDDATA\n";
+
+const char* const moved_rad =
+    "/BEGIN\nmoved\n      2022         0\n/NODE\n         1                   0                   0                   0\n"
+    "         2                   1                   0                   0\n"
+    "         3                   0                   1                   0\n/SH3N/1\n         1         1         2         3\n"
+    "/PART/1\nsheet\n         1         1\n/GRNOD/PART/5\nall\n         1\n/GRNOD/NODE/6\nsome\n         1         2\n"
+    "/TRANSFORM/TRA/1\nby\n         5                   1                   2                   3\n"
+    "/TRANSFORM/ROT/2\nturn\n         6                   0                   0                   0\n"
+    "                            1                   0                   0                  90\n/END\n";
+
+/// Three nodes and a triangle, of version 2.2.
+std::string binary_msh()
+{
+    std::string text = "$MeshFormat\n2.2 1 8\n";
+    const auto ints = [&](std::initializer_list<std::int32_t> values) {
+        for (const std::int32_t value : values)
+            sample::append(text, value);
+    };
+    ints({1});
+    text += "\n$EndMeshFormat\n$Nodes\n3\n";
+    for (int k = 0; k < 3; ++k) {
+        ints({k + 1});
+        for (const double x : {k == 1 ? 1. : 0., k == 2 ? 1. : 0., 0.})
+            sample::append(text, x);
+    }
+    text += "\n$EndNodes\n$Elements\n1\n";
+    ints({2, 1, 2, 1, 5, 7, 1, 2, 3});
+    return text + "\n$EndElements\n";
+}
 
 std::string dxf_seed()
 {
@@ -337,28 +401,46 @@ std::vector<FuzzTarget> make_targets()
     const std::vector<std::string> mesh_words = with_numbers(
         {"{", "[", "\"", "/", "\\", "f ", "v ", "OFF\n", "CNOFF\n", "element face 7\n", "property list char int x\n",
          "format binary_big_endian 1.0\n", "outer loop\n", "facet normal", "endfacet\n", "vertex ", "end_header\n"});
-    const std::vector<std::string> gltf_words = with_numbers(
-        {"{", "[", "]", "}", "\"", ",", ":", "\"sparse\":{", "\"matrix\":[", "\"byteStride\":", "\"mode\":6",
-         "\"children\":[0]", "\"extensionsRequired\":[", "\"normalized\":true", "5126", "5120", "\"MAT4\""});
+    const std::vector<std::string> gltf_words = with_numbers({"{",
+                                                              "[",
+                                                              "]",
+                                                              "}",
+                                                              "\"",
+                                                              ",",
+                                                              ":",
+                                                              "\"sparse\":{",
+                                                              "\"matrix\":[",
+                                                              "\"byteStride\":",
+                                                              "\"mode\":6",
+                                                              "\"children\":[0]",
+                                                              "\"extensionsRequired\":[",
+                                                              "\"normalized\":true",
+                                                              "5126",
+                                                              "5120",
+                                                              "\"MAT4\"",
+                                                              "\"count\":",
+                                                              "\"byteStride\":256",
+                                                              "\"INDICES\"",
+                                                              "\"filter\":\"EXPONENTIAL\","});
     const std::vector<std::string> words = with_numbers(deck_words);
     return {
         {"obj", {sample::obj_text(mesh)}, mesh_words, read_mesh<check_obj>},
         {"off", {sample::off_text(mesh)}, mesh_words, read_mesh<check_off>},
         {"ply",
-         {sample::ply_text(mesh), sample::ply_binary(mesh, false), sample::ply_binary(mesh, true)},
+         {sample::ply_text(mesh), sample::ply_binary(mesh, false), sample::ply_binary(mesh, true), ply_strip},
          mesh_words,
          read_mesh<check_ply>},
         {"stl", {sample::stl_text(mesh), sample::stl_binary(mesh)}, mesh_words, read_mesh<check_stl>},
         {"gltf",
          {sample::GltfStrip("data:application/octet-stream;base64," + sample::base64(strip.binary)).json,
-          sample::glb(strip.json, strip.binary)},
+          sample::glb(strip.json, strip.binary), sample::glb_by_meshopt(mesh, true), sample::glb_by_draco(mesh, 8)},
          gltf_words,
          read_gltf_content},
-        {"k", decks({".k", ".key", ".dyn"}), words, read_k},
-        {"bdf", decks({".bdf", ".nas", ".dat"}), words, read_bdf},
+        {"k", with(decks({".k", ".key", ".dyn"}), moved_k), words, read_k},
+        {"bdf", with(decks({".bdf", ".nas", ".dat"}), moved_bdf), words, read_bdf},
         {"inp", decks({".inp"}), words, read_inp},
-        {"msh", decks({".msh"}), words, read_msh},
-        {"rad", decks({".rad"}), words, read_rad},
+        {"msh", with(decks({".msh"}), binary_msh()), words, read_msh},
+        {"rad", with(decks({".rad"}), moved_rad), words, read_rad},
         {"dxf",
          {dxf_seed()},
          with_numbers(
