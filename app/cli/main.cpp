@@ -168,10 +168,11 @@ int main(int count, char** values)
     run_command->add_flag("--keep-largest", run.keep_largest,
                           "leave out all but the largest piece, and ribs on edges of three faces");
     run_command
-        ->add_option("--seam", run.seam,
-                     "where a closed part, a tube or a part with handles is cut open: auto (a short seam), none, or a "
-                     "file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
-        ->type_name("auto|none|FILE")
+        ->add_option(
+            "--seam", run.seam,
+            "where a closed part, a tube or a part with handles is cut open: auto (a short seam), none, corners (where a few cuts let it unroll), or a "
+            "file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
+        ->type_name("auto|none|corners|FILE")
         ->capture_default_str();
     run_command->add_option("--material", run.material, "a grade of `spia materials`, or a material file")
         ->type_name("NAME|FILE")
@@ -329,10 +330,11 @@ int main(int count, char** values)
     info_command->add_flag("--keep-largest", info.keep_largest,
                            "leave out all but the largest piece, and ribs on edges of three faces");
     info_command
-        ->add_option("--seam", info.seam,
-                     "where a closed part, a tube or a part with handles is cut open: auto (a short seam), none, or a "
-                     "file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
-        ->type_name("auto|none|FILE")
+        ->add_option(
+            "--seam", info.seam,
+            "where a closed part, a tube or a part with handles is cut open: auto (a short seam), none, corners (where a few cuts let it unroll), or a "
+            "file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
+        ->type_name("auto|none|corners|FILE")
         ->capture_default_str();
     info_command->add_option("--json", info.json, "write the findings")->type_name("FILE");
 
@@ -365,7 +367,7 @@ int main(int count, char** values)
             "--seam", comparison.seam,
             "where a closed part, a tube or a part with handles is cut open, for all methods: auto (a short "
             "seam), none, or a file {\"seam\": [[a, b, ...]]} of vertices, numbers as in the part's file, from 0")
-        ->type_name("auto|none|FILE")
+        ->type_name("auto|none|corners|FILE")
         ->capture_default_str();
     add_parts(compare_command, comparison.parts);
     add_cad(compare_command, comparison.cad);
@@ -438,7 +440,7 @@ int main(int count, char** values)
     unfold_command->add_flag("--keep-largest", unfolding.keep_largest,
                              "leave out all but the largest piece, and ribs on edges of three faces");
     unfold_command->add_option("--seam", unfolding.seam, "where a closed part is cut open, as for `spia run`")
-        ->type_name("auto|none|FILE")
+        ->type_name("auto|none|corners|FILE")
         ->capture_default_str();
     unfold_command->add_flag("--polish", unfolding.polish,
                              "also solve the whole part at once, from the blank of the steps, and compare both blanks");

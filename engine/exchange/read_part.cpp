@@ -12,6 +12,7 @@
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
 #include "engine/exchange/take_skin.h"
+#include "engine/mesh/corner_seam.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -82,17 +83,31 @@ bool sick_beyond_a_cut(const DoctorReport& report)
     });
 }
 
-/// The seam of the options, in vertices of the mesh; of copies the first.
-SeamOptions in_mesh(SeamOptions seam, const std::vector<int>& source_vertex)
+/// The seam of the options, in vertices of the mesh; of copies the first. Of a solid the vertices of its other skin stand for
+/// those opposite to them.
+SeamOptions in_mesh(SeamOptions seam, const PartFile& part, const PolygonSoup& file)
 {
+    const std::vector<int>& source = part.source_vertex;
+    const auto opposite = [&](int v) -> std::optional<int> {
+        if (!part.solid || v >= file.vertices())
+            return std::nullopt;
+        constexpr double mitred = 2; // at a corner of three walls the skins are sqrt(3) times the thickness apart
+        Eigen::Index nearest = 0;
+        const double distance =
+            (part.mesh.position.colwise() - file.position[size_t(v)]).colwise().norm().minCoeff(&nearest);
+        return distance <= mitred * part.solid->thickness ? std::optional(int(nearest)) : std::nullopt;
+    };
     for (std::vector<int>& row : seam.path)
         for (int& v : row) {
-            const auto found = std::lower_bound(source_vertex.begin(), source_vertex.end(), v);
-            if (found == source_vertex.end() || *found != v)
+            const auto found = std::lower_bound(source.begin(), source.end(), v);
+            if (found != source.end() && *found == v)
+                v = int(found - source.begin());
+            else if (const auto across = opposite(v))
+                v = *across;
+            else
                 throw InputError(fmt::format("the seam names vertex {}, which is not a vertex of the part (they count "
                                              "from 0 in the file's order)",
                                              v));
-            v = int(found - source_vertex.begin());
         }
     return seam;
 }
@@ -120,13 +135,34 @@ void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
     part.doctor.findings.back().place = std::move(place);
 }
 
-/// Cuts open what is no sheet, and turns the findings that would have refused it into repairs.
-void cut_where_needed(PartFile& part, const SeamOptions& seam)
+/// "90 degrees at 4 corners"
+std::string words_of(const CornerSeam& seam)
+{
+    return fmt::format("up to {:.3g} degrees at {}", seam.defect * 180 / std::numbers::pi,
+                       counted(int(seam.corner.size()), "corner", "corners"));
+}
+
+/// Cuts open what is no sheet, or where it was asked for, and turns the findings that would have refused it into repairs.
+void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file)
 {
     DoctorReport& report = part.doctor;
     if (seam.mode == SeamOptions::Mode::none || sick_beyond_a_cut(report) || report.components != 1 || !report.genus)
         return;
-    CutPart cut = cut_open(part.mesh, in_mesh(seam, part.source_vertex));
+    std::string unrolls;
+    if (seam.mode == SeamOptions::Mode::corners) {
+        const auto corners = *report.boundary_loops > 0 ? corner_seam(part.mesh) : std::nullopt;
+        seam = {};
+        if (corners) {
+            seam = {SeamOptions::Mode::given, corners->path};
+            unrolls = fmt::format(" it unrolls without strain now, where it lacked {}", words_of(*corners));
+        } else
+            part.doubts.push_back(part.notes.emplace_back("there are no corners to be cut: it unrolls as it is, or is "
+                                                          "curved elsewhere too"));
+    } else
+        seam = in_mesh(std::move(seam), part, file);
+    CutPart cut = cut_open(part.mesh, seam);
+    if (!unrolls.empty())
+        cut.why = unrolls.substr(1);
     if (cut.seam.empty())
         return;
     part.seam = cut.seam;
@@ -147,6 +183,29 @@ void cut_where_needed(PartFile& part, const SeamOptions& seam)
     report.boundary_loops = type.loops;
     report.genus = type.genus;
     report.euler_characteristic = 2 - 2 * type.genus - type.loops;
+}
+
+/// Says where a few cuts would let the part unroll.
+void note_corners(PartFile& part, const SeamOptions& seam)
+{
+    if (!part.doctor.healthy() || seam.mode == SeamOptions::Mode::given || !surface_type(part.mesh).sheet())
+        return;
+    const auto corners = corner_seam(part.mesh);
+    if (!corners)
+        return;
+    Tally where;
+    std::vector<Eigen::Vector3d> place;
+    for (const int v : corners->corner) {
+        where.add(part.source_vertex[size_t(v)]);
+        if (place.size() < where.where.size())
+            place.push_back(part.mesh.position.col(v));
+    }
+    part.doctor.add(
+        Fault::closed_corner, Severity::note, where,
+        fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", words_of(*corners)),
+        fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain (--seam corners)",
+                    corners->length));
+    part.doctor.findings.back().place = std::move(place);
 }
 
 void note_size(PartFile& part, bool unit_given)
@@ -180,7 +239,8 @@ void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, b
     const bool refused = take_skin(part, options, solid, progress.part(0.6, 0.95));
     progress.checkpoint(0.95, "finding where it must be cut open");
     if (!refused)
-        cut_where_needed(part, options.seam);
+        cut_where_needed(part, options.seam, soup);
+    note_corners(part, options.seam);
     note_size(part, options.unit.has_value());
 }
 

@@ -12,7 +12,8 @@ struct SeamOptions {
     enum class Mode {
         automatic, ///< along a short seam, where there has to be one
         none,      ///< nowhere
-        given      ///< along `path`, and nowhere else
+        given,     ///< along `path`, and nowhere else
+        corners    ///< where a few cuts let it unroll (corner_seam.h), else as automatic
     };
     Mode mode = Mode::automatic;
     std::vector<std::vector<int>> path = {}; ///< vertices; from each to the next along the shortest way of edges

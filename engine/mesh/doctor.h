@@ -31,6 +31,7 @@ enum class Fault {
     closed_surface,     ///< no boundary [face]
     handle,             ///< genus above 0 [face]
     seam,               ///< cut open, after the examination [vertex, of the seam]
+    closed_corner,      ///< cut there, the part would unroll without strain [vertex]
     sliver,             ///< a very small angle [face]
     gap,                ///< between faces of a CAD file, or a sliver of a face, closed [vertex]
     unmeshed_face,      ///< a face of a CAD file that gave no triangle [none]

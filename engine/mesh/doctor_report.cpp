@@ -35,6 +35,7 @@ std::string_view name(Fault fault)
     case Fault::closed_surface: return "closed surface";
     case Fault::handle: return "handle";
     case Fault::seam: return "seam";
+    case Fault::closed_corner: return "closed corner";
     case Fault::sliver: return "sliver";
     case Fault::gap: return "gap";
     case Fault::unmeshed_face: return "face not meshed";
@@ -66,7 +67,8 @@ void DoctorReport::add(Fault fault, Severity severity, const Tally& tally, std::
 bool counts_vertices(Fault fault)
 {
     return fault == Fault::bad_coordinate || fault == Fault::coincident_vertex || fault == Fault::crack ||
-           fault == Fault::stray_vertex || fault == Fault::touching_fans || fault == Fault::seam || fault == Fault::gap;
+           fault == Fault::stray_vertex || fault == Fault::touching_fans || fault == Fault::seam ||
+           fault == Fault::closed_corner || fault == Fault::gap;
 }
 
 void require_healthy(const DoctorReport& report)

@@ -13,6 +13,8 @@ SeamOptions seam_options(const std::string& choice)
         return {};
     if (choice == "none")
         return {SeamOptions::Mode::none};
+    if (choice == "corners")
+        return {SeamOptions::Mode::corners};
     const Json json = read_json(choice, true);
     const Place top(choice);
     if (!json.is_object() || json.size() != 1 || !json.contains("seam"))

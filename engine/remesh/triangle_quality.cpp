@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/mesh/curvature.h"
 #include "engine/mesh/edge_graph.h"
 
 namespace spia {
@@ -62,21 +63,6 @@ TriangleQuality triangle_quality(const TriMesh& mesh)
     return result;
 }
 
-double total_curvature(const TriMesh& mesh)
-{
-    const EdgeGraph graph = edge_graph(mesh);
-    Eigen::VectorXd angle = Eigen::VectorXd::Zero(mesh.vertices());
-    for (int f = 0; f < mesh.triangles(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const auto corner = [&](int i) { return mesh.position.col(mesh.triangle((k + i) % 3, f)); };
-            const Eigen::Vector3d a = corner(1) - corner(0), b = corner(2) - corner(0);
-            angle[mesh.triangle(k, f)] += std::atan2(a.cross(b).norm(), a.dot(b));
-        }
-    Eigen::VectorXd curvature = (angle.array() - 2 * std::numbers::pi).abs();
-    for (int v = 0; v < mesh.vertices(); ++v)
-        if (graph.on_rim[size_t(v)] || angle[v] == 0) // none of a vertex without triangles
-            curvature[v] = 0;
-    return curvature.sum();
-}
+double total_curvature(const TriMesh& mesh) { return angle_defects(mesh).cwiseAbs().sum(); }
 
 } // namespace spia

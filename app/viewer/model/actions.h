@@ -65,7 +65,7 @@ struct ReadAgain {
     std::string unit;
     Reading reading;
 };
-/// "set_seam": mode ("automatic", "none", "given"), path [[vertex of the file, ...], ...]; reads the part again.
+/// "set_seam": mode ("automatic", "none", "given", "corners": where a few cuts let it unroll), path [[vertex of the file, ...], ...]; reads the part again.
 struct SetSeam {
     SeamOptions seam;
 };

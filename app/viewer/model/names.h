@@ -110,7 +110,8 @@ template <>
 inline constexpr std::array names_of<SeamOptions::Mode>{
     Names<SeamOptions::Mode>{SeamOptions::Mode::automatic, "automatic"},
     Names<SeamOptions::Mode>{SeamOptions::Mode::none, "none"},
-    Names<SeamOptions::Mode>{SeamOptions::Mode::given, "given"}};
+    Names<SeamOptions::Mode>{SeamOptions::Mode::given, "given"},
+    Names<SeamOptions::Mode>{SeamOptions::Mode::corners, "corners"}};
 template <>
 inline constexpr std::array names_of<TensileOptions::Kind>{
     Names<TensileOptions::Kind>{TensileOptions::Kind::engineering, "engineering"},

@@ -14,6 +14,7 @@ std::string in_viewer_words(std::string text)
     constexpr std::string_view words[][2] = {
         {"--weld MM", "\"Close the crack\" in the step Part"},
         {"--weld", "\"Weld vertices\" in the step Part"},
+        {"--seam corners", "\"Cut the corners\" in the step Part"},
         {"--keep-largest", "\"Keep the largest piece\" in the step Part"},
         {"--unit", "in the step Part"},
         {"--skin", "\"Skin\" in the step Part"},

@@ -96,7 +96,8 @@ void fix_button(Frame& frame, const Finding& finding)
                      !read.doctor.keep_largest;
     const bool apart = finding.fault == Fault::coincident_vertex && finding.severity == spia::Severity::note;
     const std::optional<double> gap = finding.weld_gap;
-    if (!cut && !apart && !gap)
+    const bool corners = finding.fault == Fault::closed_corner;
+    if (!cut && !apart && !gap && !corners)
         return;
     if (!finding.place.empty())
         ImGui::SameLine();
@@ -110,10 +111,13 @@ void fix_button(Frame& frame, const Finding& finding)
             reading.weld = true;
             reading.weld_gap_mm = gap;
         });
+    if (corners && small_button(frame, "Cut the corners"))
+        frame.actions.push(SetSeam{{SeamOptions::Mode::corners}});
     ImGui::EndDisabled();
     tooltip(
-        gap ? fmt::format("Reads the part again and joins open edges up to {} apart. Undo separates them again.",
-                          length_text(*gap, frame.lengths()))
+        corners ? "Reads the part again and cuts it from these corners to its border. Undo joins them again."
+        : gap   ? fmt::format("Reads the part again and joins open edges up to {} apart. Undo separates them again.",
+                              length_text(*gap, frame.lengths()))
         : cut
             ? "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them."
             : "Reads the part again and welds vertices at the same place. Undo separates them again.");

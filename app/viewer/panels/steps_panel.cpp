@@ -27,7 +27,7 @@ void seam_rows(Frame& frame, const PartFile& part)
 {
     figure(frame, "Seam length", length_text(part.seam_length, frame.lengths()));
     tooltip("To cut elsewhere, draw a seam with the tool Line");
-    if (frame.state.document.session.options.read.seam.mode != SeamOptions::Mode::given)
+    if (frame.state.document.session.options.read.seam.mode == SeamOptions::Mode::automatic)
         return;
     ImGui::BeginDisabled(frame.model.busy());
     if (small_button(frame, "Choose the seam automatically"))
