@@ -11,6 +11,7 @@
 #include "engine/forming/contact_pressure.h"
 #include "engine/forming/held_edges.h"
 #include "engine/forming/line_on_part.h"
+#include "engine/forming/rolling.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -172,16 +173,22 @@ double lock_force(const Material& material, double thickness)
     return thickness * greatest;
 }
 
+std::optional<Eigen::Vector2d> rolling_in(const ProcessConditions& process, const Eigen::Matrix<double, 3, 2>& plane)
+{
+    if (!process.rolling)
+        return std::nullopt;
+    const Eigen::Vector2d seen = plane.transpose() * *process.rolling;
+    if (!seen.allFinite() || !(seen.norm() > 1e-6 * process.rolling->norm()))
+        throw InputError("the rolling direction must be a finite vector across the stamping direction");
+    return seen;
+}
+
 Sheet sheet_of(const Material& material, double thickness, const StressCurve::Options& curve,
                const ProcessConditions& process, const TriMesh& part, const Eigen::Matrix<double, 3, 2>& plane)
 {
     std::optional<double> angle;
-    if (process.rolling) {
-        const Eigen::Vector2d seen = plane.transpose() * *process.rolling;
-        if (!seen.allFinite() || !(seen.norm() > 1e-6 * process.rolling->norm()))
-            throw InputError("the rolling direction must be a finite vector across the stamping direction");
-        angle = std::atan2(seen[1], seen[0]);
-    }
+    if (const auto seen = rolling_in(process, plane))
+        angle = std::atan2((*seen)[1], (*seen)[0]);
     Sheet sheet = uniform_sheet(MembraneLaw(material, curve, angle), thickness, part.triangles());
     if (!process.tailored.empty())
         sheet.grade = Eigen::VectorXi::Zero(part.triangles());

@@ -5,6 +5,9 @@
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
 #include "engine/exchange/vertex_numbers.h"
+#include "engine/forming/flips.h"
+#include "engine/forming/placing.h"
+#include "engine/forming/rolling.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/blank_chart.h"
@@ -12,6 +15,7 @@
 #include "engine/pipeline/usual_tolerance.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/stepped_blank.h"
+#include "engine/unfold/upright.h"
 
 namespace spia {
 namespace {
@@ -82,6 +86,23 @@ void require_no_tools(const ProcessConditions& process)
             "the part in one step");
 }
 
+/// As the blank of steps lies: straight on the sheet, whatever way the part lay. All that follows is told in these axes.
+void lay_straight(const TriMesh& part, const FlattenOptions& options, FlattenResult& flat)
+{
+    const auto rolling = rolling_in(options.process, blank_plane(flat.stamping.direction));
+    const Eigen::Matrix2d turn = upright_turn(part, flat.blank.position, rolling);
+    Eigen::Matrix2Xd position = turn * flat.blank.position;
+    position.colwise() -= Eigen::Vector2d(position.rowwise().minCoeff());
+    if (const int flips = flipped_triangles(part.triangle, position); flips > 0) {
+        flat.report.reason += fmt::format(
+            "; the blank is not laid straight, for {} triangles are so thin that they would flip by rounding", flips);
+        return;
+    }
+    flat.blank.position = std::move(position);
+    flat.report.resultant.head<2>() = turn * flat.report.resultant.head<2>();
+    flat.overlap = overlap(part, flat.blank.position);
+}
+
 void solve(Session& session, const Progress& progress)
 {
     if (const auto& steps = session.options.steps) {
@@ -93,7 +114,9 @@ void solve(Session& session, const Progress& progress)
                           : stepped_blank(part, *steps->run, session.options.flatten));
         return;
     }
-    session.blank = std::make_shared<FlattenResult>(flatten(session.part->mesh, session.options.flatten, progress));
+    FlattenResult flat = flatten(session.part->mesh, session.options.flatten, progress);
+    lay_straight(session.part->mesh, session.options.flatten, flat);
+    session.blank = std::make_shared<FlattenResult>(std::move(flat));
 }
 
 void grid(Session& session, const Progress& progress)

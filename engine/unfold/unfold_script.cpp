@@ -12,6 +12,7 @@
 #include "engine/forming/flips.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/process.h"
+#include "engine/forming/rolling.h"
 #include "engine/forming/sheet_fields.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
@@ -176,8 +177,9 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
         state.reach = target_reach({state.position, part.triangle}, carrying_faces(step), result.freed, step.extent_mm);
 }
 
-/// The part in the plane in which it lies, seen from the outer side.
-std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& position, int& flipped)
+/// The part in the plane in which it lies, seen from the outer side, straight on the sheet.
+std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& position, const ProcessConditions& process,
+                              int& flipped)
 {
     constexpr double flat = 1e-6; // of the part
     const TriMesh now{position, part.triangle};
@@ -185,10 +187,8 @@ std::optional<Blank> blank_of(const TriMesh& part, const Eigen::Matrix3Xd& posit
     const Eigen::Vector3d normal = area_vectors(now).rowwise().sum().normalized();
     if (!((normal.transpose() * arm).cwiseAbs().maxCoeff() <= flat * bounding_diagonal(now)))
         return std::nullopt;
-    const Eigen::Matrix2Xd seen = blank_plane(normal).transpose() * arm;
-    Blank blank{upright(boundary_loops(part).front(), seen)};
-    if (seen.cwiseProduct(blank.position).sum() < 0) // the same rectangle: of both ways round that of a blank of one step
-        blank.position = -blank.position;
+    const Eigen::Matrix<double, 3, 2> plane = blank_plane(normal);
+    Blank blank{upright(part, plane.transpose() * arm, rolling_in(process, plane))};
     flipped = flipped_triangles(part.triangle, blank.position);
     return blank;
 }
@@ -324,7 +324,7 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
         if (ended)
             ended(run);
     }
-    run.blank = blank_of(part, state.position, run.flipped);
+    run.blank = blank_of(part, state.position, options.process, run.flipped);
     return run;
 }
 

@@ -1,0 +1,97 @@
+// The blank lies straight on the sheet, in one step and in several, however the part lay.
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+
+#include "engine/forming/material_library.h"
+#include "engine/pipeline/report.h"
+#include "engine/unfold/unfold_by_itself.h"
+#include "tests/support/developable.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/profile.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using std::numbers::pi;
+
+Session solved(const ScratchFolder& folder, const TriMesh& mesh, std::optional<Eigen::Vector3d> rolling = {})
+{
+    shapes::write_mesh(folder / "part.obj", mesh);
+    Session session;
+    session.file = folder / "part.obj";
+    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    session.options.flatten.process.rolling = rolling;
+    return run_stage(Stage::solve, run_stage(Stage::read, session));
+}
+
+Eigen::Vector2d size_of(const Eigen::Matrix2Xd& flat) { return flat.rowwise().maxCoeff() - flat.rowwise().minCoeff(); }
+
+TriMesh channel()
+{
+    return shapes::extruded(
+               shapes::Profile({0, 0}, 0).straight(40).bend(5, pi / 2).straight(25).bend(3, -1.2).straight(12), 30,
+               1500)
+        .mesh;
+}
+
+} // namespace
+
+TEST(StraightBlank, InOneStepAsInSeveralHoweverThePartLies)
+{
+    const double wanted = 40 + 5 * pi / 2 + 25 + 3 * 1.2 + 12; // the developed length
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    const ScratchFolder folder;
+    for (int trial = 0; trial < 6; ++trial) {
+        TriMesh part = channel();
+        if (trial > 0) {
+            const Eigen::Quaterniond any(normal(random), normal(random), normal(random), normal(random));
+            part.position =
+                (any.normalized().toRotationMatrix() * part.position).colwise() + Eigen::Vector3d(10, 20, 5);
+        }
+        const Session session = solved(folder, part);
+        const Eigen::Vector2d size = size_of(session.blank->blank.position);
+        EXPECT_NEAR(size[0], wanted, 2e-3 * wanted) << "chords for arcs";
+        EXPECT_NEAR(size[1], 30, 1e-3);
+        EXPECT_NEAR(session.blank->blank.position.minCoeff(), 0, 1e-12);
+        const auto box = nlohmann::json::parse(report_json(session, {}, 0))["blank"]["bounding_box_mm"];
+        EXPECT_NEAR(box[2].get<double>(), size[0], 1e-9);
+        const TriMesh& read = session.part->mesh;
+        const UnfoldRun run = unfold_by_itself(read, find_bends(read), {}, session.options.flatten).run;
+        ASSERT_TRUE(run.blank) << run.failure;
+        EXPECT_NEAR(size_of(run.blank->position)[0], size[0], 1e-4 * size[0]);
+        EXPECT_NEAR(size_of(run.blank->position)[1], size[1], 1e-4 * size[0]);
+    }
+}
+
+TEST(StraightBlank, TheRollingDirectionLiesAlongXAndTheStrainsStay)
+{
+    const ScratchFolder folder;
+    const Eigen::Vector3d rolling(std::cos(0.4), std::sin(0.4), 0);
+    TriMesh part =
+        shapes::extruded(shapes::Profile({0, 0}, 0).straight(60), 40, 300).mesh; // in the plane of x and y, or x and z
+    const Eigen::Matrix3Xd arm = part.position.colwise() - part.position.rowwise().mean();
+    Eigen::Index thin;
+    arm.cwiseAbs().rowwise().maxCoeff().minCoeff(&thin);
+    if (thin != 2) // into the plane of x and y
+        part.position =
+            Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::Unit(thin == 1 ? 0 : 1)).toRotationMatrix() * part.position;
+    const Session session = solved(folder, part, rolling);
+    const Eigen::Matrix2Xd& flat = session.blank->blank.position;
+    // Of every edge the angle to the rolling direction on the part is that to x in the blank, up to a half turn of all.
+    const TriMesh& read = session.part->mesh;
+    const double side = session.blank->stamping.direction[2];
+    for (int f = 0; f < read.triangles(); ++f) {
+        const Eigen::Vector3d edge = read.position.col(read.triangle(1, f)) - read.position.col(read.triangle(0, f));
+        const Eigen::Vector2d laid = flat.col(read.triangle(1, f)) - flat.col(read.triangle(0, f));
+        EXPECT_NEAR(std::abs(laid[0]), std::abs(edge.dot(rolling)), 1e-6);
+        EXPECT_NEAR(laid[0] * laid[1], side * edge.dot(rolling) * rolling.cross(edge)[2], 1e-4);
+    }
+    EXPECT_LT(session.blank->face.strain_equivalent.maxCoeff(), 1e-6);
+}
+
+} // namespace spia
