@@ -182,14 +182,16 @@ private:
         const BinderFit* fit = carriers_.plain(result_.root);
         bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
         constexpr double in_one_plane = 1e-7; // of the part; what lies farther off is put into the plane by a step
-        if (rolls && std::holds_alternative<PlaneFace>(fit->face) &&
-            fit->distance_mm <= in_one_plane * bounding_diagonal(part_))
+        const bool plane = rolls && std::holds_alternative<PlaneFace>(fit->face) &&
+                           fit->distance_mm <= in_one_plane * bounding_diagonal(part_);
+        if (plane && !result_.steps.empty())
             return;
         rolls &= unroll_;
         PlannedStep step;
         step.kind = rolls ? UnfoldKind::unroll : UnfoldKind::flatten;
-        step.name = rolls ? fmt::format("unroll the {} of {}", name(fit->face), map_.name(result_.root))
-                          : "flatten the whole part";
+        step.name = rolls && plane ? "take the flat part as it is"
+                    : rolls        ? fmt::format("unroll the {} of {}", name(fit->face), map_.name(result_.root))
+                                   : "flatten the whole part";
         step.pick.freed = all_faces();
         step.freed.resize(graph_.edge.size());
         std::iota(step.freed.begin(), step.freed.end(), 0);

@@ -64,7 +64,7 @@ inline const std::vector<int>& carrying_faces(const PlannedStep& step)
 /// Proposes the order in which a part is unfolded region by region: the outermost regions are laid on the faces of their
 /// neighbours (planes, cylinders, cones, else smooth faces through gently curved ones), then these with what lies on them on theirs,
 /// until all lies on the face of the root; if that is a cylinder or cone it is unrolled, and if it is no such face or goes all
-/// around all is flattened at once. Walls that touch (also in a vertex) move together;
+/// around all is flattened at once. A part that is flat already is taken as it is, in one step that unrolls its plane. Walls that touch (also in a vertex) move together;
 /// what touches more than the region that carries it moves with the next ring. In every pick a freed face touches only freed and
 /// fixed ones.
 /// @param map of this part

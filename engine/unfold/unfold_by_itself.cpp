@@ -4,8 +4,6 @@
 #include <fmt/core.h>
 #include <optional>
 
-#include "engine/core/error.h"
-
 namespace spia {
 namespace {
 
@@ -75,8 +73,6 @@ UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, Seque
                                   const UnfoldedByItself* begun, const StepEnded& ended)
 {
     UnfoldedByItself now{propose_sequence(part, map, options), {}};
-    if (now.sequence.steps.empty())
-        throw InputError("the part is flat already; there is nothing to unfold");
     options.root = now.sequence.root; // stays, whatever carries nothing
     std::vector<std::string> given_up;
     std::optional<UnfoldedByItself> nearly; // the first faulty plan whose steps converge, else that ended in a blank

@@ -23,7 +23,7 @@ struct UnfoldedByItself {
 /// @param progress of the plan at work: from none on again where it is planned anew
 /// @param begun of an earlier run on this part in this sheet, which may have been cancelled: steps with which the first plan begins
 ///              likewise are not solved again
-/// @throws UnfoldingCancelled with the plan at work and its states; InputError as propose_sequence() and run_unfolding(), or if the part is flat already
+/// @throws UnfoldingCancelled with the plan at work and its states; InputError as propose_sequence() and run_unfolding()
 UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions sequence,
                                   const FlattenOptions& options, const Progress& progress = {},
                                   const UnfoldedByItself* begun = nullptr, const StepEnded& ended = {});

@@ -114,8 +114,7 @@ void ViewerModel::take_steps_result()
                 fmt::format("The part has {} and {}; proposed {}.",
                             counted(outcome.bends->map.regions.size(), "region"),
                             counted(outcome.bends->map.bends.size(), "bend"), counted(document.steps.size(), "step")));
-    } else if (outcome.proposed)
-        say(Severity::hint, "The part is flat already; there is nothing to unfold.");
+    }
     const auto& run = outcome.run;
     if (run && (run->run.states.size() > done_before || run->run.blank || !run->run.failure.empty())) {
         if (keep_step) { // of a project: what it was when that was saved

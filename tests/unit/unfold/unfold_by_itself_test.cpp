@@ -1,5 +1,6 @@
 #include "engine/unfold/unfold_by_itself.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <stdexcept>
@@ -7,9 +8,12 @@
 #include "engine/core/error.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/region.h"
+#include "engine/mesh/topology.h"
 #include "engine/unfold/carriers.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/fender.h"
+#include "tests/support/grid_surface.h"
+#include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 #include "tests/support/shape_family.h"
 #include "tests/support/shapes.h"
@@ -25,6 +29,14 @@ FlattenOptions steel()
     FlattenOptions options;
     options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     return options;
+}
+
+TriMesh plate_with_a_hole()
+{
+    const TriMesh whole = shapes::plate();
+    const Eigen::Vector3d middle = (whole.position.rowwise().minCoeff() + whole.position.rowwise().maxCoeff()) / 2;
+    const double hole = 0.1 * bounding_diagonal(whole);
+    return shapes::without_faces(whole, [&](const Eigen::Vector3d& at) { return (at - middle).norm() < hole; });
 }
 
 TriMesh fender() { return shapes::fender({.triangles = 2500}).mesh; }
@@ -206,14 +218,25 @@ TEST(UnfoldByItself, WhatGoesAllAroundAConeIsFlattenedNotUnrolled)
     EXPECT_EQ(unfolded.run.flipped, 0);
 }
 
-TEST(UnfoldByItself, AFlatPartIsRefused)
+TEST(UnfoldByItself, AFlatPartIsTakenAsItIs)
 {
-    const TriMesh plate = shapes::plate();
-    try {
-        unfold_by_itself(plate, find_bends(plate), {}, steel());
-        FAIL() << "was unfolded";
-    } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()), "the part is flat already; there is nothing to unfold");
+    for (const double turn : {0., 0.4, 2.}) {
+        const TriMesh plate = shapes::transformed(
+            plate_with_a_hole(), Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix(),
+            {0, 0, 0});
+        const UnfoldedByItself unfolded = unfold_by_itself(plate, find_bends(plate), {}, steel());
+        ASSERT_EQ(unfolded.sequence.steps.size(), 1u);
+        EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::unroll);
+        EXPECT_EQ(unfolded.run.failure, "");
+        ASSERT_TRUE(unfolded.run.blank);
+        EXPECT_EQ(unfolded.run.flipped, 0);
+        const Eigen::Matrix2Xd& flat = unfolded.run.blank->position;
+        for (int f = 0; f < plate.triangles(); ++f) // no length changes
+            for (int k = 0; k < 3; ++k) {
+                const int a = plate.triangle(k, f), b = plate.triangle((k + 1) % 3, f);
+                EXPECT_NEAR((flat.col(a) - flat.col(b)).norm(), (plate.position.col(a) - plate.position.col(b)).norm(),
+                            1e-9);
+            }
     }
 }
 

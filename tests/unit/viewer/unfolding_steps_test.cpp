@@ -63,13 +63,17 @@ TEST_F(UnfoldingSteps, TheRegionOfAFaceStaysWhereItIs)
     EXPECT_EQ(names(), before);
 }
 
-TEST_F(UnfoldingSteps, AFlatPartHasNothingToUnfold)
+TEST_F(UnfoldingSteps, AFlatPartIsItsOwnBlank)
 {
     open_mesh(shapes::extruded(shapes::Profile({0, 0}, 0).straight(60), 40, 200).mesh);
     propose();
-    EXPECT_THAT(last(Severity::hint), HasSubstr("flat already"));
-    EXPECT_TRUE(document.steps.empty());
-    EXPECT_EQ(state.history.undo_name(), "");
+    ASSERT_EQ(document.steps.size(), 1u);
+    run();
+    ASSERT_TRUE(all_steps_done(document)) << last(Severity::error);
+    const Eigen::Matrix2Xd& flat = document.unfolding->run.blank->position;
+    const Eigen::Vector2d size = flat.rowwise().maxCoeff() - flat.rowwise().minCoeff();
+    EXPECT_NEAR(size[0], 60, 1e-9);
+    EXPECT_NEAR(size[1], 40, 1e-9);
 }
 
 TEST_F(UnfoldingSteps, FiguresAreThoseOfTheFacesThatAStepMoves)
