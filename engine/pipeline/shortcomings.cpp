@@ -5,6 +5,7 @@
 #include "engine/forming/membrane_law.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/certificate_report.h"
+#include "engine/pipeline/surface_shortcomings.h"
 #include "engine/pipeline/worst_cell.h"
 
 namespace spia {
@@ -163,11 +164,19 @@ std::vector<std::string> shortcomings(const Session& session)
                 fit.tolerance, session.surface->deviation.max()));
     }
     if (session.surface)
+        if (const auto far = far_surface(session))
+            list.push_back(*far);
+    const bool by_deformation = session.deformed && session.surface && session.surface->certificate.suited() &&
+                                !session.deformed->certificate.suited();
+    if (session.surface && !by_deformation)
+        if (const auto folded = folded_surface(session))
+            list.push_back(*folded);
+    if (session.surface)
         for (const HoleLeftFilled& hole : session.surface->trim.left_filled)
             list.push_back(fmt::format(
                 "the hole at vertex {} stays filled in the surface: {}; a smaller tolerance or other corners may help",
                 session.part->source_vertex[size_t(hole.vertex)], hole.why));
-    if (session.deformed && session.surface->certificate.suited() && !session.deformed->certificate.suited())
+    if (by_deformation)
         list.push_back(fmt::format("the deformation makes the surface fold: {}; move its points less",
                                    unsuited(session.deformed->certificate).value_or("")));
     return list;

@@ -16,8 +16,8 @@
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/smooth_joins.h"
-#include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/surface_shortcomings.h"
 
 namespace spia::viewer {
 namespace {
@@ -256,36 +256,20 @@ void judge_joints(const Document& document, std::vector<Doubt>& doubts)
     if (angle <= turn)
         return;
     const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
-    doubts.push_back({ChainStep::surface,
-                      fmt::format("Patches meet at up to {:.3g} degrees, where the part turns by {:.2g} degrees from "
-                                  "triangle to triangle at most.",
-                                  degrees(angle), degrees(turn)),
-                      "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
-}
-
-/// Whether the normal only vanishes at a corner: on a smooth outline the grid has no angle there, which CAD does not mind.
-bool at_a_corner(const Refusal& refusal)
-{
-    const auto end = [](double parameter) { return parameter == 0 || parameter == 1; };
-    return refusal.why == Refusal::Why::vanishes && end(refusal.place.u) && end(refusal.place.v);
+    doubts.push_back(
+        {ChainStep::surface,
+         fmt::format("Patches meet at up to {:.3g} degrees, where the part turns by {:.2g} degrees from "
+                     "triangle to triangle at most.",
+                     degrees(angle), degrees(turn)),
+         "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
 }
 
 void judge_folds(const Document& document, std::vector<Doubt>& doubts)
 {
-    const Certificate& certificate = surface_certificate(document.session);
-    const SurfaceStage& surface = *document.session.surface;
-    const bool refused =
-        !certificate.leak.empty() ||
-        std::any_of(certificate.patch.begin(), certificate.patch.end(),
-                    [](const PatchCertificate& each) { return each.refusal && !at_a_corner(*each.refusal); });
-    std::string text;
-    if (refused)
-        text = fmt::format("The surface may have a fold: {}.", unsuited(certificate).value_or(""));
-    else if (const double turned = surface.deviation.normal.turned; turned > 0)
-        text = fmt::format("The surface folds: on {} of its area the normal is opposite to that of the part.",
-                           area_share(turned));
-    else
+    const auto folded = folded_surface(document.session);
+    if (!folded)
         return;
+    const std::string text = sentence(folded->substr(0, folded->rfind(';'))); // the way out is a click here
     if (document.session.options.patches) {
         doubts.push_back({ChainStep::surface, text, "Add a cut there with the tool Vertex, or choose \"one patch\"."});
         return;
@@ -394,6 +378,9 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
     if (made.surface && holds(Stage::fit)) {
         upto.surface = made.surface;
         upto.deformed = made.deformed;
+        for (const auto& text : {far_surface(upto), folded_surface(upto)}) // said below, with a click
+            if (text)
+                known.push_back(*text);
         add_shortcomings(ChainStep::surface, upto, document, known, doubts);
         judge_distance(document, lengths, doubts);
         judge_control_points(document, doubts);

@@ -7,8 +7,18 @@
 #include "app/viewer/model/measuring.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/surface_shortcomings.h"
 
 namespace spia::viewer {
+namespace {
+
+/// What the light of the surface says all the time needs no message.
+bool of_its_surface(const Session& session, const std::string& text)
+{
+    return session.surface && (text == far_surface(session) || text == folded_surface(session));
+}
+
+} // namespace
 
 void ViewerModel::take_chain_result()
 {
@@ -69,7 +79,8 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
         say_failed(result);
     else
         for (const std::string& text : shortcomings(document.session))
-            say(Severity::warning, text, about_results(state_));
+            if (!of_its_surface(document.session, text))
+                say(Severity::warning, text, about_results(state_));
     const bool in_one_step = std::exchange(next_in_one_step_, false);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
         if (in_one_step)

@@ -11,6 +11,8 @@
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/surface_shortcomings.h"
+#include "engine/pipeline/usual_tolerance.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -44,7 +46,13 @@ TEST(Chain, RunsEverySamplePartWithoutAFlipOrAFold)
         EXPECT_EQ(session.blank->flipped_triangles, 0) << entry.path();
         EXPECT_EQ(session.grid->result.quality.folded_cells, 0) << entry.path();
         EXPECT_EQ(session.blank->report.system, SolvedSystem::strict) << entry.path();
-        EXPECT_EQ(shortcomings(session).size(), session.blank->necking_triangles > 0) << entry.path();
+        // None of these surfaces, which go through the nodes of the usual grid, stays within the usual tolerance.
+        const double off = session.surface->deviation.max();
+        EXPECT_EQ(off > usual_tolerance, far_surface(session).has_value()) << entry.path();
+        EXPECT_EQ(shortcomings(session).size(), (session.blank->necking_triangles > 0) +
+                                                    far_surface(session).has_value() +
+                                                    folded_surface(session).has_value())
+            << entry.path();
     }
 }
 
@@ -299,11 +307,12 @@ TEST(Report, HasTheStrainsOfTheSkinsWhereTheyWereAskedFor)
 TEST(Report, NamesEveryShortcoming)
 {
     Session session = finished("dome.obj");
-    EXPECT_TRUE(shortcomings(session).empty());
+    EXPECT_EQ(shortcomings(session).size(), 1u) << "the surface is 0.2 mm off";
     FlattenResult poorer = *session.blank;
     poorer.report.system = SolvedSystem::energy;
     poorer.report.reason = "stalled";
     poorer.necking_triangles = 3;
+    poorer.blank.position.row(0).array() -= poorer.blank.position.row(0).mean();
     poorer.blank.position.row(0) = poorer.blank.position.row(0).cwiseAbs(); // folded over: the outline meets itself
     poorer.overlap = overlap(session.part->mesh, poorer.blank.position);
     poorer.overlap.wound = {0};
