@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/exchange/dxf_options.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::cli {
@@ -14,6 +15,15 @@ struct CadArguments {
     std::optional<double> angle_deg;
     bool skip_bad_faces = false;
 };
+
+/// What a DXF file of the blank is made of.
+struct DxfArguments {
+    std::string curves = "arcs", version = "r2000";
+    double tolerance = DxfOptions{}.tolerance; ///< mm
+};
+
+/// @throws InputError if one makes no sense
+DxfOptions dxf_options(const DxfArguments& arguments);
 
 /// @throws InputError if some is given and the part is no CAD file
 CadOptions cad_options(const CadArguments& arguments, const std::filesystem::path& part);
@@ -32,7 +42,7 @@ struct RunArguments {
     std::optional<double> thickness;                 ///< mm; not given: that of the part, else 1
     std::string grid;                                ///< NxM; empty: automatic
     std::vector<int> corners;
-    std::vector<double> direction;
+    std::vector<double> direction, rolling;
     double to_bends = 0; ///< share of the lines of the grid
     bool even_cells = false;
     std::string grid_method = "automatic", ends = "averaged", fit_parameters = "blank";
@@ -57,7 +67,11 @@ struct RunArguments {
     bool strict = false, keep_largest = false, skins = false;
     std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
+    DxfArguments dxf;
 };
+
+/// The direction of --rolling; none: not asked for. @throws InputError if it is none
+std::optional<Eigen::Vector3d> rolling_direction(const std::vector<double>& numbers);
 
 /// Runs the whole chain on a part, writes the files and prints a summary.
 /// @returns 0, or 1 if the result has shortcomings and `strict` was asked for
@@ -99,6 +113,7 @@ struct UnfoldArguments {
     bool automatic = false;
     std::string skin, material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
     std::vector<std::string> parts;                                       ///< of a solver deck, ids or names
+    std::vector<double> rolling;                                          ///< direction of the sheet; empty: none
     std::optional<double> thickness;                                      ///< mm; not given: that of the deck, else 1
     int root = 0;        ///< of --auto: the region that stays, from 1; 0: the largest flat one
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
@@ -109,6 +124,7 @@ struct UnfoldArguments {
     bool strict = false, keep_largest = false;
     std::optional<double> weld; ///< see set_welding()
     CadArguments cad;
+    DxfArguments dxf;
 };
 
 /// Unfolds a part step by step, as a script says or by steps of its own, writes the states and prints a summary.

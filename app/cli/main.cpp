@@ -66,6 +66,36 @@ void add_thickness(CLI::App* command, std::optional<double>& thickness, const ch
     command->add_option("--thickness", thickness, text)->type_name("MM");
 }
 
+void add_rolling(CLI::App* command, std::vector<double>& rolling)
+{
+    command
+        ->add_option(
+            "--rolling", rolling,
+            "rolling direction of the sheet x,y,z, seen square to the blank: r-values apply along it, and the "
+            "blank lies with it along x (default: no r-values of their own directions, the blank lies straight)")
+        ->delimiter(',')
+        ->expected(3)
+        ->type_name("X,Y,Z");
+}
+
+void add_dxf(CLI::App* command, spia::cli::DxfArguments& dxf)
+{
+    command
+        ->add_option(
+            "--dxf-curves", dxf.curves,
+            "what the outline is in the DXF file of the blank: circles, arcs and lines where they are found, else straight "
+            "pieces (arcs) or splines (splines); or straight pieces throughout (polylines)")
+        ->check(CLI::IsMember({"arcs", "polylines", "splines"}))
+        ->capture_default_str();
+    command->add_option("--dxf-version", dxf.version, "of that file: r12 (AC1009, no splines) or r2000 (AC1015)")
+        ->check(CLI::IsMember({"r12", "r2000"}))
+        ->capture_default_str();
+    command
+        ->add_option("--dxf-tolerance", dxf.tolerance, "how far a place of the outline may be from what is drawn there")
+        ->type_name("MM")
+        ->capture_default_str();
+}
+
 void add_remesh(CLI::App* command, spia::cli::RemeshArguments& remesh)
 {
     CLI::Option* wanted = command->add_flag(
@@ -210,6 +240,7 @@ int main(int count, char** values)
     run_command->add_option("--direction", run.direction, "stamping direction x,y,z (default: automatic)")
         ->delimiter(',')
         ->expected(3);
+    add_rolling(run_command, run.rolling);
     run_command->add_option("--grid", run.grid, "cells of the quad grid (default: automatic)")->type_name("NxM");
     run_command->add_option("--grid-method", run.grid_method, "automatic, coons (the paper's, may fold) or harmonic")
         ->check(CLI::IsMember({"automatic", "coons", "harmonic"}))
@@ -299,6 +330,7 @@ int main(int count, char** values)
                      "of IGES, STEP, isogeometric files, DXF, CSV and VTU (glTF: always metres)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}))
         ->capture_default_str();
+    add_dxf(run_command, run.dxf);
     run_command->add_option("--glb-nodes", run.glb_nodes, "what the GLB file shows")
         ->delimiter(',')
         ->check(CLI::IsMember(run.glb_nodes))
@@ -416,6 +448,7 @@ int main(int count, char** values)
         ->check(CLI::IsMember(all_unfold_formats()))
         ->type_name("LIST")
         ->capture_default_str();
+    add_dxf(unfold_command, unfolding.dxf);
     unfold_command
         ->add_option("--to-part", unfolding.to_part,
                      "lines drawn on the blank (DXF or JSON, mm): written as they lie on the part")
@@ -430,6 +463,7 @@ int main(int count, char** values)
         ->type_name("NAME|FILE")
         ->capture_default_str();
     add_thickness(unfold_command, unfolding.thickness, "of the flat sheet (default: that of the part, else 1)");
+    add_rolling(unfold_command, unfolding.rolling);
     add_parts(unfold_command, unfolding.parts);
     add_cad(unfold_command, unfolding.cad);
     add_skin(unfold_command, unfolding.skin);

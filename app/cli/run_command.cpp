@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 
 #include "app/cli/commands.h"
@@ -61,6 +62,7 @@ SessionOptions options(const RunArguments& arguments)
     if (!arguments.direction.empty())
         result.flatten.direction =
             Eigen::Vector3d(arguments.direction[0], arguments.direction[1], arguments.direction[2]);
+    rolling_direction(arguments.rolling); // before the work
     if (!arguments.corners.empty())
         result.corners = {arguments.corners[0], arguments.corners[1], arguments.corners[2], arguments.corners[3]};
     if (!arguments.grid.empty()) {
@@ -127,6 +129,7 @@ OutputOptions output_options(const RunArguments& arguments)
     };
     const auto& nodes = arguments.glb_nodes;
     OutputOptions result;
+    result.dxf = dxf_options(arguments.dxf);
     result.unit = length_unit(arguments.export_unit);
     result.name = arguments.name;
     result.glb = {among(nodes, "part"), among(nodes, "blank"), among(nodes, "quad_mesh"), among(nodes, "surface"),
@@ -137,6 +140,30 @@ OutputOptions output_options(const RunArguments& arguments)
 }
 
 } // namespace
+
+DxfOptions dxf_options(const DxfArguments& arguments)
+{
+    DxfOptions options;
+    options.version = dxf_version(arguments.version);
+    options.curves = dxf_curves(arguments.curves);
+    options.tolerance = arguments.tolerance;
+    if (options.version == DxfVersion::r12 && options.curves == DxfCurves::splines)
+        throw InputError(
+            "DXF files of version 12 have no splines; give --dxf-curves arcs or polylines, or --dxf-version r2000");
+    if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+        throw InputError("--dxf-tolerance is a distance in mm, 0 or more");
+    return options;
+}
+
+std::optional<Eigen::Vector3d> rolling_direction(const std::vector<double>& numbers)
+{
+    if (numbers.empty())
+        return std::nullopt;
+    const Eigen::Vector3d direction(numbers[0], numbers[1], numbers[2]);
+    if (!direction.allFinite() || !(direction.norm() > 0))
+        throw InputError("--rolling needs a direction x,y,z of three finite numbers that are not all 0");
+    return direction;
+}
 
 int run(const RunArguments& arguments)
 {
@@ -173,6 +200,12 @@ int run(const RunArguments& arguments)
             session.options.flatten.process =
                 read_process(arguments.process, *session.part, session.options.flatten.material,
                              session.options.flatten.thickness, assets() / "materials");
+        if (const auto rolling = rolling_direction(arguments.rolling); stage == Stage::read && rolling) {
+            if (session.options.flatten.process.rolling)
+                throw InputError(fmt::format("--rolling and {} both give a rolling direction; leave one out",
+                                             arguments.process.string()));
+            session.options.flatten.process.rolling = rolling;
+        }
         if (stage == Stage::read) {
             for (const std::string& line : reading_notes(*session.part))
                 say("  {}\n", line);

@@ -27,6 +27,7 @@ void require_surface_place(const UnfoldArguments& arguments, const PartFile& par
     session.part = std::make_shared<PartFile>(part);
     OutputOptions wanted;
     wanted.name = arguments.name;
+    wanted.dxf = dxf_options(arguments.dxf);
     require_place(session, arguments.folder, arguments.surface_formats, arguments.json, wanted);
     const auto report = report_file(arguments);
     if (!arguments.json.empty() && same_place(arguments.json, report))
@@ -65,6 +66,7 @@ std::vector<std::filesystem::path> write_surface(const UnfoldArguments& argument
         return {};
     OutputOptions wanted;
     wanted.name = arguments.name;
+    wanted.dxf = dxf_options(arguments.dxf);
     const auto clock = std::chrono::steady_clock::now();
     JobDisplay display{"write"};
     auto files = write_outputs(made.session, arguments.folder, arguments.surface_formats, wanted, display.progress());

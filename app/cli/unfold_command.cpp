@@ -42,6 +42,7 @@ FlattenOptions flatten_options(const UnfoldArguments& arguments)
 {
     FlattenOptions options;
     options.material = find_material(arguments.material, assets() / "materials");
+    options.process.rolling = rolling_direction(arguments.rolling);
     if (arguments.thickness)
         options.thickness = *arguments.thickness;
     return options;
@@ -360,6 +361,7 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.redo.empty() && (arguments.automatic || arguments.folder.empty()))
         throw InputError("--redo goes on from an earlier run: give --script FILE and the --out DIR of that run");
     require_file_name(arguments.name);
+    dxf_options(arguments.dxf);
     redone_from(arguments.redo.empty() ? "auto" : arguments.redo);
     for (const auto& file : {arguments.to_part, arguments.to_blank})
         if (!file.empty())
@@ -396,7 +398,7 @@ int unfold(const UnfoldArguments& arguments)
     std::vector<std::filesystem::path> files;
     if (!arguments.folder.empty())
         files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
-                                polished ? &polished->whole : nullptr, arguments.formats);
+                                polished ? &polished->whole : nullptr, arguments.formats, dxf_options(arguments.dxf));
     files.insert(files.end(), kept.begin(), kept.end());
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);

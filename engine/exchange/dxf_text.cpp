@@ -34,7 +34,13 @@ enum : int {
     acad,
     standard_dimstyle,
     active,
-    bends_layer,
+    bend_up_layer,
+    bend_down_layer,
+    bend_zone_layer,
+    marks_layer,
+    dashed,
+    dotted,
+    own_application,
 };
 
 /// As $INSUNITS counts.
@@ -53,15 +59,74 @@ void write_header(DxfText& dxf, const DxfFrame& frame)
 {
     const int metric = frame.unit != LengthUnit::inch;
     dxf.begin_section("HEADER");
-    dxf(9, "$ACADVER")(1, "AC1015")(9, "$DWGCODEPAGE")(3, "ANSI_1252");
+    dxf(9, "$ACADVER")(1, dxf.r12() ? "AC1009" : "AC1015")(9, "$DWGCODEPAGE")(3, "ANSI_1252");
     dxf(9, "$INSUNITS")(70, dxf_number(frame.unit))(9, "$MEASUREMENT")(70, metric);
     dxf(9, "$EXTMIN").point(10, frame.low)(30, 0.0)(9, "$EXTMAX").point(10, frame.high)(30, 0.0);
-    dxf(9, "$HANDSEED").handle(5, frame.next_handle);
+    if (!dxf.r12())
+        dxf(9, "$HANDSEED").handle(5, frame.next_handle);
+    dxf.end_section();
+}
+
+/// Dashes and gaps in mm, as drawings have them.
+void write_line_types(DxfText& dxf, LengthUnit unit)
+{
+    const double dash = 4 / millimetres(unit), gap = 2 / millimetres(unit);
+    dxf.begin_table("LTYPE", ltypes, dxf.r12() ? 3 : 5);
+    for (const auto& [own, name] : {std::pair{by_block, "ByBlock"}, {by_layer, "ByLayer"}, {continuous, "Continuous"}})
+        if (!dxf.r12() || own == continuous)
+            dxf.entry("LTYPE", "AcDbLinetypeTableRecord", own, ltypes, name)(3, "")(72, 65)(73, 0)(40, 0.0);
+    for (const auto& [own, name, drawn, about] :
+         {std::tuple{dashed, "DASHED", dash, "__ __ __"}, {dotted, "DOT", 0., ". . . ."}}) {
+        dxf.entry("LTYPE", "AcDbLinetypeTableRecord", own, ltypes, name)(3, about)(72, 65)(73, 2)(40, drawn + gap);
+        for (const double length : {drawn, -gap}) {
+            dxf(49, length);
+            if (!dxf.r12())
+                dxf(74, 0); // no text or shape in it
+        }
+    }
+    dxf.end_table();
+}
+
+void write_layers(DxfText& dxf, const DxfFrame& frame)
+{
+    dxf.begin_table("LAYER", layers, 1 + int(frame.layers.size()));
+    dxf.entry("LAYER", "AcDbLayerTableRecord", layer_0, layers, "0")(62, 7)(6, "Continuous");
+    for (const DxfLayer& layer : frame.layers)
+        dxf.entry("LAYER", "AcDbLayerTableRecord", layer.handle, layers, layer.name)(62, layer.colour)(6,
+                                                                                                       layer.line_type);
+    dxf.end_table();
+}
+
+void write_styles(DxfText& dxf)
+{
+    dxf.begin_table("STYLE", styles, 1);
+    dxf.entry("STYLE", "AcDbTextStyleTableRecord", standard_style, styles,
+              "Standard")(40, 0.0)(41, 1.0)(50, 0.0)(71, 0)(42, 2.5)(3, "txt")(4, "");
+    dxf.end_table();
+}
+
+void write_applications(DxfText& dxf)
+{
+    dxf.begin_table("APPID", appids, 2);
+    dxf.entry("APPID", "AcDbRegAppTableRecord", acad, appids, "ACAD");
+    dxf.entry("APPID", "AcDbRegAppTableRecord", own_application, appids, dxf_application);
+    dxf.end_table();
+}
+
+void write_tables_r12(DxfText& dxf, const DxfFrame& frame)
+{
+    dxf.begin_section("TABLES");
+    write_line_types(dxf, frame.unit);
+    write_layers(dxf, frame);
+    write_styles(dxf);
+    write_applications(dxf);
     dxf.end_section();
 }
 
 void write_tables(DxfText& dxf, const DxfFrame& frame)
 {
+    if (dxf.r12())
+        return write_tables_r12(dxf, frame);
     dxf.begin_section("CLASSES");
     dxf.end_section();
     dxf.begin_section("TABLES");
@@ -72,26 +137,14 @@ void write_tables(DxfText& dxf, const DxfFrame& frame)
         .point(11, {1, 1})
         .point(12, centre)(40, 1.1 * std::max(size.y(), size.x() / 1.5))(41, 1.5);
     dxf.end_table();
-    dxf.begin_table("LTYPE", ltypes, 3);
-    for (const auto& [own, name] : {std::pair{by_block, "ByBlock"}, {by_layer, "ByLayer"}, {continuous, "Continuous"}})
-        dxf.entry("LTYPE", "AcDbLinetypeTableRecord", own, ltypes, name)(3, "")(72, 65)(73, 0)(40, 0.0);
-    dxf.end_table();
-    dxf.begin_table("LAYER", layers, 1 + int(frame.layers.size()));
-    dxf.entry("LAYER", "AcDbLayerTableRecord", layer_0, layers, "0")(62, 7)(6, "Continuous");
-    for (const DxfLayer& layer : frame.layers)
-        dxf.entry("LAYER", "AcDbLayerTableRecord", layer.handle, layers, layer.name)(62, layer.colour)(6, "Continuous");
-    dxf.end_table();
-    dxf.begin_table("STYLE", styles, 1);
-    dxf.entry("STYLE", "AcDbTextStyleTableRecord", standard_style, styles,
-              "Standard")(40, 0.0)(41, 1.0)(50, 0.0)(71, 0)(42, 2.5)(3, "txt")(4, "");
-    dxf.end_table();
+    write_line_types(dxf, frame.unit);
+    write_layers(dxf, frame);
+    write_styles(dxf);
     dxf.begin_table("VIEW", views, 0);
     dxf.end_table();
     dxf.begin_table("UCS", ucss, 0);
     dxf.end_table();
-    dxf.begin_table("APPID", appids, 1);
-    dxf.entry("APPID", "AcDbRegAppTableRecord", acad, appids, "ACAD");
-    dxf.end_table();
+    write_applications(dxf);
     dxf.begin_table("DIMSTYLE", dimstyles, 1);
     dxf(100, "AcDbDimStyleTable");
     dxf(0, "DIMSTYLE").handle(105, standard_dimstyle).handle(330, dimstyles); // the one entry whose handle has code 105
@@ -108,6 +161,8 @@ void write_tables(DxfText& dxf, const DxfFrame& frame)
 
 void write_blocks(DxfText& dxf)
 {
+    if (dxf.r12())
+        return;
     dxf.begin_section("BLOCKS");
     for (const auto& [record, begin, end, name] : {std::tuple{model_space, model_block, model_end, "*Model_Space"},
                                                    {paper_space, paper_block, paper_end, "*Paper_Space"}}) {
@@ -122,6 +177,8 @@ void write_blocks(DxfText& dxf)
 
 void write_objects(DxfText& dxf)
 {
+    if (dxf.r12())
+        return;
     dxf.begin_section("OBJECTS");
     dxf(0, "DICTIONARY")
         .handle(5, root_dictionary)

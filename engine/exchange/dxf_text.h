@@ -5,20 +5,23 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/exchange/dxf_options.h"
 
 namespace spia {
 
 /// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those of the
-/// fixed objects are below 0x100.
+/// fixed objects are below 0x100. Files of version 12 have neither handles nor the marks of subclasses: they are left out.
 class DxfText {
 public:
-    DxfText& operator()(int code, const char* value) { return line(code, value); }
-    DxfText& operator()(int code, const std::string& value) { return line(code, value); }
+    explicit DxfText(DxfVersion version = DxfVersion::r2000) : r12_(version == DxfVersion::r12) {}
+
+    DxfText& operator()(int code, const char* value) { return r12_ && code == 100 ? *this : line(code, value); }
+    DxfText& operator()(int code, const std::string& value) { return (*this)(code, value.c_str()); }
     DxfText& operator()(int code, int value) { return line(code, value); }
     DxfText& operator()(int code, double value) { return line(code, fmt::format("{:#.17g}", value)); }
     DxfText& point(int code, const Eigen::Vector2d& p) { return (*this)(code, p.x())(code + 10, p.y()); }
-    DxfText& handle(int code, int value) { return line(code, fmt::format("{:X}", value)); }
+    DxfText& handle(int code, int value) { return r12_ ? *this : line(code, fmt::format("{:X}", value)); }
+    bool r12() const { return r12_; }
 
     void begin_section(const char* name) { (*this)(0, "SECTION")(2, name); }
     void end_section() { (*this)(0, "ENDSEC"); }
@@ -34,6 +37,7 @@ public:
     }
     void end_table() { (*this)(0, "ENDTAB"); }
 
+    void append(const DxfText& other) { text_ += other.text_; }
     const std::string& text() const { return text_; }
 
 private:
@@ -43,13 +47,18 @@ private:
         return *this;
     }
     std::string text_;
+    bool r12_;
 };
 
 struct DxfLayer {
     int handle;
     std::string name;
-    int colour; ///< of AutoCAD's table
+    int colour;                           ///< of AutoCAD's table
+    std::string line_type = "Continuous"; ///< or DASHED, DOT
 };
+
+/// Who extended data in our files is of; declared in each.
+inline constexpr const char* dxf_application = "SPIA";
 
 /// What a file is about, for its header.
 struct DxfFrame {
@@ -60,7 +69,8 @@ struct DxfFrame {
 };
 
 namespace dxf_handle {
-constexpr int model_space = 0x20, layer_outline = 0x34, layer_holes = 0x35, layer_bends = 0x3a,
+constexpr int model_space = 0x20, layer_outline = 0x34, layer_holes = 0x35, layer_bend_up = 0x3a,
+              layer_bend_down = 0x3b, layer_bend_zone = 0x3c, layer_marks = 0x3d,
               first_entity = 0x100; ///< what stands in every file is below
 }
 

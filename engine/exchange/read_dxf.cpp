@@ -11,6 +11,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/dxf_curves.h"
+#include "engine/exchange/dxf_text.h"
 
 namespace spia {
 namespace {
@@ -135,6 +136,14 @@ dxf::Spline spline_of(const Entity& entity)
     return spline;
 }
 
+/// What write_dxf() writes beside a bend is said by the bend's line.
+bool is_own_label(const Entity& entity)
+{
+    return entity.type == "TEXT" && std::any_of(entity.pairs.begin(), entity.pairs.end(), [](const Pair& pair) {
+               return pair.code == 1001 && pair.value == dxf_application;
+           });
+}
+
 class Reader {
 public:
     explicit Reader(double mm) : mm_(mm) {}
@@ -147,7 +156,7 @@ public:
             return;
         }
         finish();
-        if (entity.type == "SEQEND" || entity.type == "VERTEX")
+        if (entity.type == "SEQEND" || entity.type == "VERTEX" || is_own_label(entity))
             return;
         if (entity.type == "LINE")
             return add(entity, {entity.point(10), entity.point(11)}, false);

@@ -1,111 +1,338 @@
 #include "engine/exchange/write_dxf.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <numbers>
+#include <span>
 
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/dxf_text.h"
+#include "engine/exchange/outline_curves.h"
+#include "engine/exchange/smooth_spline.h"
 #include "engine/exchange/write_lines.h"
 
 namespace spia {
 namespace {
 
 using namespace dxf_handle;
+using Kind = OutlinePiece::Kind;
 
-void polyline(DxfText& dxf, int handle, const std::string& layer, const Eigen::Matrix2Xd& points, bool closed)
-{
-    dxf(0, "LWPOLYLINE").handle(5, handle).handle(330, model_space)(100, "AcDbEntity");
-    dxf(8, layer)(100, "AcDbPolyline")(90, int(points.cols()))(70, int(closed));
-    for (const auto point : points.colwise())
-        dxf.point(10, point);
-}
+constexpr double degree = std::numbers::pi / 180;
 
-/// @returns the next free handle
-int polyline_in_space(DxfText& dxf, int handle, const std::string& layer, const Eigen::Matrix3Xd& points, bool closed)
-{
-    const int own = handle++;
-    dxf(0, "POLYLINE").handle(5, own).handle(330, model_space)(100, "AcDbEntity");
-    dxf(8, layer)(100, "AcDb3dPolyline")(66, 1).point(10, {0, 0})(30, 0.0)(70, 8 + int(closed));
-    for (const auto point : points.colwise()) {
-        dxf(0, "VERTEX").handle(5, handle++).handle(330, own)(100, "AcDbEntity")(8, layer)(100, "AcDbVertex");
-        dxf(100, "AcDb3dPolylineVertex").point(10, point.head<2>())(30, point[2])(70, 32);
+/// A point of a polyline and the bulge of the way to the next.
+struct Bulged {
+    Eigen::Vector2d at;
+    double bulge = 0;
+};
+
+/// Entities with their handles, lengths in the unit of the file.
+class Entities {
+public:
+    Entities(DxfText& dxf, double mm) : dxf_(dxf), mm_(mm) {}
+
+    int next_handle() const { return handle_; }
+
+    void polyline(const char* layer, std::span<const Bulged> points, bool closed)
+    {
+        begin(dxf_.r12() ? "POLYLINE" : "LWPOLYLINE", layer);
+        if (dxf_.r12())
+            dxf_(66, 1).point(10, {0, 0})(30, 0.0)(70, int(closed));
+        else
+            dxf_(100, "AcDbPolyline")(90, int(points.size()))(70, int(closed));
+        for (const Bulged& point : points) {
+            if (dxf_.r12())
+                dxf_(0, "VERTEX")(8, layer);
+            dxf_.point(10, point.at / mm_);
+            if (dxf_.r12())
+                dxf_(30, 0.0);
+            if (point.bulge != 0)
+                dxf_(42, point.bulge);
+        }
+        if (dxf_.r12())
+            dxf_(0, "SEQEND")(8, layer);
     }
-    dxf(0, "SEQEND").handle(5, handle++).handle(330, own)(100, "AcDbEntity")(8, layer);
-    return handle;
+
+    void circle(const char* layer, const Eigen::Vector2d& centre, double radius)
+    {
+        begin("CIRCLE", layer);
+        dxf_(100, "AcDbCircle").point(10, centre / mm_)(30, 0.0)(40, radius / mm_);
+    }
+
+    void line(const char* layer, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+    {
+        begin("LINE", layer);
+        dxf_(100, "AcDbLine").point(10, a / mm_)(30, 0.0).point(11, b / mm_)(31, 0.0);
+    }
+
+    /// Arcs of DXF files run counter-clockwise.
+    void arc(const char* layer, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double bulge)
+    {
+        const Eigen::Vector2d centre = arc_centre(from, to, bulge), a = (bulge > 0 ? from : to) - centre,
+                              b = (bulge > 0 ? to : from) - centre;
+        begin("ARC", layer);
+        dxf_(100, "AcDbCircle").point(10, centre / mm_)(30, 0.0)(40, a.norm() / mm_);
+        dxf_(100, "AcDbArc")(50, turn_deg(a))(51, turn_deg(b));
+    }
+
+    void spline(const char* layer, const SmoothSpline& spline)
+    {
+        constexpr int planar = 8;
+        begin("SPLINE", layer);
+        dxf_(100, "AcDbSpline").point(210, {0, 0})(230, 1.0)(70, planar)(71, 3)(72, int(spline.knots.size()));
+        dxf_(73, int(spline.poles.size()))(74, 0);
+        for (const double knot : spline.knots)
+            dxf_(40, knot / mm_);
+        for (const Eigen::Vector2d& pole : spline.poles)
+            dxf_.point(10, pole / mm_)(30, 0.0);
+    }
+
+    /// @param at the middle of its lower edge @param turn degrees
+    void text(const char* layer, const std::string& text, const Eigen::Vector2d& at, double height, double turn)
+    {
+        begin("TEXT", layer);
+        dxf_(100, "AcDbText").point(10, at / mm_)(30, 0.0)(40, height / mm_)(1, text)(50, turn)(72, 1);
+        dxf_.point(11, at / mm_)(31, 0.0)(100, "AcDbText");
+    }
+
+    /// Extended data of what was written last.
+    void about(const DrawnBend& bend)
+    {
+        dxf_(1001, dxf_application)(1000, "bend")(1000, ascii(bend.name));
+        for (const auto& [name, value] :
+             {std::pair{"angle_deg", bend.angle / degree}, {"inner_radius", bend.inner_radius / mm_}, {"k", bend.k}})
+            dxf_(1000, name)(1040, value);
+    }
+
+private:
+    static double turn_deg(const Eigen::Vector2d& arm)
+    {
+        const double angle = std::atan2(arm[1], arm[0]) / degree;
+        return angle < 0 ? angle + 360 : angle;
+    }
+    static std::string ascii(std::string text)
+    {
+        for (char& c : text)
+            if (c < ' ' || c > '~')
+                c = '_';
+        return text;
+    }
+    void begin(const char* type, const char* layer)
+    {
+        dxf_(0, type).handle(5, handle_).handle(330, model_space)(100, "AcDbEntity")(8, layer);
+        ++handle_;
+    }
+
+    DxfText& dxf_;
+    double mm_; ///< of a unit of the file
+    int handle_ = first_entity;
+};
+
+std::vector<Bulged> through(const Eigen::Matrix2Xd& points)
+{
+    std::vector<Bulged> result;
+    for (const auto point : points.colwise())
+        result.push_back({point});
+    return result;
 }
 
-std::string layer_name(const std::string& name)
+/// One closed polyline, its arcs as bulges.
+std::vector<Bulged> with_bulges(const OutlineLoop& loop, const OutlineCurves& curves)
 {
-    std::string layer = name.empty() ? "0" : name;
-    for (char& c : layer)
-        if (c < ' ' || c > '~' || std::string("<>/\\\":;?*|,=`").find(c) != std::string::npos)
-            c = '_';
-    return layer;
+    std::vector<Bulged> points;
+    for (const OutlinePiece& piece : curves.pieces)
+        if (piece.kind == Kind::points)
+            for (int k = 0; k < piece.edges; ++k)
+                points.push_back({loop.col((piece.first + k) % loop.cols())});
+        else
+            points.push_back({loop.col(piece.first), piece.bulge});
+    return points;
+}
+
+void draw_points(Entities& draw, const char* layer, const OutlineLoop& loop, const OutlinePiece& piece)
+{
+    const bool closed = piece.edges == loop.cols();
+    Eigen::Matrix2Xd points(2, piece.edges + (closed ? 0 : 1));
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+        points.col(k) = loop.col((piece.first + k) % loop.cols());
+    for (const SmoothSpline& spline : smooth_splines(points, closed))
+        if (spline.poles.size() == 2)
+            draw.line(layer, spline.poles.front(), spline.poles.back());
+        else
+            draw.spline(layer, spline);
+}
+
+void draw_loop(Entities& draw, const char* layer, const OutlineLoop& loop, double size, const DxfOptions& options)
+{
+    constexpr double exact = 1e-6; // of the blank: places of CAD files and their blanks are as good
+    if (options.curves == DxfCurves::polylines)
+        return draw.polyline(layer, through(loop), true);
+    const OutlineCurves curves = find_curves(loop, std::min(exact * size, options.tolerance), options.tolerance);
+    if (curves.circle)
+        return draw.circle(layer, curves.centre, curves.radius);
+    const bool bare = std::any_of(curves.pieces.begin(), curves.pieces.end(),
+                                  [](const OutlinePiece& piece) { return piece.kind == Kind::points; });
+    if (options.curves == DxfCurves::arcs || !bare)
+        return draw.polyline(layer, with_bulges(loop, curves), true);
+    for (const OutlinePiece& piece : curves.pieces) {
+        const Eigen::Vector2d from = loop.col(piece.first), to = loop.col((piece.first + piece.edges) % loop.cols());
+        if (piece.kind == Kind::line)
+            draw.line(layer, from, to);
+        else if (piece.kind == Kind::arc)
+            draw.arc(layer, from, to, piece.bulge);
+        else
+            draw_points(draw, layer, loop, piece);
+    }
+}
+
+/// A number as drawings have it: few digits, no zeros at the end.
+std::string few_digits(double value, int decimals)
+{
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    while (text.back() == '0')
+        text.pop_back();
+    if (text.back() == '.')
+        text.pop_back();
+    return text;
+}
+
+std::string label(const DrawnBend& bend, double mm)
+{
+    return fmt::format("{} {}%%d R{} K{}", bend.up ? "UP" : "DOWN", few_digits(bend.angle / degree, 2),
+                       few_digits(bend.inner_radius / mm, mm > 1 ? 4 : 3), few_digits(bend.k, 3));
+}
+
+bool is_straight(const Eigen::Matrix2Xd& points, double tolerance)
+{
+    const Eigen::Vector2d a = points.col(0), way = points.rightCols<1>() - a;
+    if (!(way.norm() > tolerance))
+        return false;
+    const Eigen::RowVectorXd off =
+        (way[0] * (points.row(1).array() - a[1]) - way[1] * (points.row(0).array() - a[0])) / way.norm();
+    return off.cwiseAbs().maxCoeff() <= tolerance;
+}
+
+/// Middle line and text of a bend. The text stands over the line, to be read from below or from the right.
+void draw_bend(Entities& draw, const DrawnBend& bend, double size, const DxfOptions& options)
+{
+    const char* layer = bend.up ? "BEND_UP" : "BEND_DOWN";
+    const Eigen::Matrix2Xd* longest = nullptr;
+    double length = 0;
+    for (const Eigen::Matrix2Xd& line : bend.middle) {
+        if (is_straight(line, options.tolerance))
+            draw.line(layer, line.col(0), line.rightCols<1>());
+        else
+            draw.polyline(layer, through(line), false);
+        draw.about(bend);
+        if (const double own = (line.rightCols<1>() - line.col(0)).norm(); !longest || own > length) {
+            longest = &line;
+            length = own;
+        }
+    }
+    if (longest) {
+        const std::string text = label(bend, millimetres(options.unit));
+        Eigen::Vector2d way = longest->rightCols<1>() - longest->col(0);
+        if (way[0] < 0 || (way[0] < 1e-9 * way.norm() && way[1] < 0))
+            way = -way;
+        const double turn = std::atan2(way[1], way[0]);
+        // Letters are about as wide as high: the text is no longer than its line, and small beside the blank.
+        const double shown = double(text.size()) - 2; // %%d is one letter
+        const double height = std::min(size / 60, 0.9 * length / shown);
+        const Eigen::Vector2d up(-std::sin(turn), std::cos(turn));
+        const Eigen::Vector2d middle = (longest->col(0) + longest->rightCols<1>()) / 2;
+        draw.text(layer, text, middle + 0.4 * height * up, height, turn / degree);
+        draw.about(bend);
+    }
+    for (const Eigen::Matrix2Xd& line : bend.zone)
+        if (is_straight(line, options.tolerance))
+            draw.line("BEND_ZONE", line.col(0), line.rightCols<1>());
+        else
+            draw.polyline("BEND_ZONE", through(line), false);
+}
+
+void require_drawn(std::span<const Eigen::Matrix2Xd> lines, const std::string& what)
+{
+    for (const Eigen::Matrix2Xd& line : lines)
+        if (line.cols() < 2 || !line.allFinite())
+            throw InputError(fmt::format("a line of {} needs two finite points or more", what));
+}
+
+void require_drawing(const BlankDrawing& drawing, const DxfOptions& options)
+{
+    require_outline(drawing.loops);
+    require_drawn(drawing.marks, "the marks");
+    for (const DrawnBend& bend : drawing.bends) {
+        require_drawn(bend.middle, bend.name);
+        require_drawn(bend.zone, bend.name);
+        if (!std::isfinite(bend.angle) || !std::isfinite(bend.inner_radius) || !std::isfinite(bend.k))
+            throw InputError(fmt::format("{}: its angle, radius or K factor is no number", bend.name));
+    }
+    if (options.version == DxfVersion::r12 && options.curves == DxfCurves::splines)
+        throw InputError("DXF files of version 12 have no splines; ask for arcs or polylines, or for version r2000");
+    if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+        throw InputError(
+            fmt::format("the tolerance of a DXF file is {} mm; it must not be negative", options.tolerance));
+}
+
+std::vector<DxfLayer> layers_of(const BlankDrawing& drawing)
+{
+    std::vector<DxfLayer> layers = {{layer_outline, "OUTLINE", 7}, {layer_holes, "HOLES", 1}};
+    const auto any = [&](const auto& has) { return std::any_of(drawing.bends.begin(), drawing.bends.end(), has); };
+    if (any([](const DrawnBend& bend) { return bend.up && !bend.middle.empty(); }))
+        layers.push_back({layer_bend_up, "BEND_UP", 5, "DASHED"});
+    if (any([](const DrawnBend& bend) { return !bend.up && !bend.middle.empty(); }))
+        layers.push_back({layer_bend_down, "BEND_DOWN", 3, "DASHED"});
+    if (any([](const DrawnBend& bend) { return !bend.zone.empty(); }))
+        layers.push_back({layer_bend_zone, "BEND_ZONE", 8, "DOT"});
+    if (!drawing.marks.empty())
+        layers.push_back({layer_marks, "MARKS", 6});
+    return layers;
 }
 
 } // namespace
 
-void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops_mm, LengthUnit unit,
-               std::span<const SheetLine> bends_mm)
+DxfVersion dxf_version(const std::string& name)
 {
-    require_outline(loops_mm);
-    std::vector<OutlineLoop> loops = loops_mm;
-    DxfFrame frame{loops[0].rowwise().minCoeff(),
-                   loops[0].rowwise().maxCoeff(),
-                   unit,
-                   {{layer_outline, "OUTLINE", 7}, {layer_holes, "HOLES", 1}},
-                   first_entity + int(loops.size() + bends_mm.size())};
-    for (OutlineLoop& loop : loops) {
-        frame.low = frame.low.cwiseMin(loop.rowwise().minCoeff());
-        frame.high = frame.high.cwiseMax(loop.rowwise().maxCoeff());
-        loop /= millimetres(unit);
-    }
-    frame.low /= millimetres(unit);
-    frame.high /= millimetres(unit);
-    if (!bends_mm.empty()) {
-        require_lines(bends_mm);
-        frame.layers.push_back({layer_bends, "BENDS", 5});
-    }
-    DxfText dxf;
-    begin_dxf(dxf, frame);
-    int handle = first_entity;
-    for (size_t i = 0; i < loops.size(); ++i)
-        polyline(dxf, handle++, i == 0 ? "OUTLINE" : "HOLES", loops[i], true);
-    for (const SheetLine& bend : bends_mm)
-        polyline(dxf, handle++, "BENDS", bend.point.topRows<2>() / millimetres(unit), bend.closed);
-    end_dxf(dxf);
-    write_atomically(path, dxf.text());
+    if (name == "r12")
+        return DxfVersion::r12;
+    if (name == "r2000")
+        return DxfVersion::r2000;
+    throw InputError(fmt::format("there is no DXF version \"{}\" here; there are r12 and r2000", name));
 }
 
-void write_lines_dxf(const std::filesystem::path& path, std::span<const SheetLine> lines, LengthUnit unit)
+DxfCurves dxf_curves(const std::string& name)
 {
-    require_lines(lines);
-    const double scale = 1 / millimetres(unit);
-    bool flat = true;
-    DxfFrame frame{lines[0].point.col(0).head<2>(), lines[0].point.col(0).head<2>(), unit, {}, 0};
-    int handle = first_entity, points = 0;
-    for (const SheetLine& line : lines) {
-        frame.low = frame.low.cwiseMin(line.point.topRows<2>().rowwise().minCoeff());
-        frame.high = frame.high.cwiseMax(line.point.topRows<2>().rowwise().maxCoeff());
-        flat &= (line.point.row(2).array() == 0).all();
-        points += int(line.point.cols()) + 2;
-        const std::string name = layer_name(line.name);
-        const bool known = name == "0" || std::any_of(frame.layers.begin(), frame.layers.end(),
-                                                      [&](const DxfLayer& layer) { return layer.name == name; });
-        if (!known)
-            frame.layers.push_back({handle++, name, 7});
+    if (name == "arcs")
+        return DxfCurves::arcs;
+    if (name == "polylines")
+        return DxfCurves::polylines;
+    if (name == "splines")
+        return DxfCurves::splines;
+    throw InputError(fmt::format("there are no DXF curves \"{}\"; there are arcs, polylines and splines", name));
+}
+
+void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, const DxfOptions& options)
+{
+    require_drawing(drawing, options);
+    const std::vector<OutlineLoop>& loops = drawing.loops;
+    Eigen::Vector2d low = loops[0].rowwise().minCoeff(), high = loops[0].rowwise().maxCoeff();
+    for (const OutlineLoop& loop : loops) {
+        low = low.cwiseMin(loop.rowwise().minCoeff());
+        high = high.cwiseMax(loop.rowwise().maxCoeff());
     }
-    frame.low *= scale;
-    frame.high *= scale;
-    frame.next_handle = handle + points;
-    DxfText dxf;
-    begin_dxf(dxf, frame);
-    for (const SheetLine& line : lines)
-        if (flat)
-            polyline(dxf, handle++, layer_name(line.name), line.point.topRows<2>() * scale, line.closed);
-        else
-            handle = polyline_in_space(dxf, handle, layer_name(line.name), line.point * scale, line.closed);
+    const double mm = millimetres(options.unit), size = (high - low).norm();
+    DxfText entities(options.version);
+    Entities draw(entities, mm);
+    for (size_t i = 0; i < loops.size(); ++i)
+        draw_loop(draw, i == 0 ? "OUTLINE" : "HOLES", loops[i], size, options);
+    for (const DrawnBend& bend : drawing.bends)
+        draw_bend(draw, bend, size, options);
+    for (const Eigen::Matrix2Xd& mark : drawing.marks)
+        draw.polyline("MARKS", through(mark), false);
+    DxfText dxf(options.version);
+    begin_dxf(dxf, {low / mm, high / mm, options.unit, layers_of(drawing), draw.next_handle()});
+    dxf.append(entities);
     end_dxf(dxf);
     write_atomically(path, dxf.text());
 }

@@ -1,19 +1,19 @@
 #pragma once
 #include <filesystem>
-#include <span>
 
-#include "engine/exchange/blank_outline.h"
-#include "engine/exchange/length_unit.h"
-#include "engine/unfold/sheet_lines.h"
+#include "engine/exchange/blank_drawing.h"
+#include "engine/exchange/dxf_options.h"
 
 namespace spia {
 
-/// Writes a DXF file (AutoCAD 2000, AC1015): each loop a closed LWPOLYLINE, the first on layer
-/// OUTLINE, the others on layer HOLES; lines on layer BENDS, open or closed as they are. Numbers have 17 digits.
-/// @param bends x and y in the plane of the loops, mm; empty: there is no such layer
-/// @param unit of the lengths in the file, which its header names
-/// @throws InputError if there is no outline, or a line is none; ExchangeError if the file cannot be written
-void write_dxf(const std::filesystem::path& path, const std::vector<OutlineLoop>& loops,
-               LengthUnit unit = LengthUnit::mm, std::span<const SheetLine> bends = {});
+/// Writes a DXF file that a laser or a press brake takes. Layers:
+/// | OUTLINE, HOLES | what is cut: a CIRCLE, or one closed LWPOLYLINE (R12: POLYLINE) whose arcs are bulges; with splines in it LINE, ARC and SPLINE end to end |
+/// | BEND_UP, BEND_DOWN | dashed: the middle line of each bend, a LINE if it is straight, with a TEXT of angle, inner radius and K beside it |
+/// | BEND_ZONE | dotted: where bends begin and end |
+/// | MARKS | what is scribed |
+/// Line and text of a bend have extended data of the application SPIA: texts (code 1000) `bend`, its name, then a name and a number (1040) each:
+/// `angle_deg`, `inner_radius` (in the unit of the file), `k`. The last four layers are there if something is on them. Numbers have 17 digits.
+/// @throws InputError if there is no outline, a line is none, or splines are asked for in R12; ExchangeError if the file cannot be written
+void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, const DxfOptions& options = {});
 
 } // namespace spia

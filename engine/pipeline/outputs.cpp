@@ -17,6 +17,7 @@
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
 #include "engine/pipeline/deck_outputs.h"
+#include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/iga_outputs.h"
 
 namespace fs = std::filesystem;
@@ -84,6 +85,19 @@ Tessellation tessellation_of(const MultiPatch& patches, const Progress& progress
         whole.mesh.triangle.rightCols(piece.mesh.triangle.cols()) = piece.mesh.triangle.array() + int(vertices);
     }
     return whole;
+}
+
+/// Also the straight bends of a bracket; what a drawn part has in their place is no matter for a press brake.
+BlankDrawing drawing_for_shop(const Session& session)
+{
+    return drawn_blank(*session.part, find_bends(session.part->mesh), session.blank->blank, session.blank->face, true);
+}
+
+DxfOptions dxf_options(const OutputOptions& options)
+{
+    DxfOptions dxf = options.dxf;
+    dxf.unit = options.unit;
+    return dxf;
 }
 
 } // namespace
@@ -228,7 +242,7 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
             write_vtu(path, part, flat.blank, flat.face, flat.node, extra, unit, zones,
                       flat.skins ? &*flat.skins : nullptr, blank_from);
         } else if (format == "dxf")
-            write_dxf(path, blank_outline(part, flat.blank), unit);
+            write_dxf(path, drawing_for_shop(session), dxf_options(options));
         else if (format == "csv") {
             size_t table = first;
             if (options.csv.fields)

@@ -5,6 +5,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/exchange/atomic_file.h"
+#include "engine/exchange/dxf_options.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/exchange/write_gltf.h"
 #include "engine/pipeline/session.h"
@@ -30,6 +31,7 @@ struct OutputOptions {
     std::string name; ///< of the files, without folder and ending; empty: the part's
     GltfNodes glb;
     CsvTables csv;
+    DxfOptions dxf; ///< its unit is the one above
 
     friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
 };

@@ -11,6 +11,7 @@
 #include "engine/exchange/write_dxf.h"
 #include "engine/exchange/write_vtu.h"
 #include "engine/pipeline/deck_outputs.h"
+#include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/line_file.h"
 
 namespace spia {
@@ -95,7 +96,7 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
                                                    const UnfoldRun& run, const FlattenResult* polished,
-                                                   const std::vector<std::string>& formats)
+                                                   const std::vector<std::string>& formats, const DxfOptions& dxf)
 {
     std::vector<std::filesystem::path> files;
     const auto wanted = [&](const char* format) {
@@ -121,15 +122,13 @@ std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& 
         return files;
     if (wanted("dxf")) {
         files.push_back(folder / (name + "-blank.dxf"));
-        write_dxf(files.back(), blank_outline(part.mesh, *run.blank), LengthUnit::mm,
-                  bend_lines(part.mesh, map, run.blank->position));
+        write_dxf(files.back(), drawn_blank(part, map, *run.blank, run.states.back().face), dxf);
     }
     add(write_deck_files(folder, name, formats, part, *run.blank, run.states.back().face));
     add(write_line_files(folder, name + "-blank", blank_lines(part.mesh, map, *run.blank), without(formats, "dxf")));
     if (polished && wanted("dxf")) {
         files.push_back(folder / (name + "-polished.dxf"));
-        write_dxf(files.back(), blank_outline(part.mesh, polished->blank), LengthUnit::mm,
-                  bend_lines(part.mesh, map, polished->blank.position));
+        write_dxf(files.back(), drawn_blank(part, map, polished->blank, polished->face), dxf);
     }
     if (polished && wanted("vtu")) {
         files.push_back(folder / (name + "-polished.vtu"));

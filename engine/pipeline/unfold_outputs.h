@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/exchange/dxf_options.h"
 #include "engine/exchange/read_part.h"
 #include "engine/unfold/bends.h"
 #include "engine/unfold/sheet_lines.h"
@@ -23,14 +24,16 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
 
 /// Writes what a run gave into a folder. Of each step its state (NAME-stepN.vtu) and, if it laid
 /// faces on others, their developed edge as trim lines on the target (NAME-stepN-trim.dxf, .iges, .step); of the blank its
-/// outline and bend lines (NAME-blank.dxf, .iges, .step) and, where asked for, its mesh (NAME-blank.k, .bdf, .inp, .msh).
+/// outline and bend lines (NAME-blank.dxf as write_dxf() has it, .iges, .step) and, where asked for, its mesh (NAME-blank.k, .bdf, .inp, .msh).
 /// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null
 /// @param formats some of all_unfold_formats(); "states" is not written here
+/// @param dxf     of the blank; trim lines are polylines in mm
 /// @returns the files, in the order written
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
                                                    const UnfoldRun& run, const FlattenResult* polished = nullptr,
-                                                   const std::vector<std::string>& formats = unfold_formats());
+                                                   const std::vector<std::string>& formats = unfold_formats(),
+                                                   const DxfOptions& dxf = {});
 
 /// Outline ("outline"), holes ("hole 1" ...) and bend lines of a blank, in the plane z = 0.
 std::vector<SheetLine> blank_lines(const TriMesh& part, const BendMap& map, const Blank& blank);

@@ -44,3 +44,8 @@ run 2 "is not for layouts with cuts or corners" "$out/fold.obj" --patches "$out/
 echo '{"cuts": [[5, 71]], "edge_deg": 45}' > "$out/cut.json"
 run 2 "cannot be with cuts or corners" "$out/fold.obj" --patches "$out/cut.json"
 echo "grid: all as it should be"
+# A flat U, whose one patch cuts its corners: said, and with --strict no success. Asked for a tolerance there is a verdict of its own.
+awk 'BEGIN { for (j = 0; j <= 4; ++j) for (i = 0; i <= 6; ++i) print "v", 10 * i, 10 * j, 0
+             for (j = 0; j < 4; ++j) for (i = 1; i <= 6; ++i) if (j < 1 || i < 3 || i > 4) print "f", 7 * j + i, 7 * j + i + 1, 7 * j + i + 8, 7 * j + i + 7 }' > "$out/u.obj"
+run 0 "WARNING .*usual tolerance of 0.1 mm" "$out/u.obj"
+run 1 "WARNING .*usual tolerance of 0.1 mm" "$out/u.obj" --strict

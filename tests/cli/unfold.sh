@@ -17,7 +17,8 @@ expect_exit 0 "$spia" unfold "$part" --auto --out "$out/auto" --json "$out/auto.
 for step in 1 2 3 4 5; do [ -s "$out/auto/lipped-channel-step$step.vtu" ] || fail "no state of step $step"; done
 [ ! -e "$out/auto/lipped-channel-step6.vtu" ] || fail "a sixth step"
 grep -q LWPOLYLINE "$out/auto/lipped-channel-blank.dxf" || fail "no outline"
-[ "$(grep -c '^BENDS' "$out/auto/lipped-channel-blank.dxf")" = 19 ] || fail "not three lines for each of six bends, and their layer"
+[ "$(grep -cE '^BEND_(UP|DOWN)$' "$out/auto/lipped-channel-blank.dxf")" = 13 ] || fail "not a line and a text for each of six bends, and their layer"
+[ "$(grep -c '^BEND_ZONE$' "$out/auto/lipped-channel-blank.dxf")" = 13 ] || fail "not two lines where each of six bends begins and ends, and their layer"
 for file in step1-trim step3-trim blank; do
     for ending in dxf iges step; do [ -s "$out/auto/lipped-channel-$file.$ending" ] || fail "no $file.$ending"; done
 done

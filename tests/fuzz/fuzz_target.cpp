@@ -367,7 +367,7 @@ std::string dxf_seed()
           "0 POLYLINE 8 e 70 8", "0 VERTEX 8 e 10 1 20 1 30 1", "0 VERTEX 8 e 10 2 20 2 30 1", "0 SEQEND",
           "0 ELLIPSE 8 f 10 0 20 0 11 4 21 0 40 0.5 41 0 42 6.2831853",
           "0 SPLINE 8 g 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 30 0 10 1 20 2 30 0 10 3 20 0 30 0",
-          "0 HATCH 8 h"}) {
+          "0 TEXT 8 BEND_UP 10 1 20 2 30 0 40 3 1 UP 1001 SPIA 1000 bend 1000 b 1000 k 1040 0.5", "0 HATCH 8 h"}) {
         std::string lines = entity;
         for (char& c : lines)
             c = c == ' ' ? '\n' : c;

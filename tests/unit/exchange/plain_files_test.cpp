@@ -160,7 +160,10 @@ std::vector<std::pair<std::string, std::function<void(const std::filesystem::pat
     const samples::Chain& chain)
 {
     return {{"part.vtu", [&](const auto& path) { write_vtu(path, chain.part, chain.blank, chain.face, chain.node); }},
-            {"outline.dxf", [&](const auto& path) { write_dxf(path, blank_outline(chain.part, chain.blank)); }},
+            {"outline.dxf",
+             [&](const auto& path) {
+                 write_dxf(path, {blank_outline(chain.part, chain.blank), {}, {}});
+             }},
             {"outline.csv", [&](const auto& path) { write_outline_csv(path, blank_outline(chain.part, chain.blank)); }},
             {"fields.csv", [&](const auto& path) { write_fields_csv(path, chain.part, chain.blank, chain.node); }}};
 }
@@ -329,7 +332,7 @@ TEST(Dxf, LoopsAreClosedOnTheirLayersAndEncloseTheBlanksArea)
     const samples::Chain chain = samples::chain();
     const auto loops = blank_outline(chain.part, chain.blank);
     ASSERT_EQ(loops.size(), 2u);
-    write_dxf(folder / "x.dxf", loops);
+    write_dxf(folder / "x.dxf", {loops, {}, {}}, {.curves = DxfCurves::polylines});
     const auto lines = polylines(dxf_pairs(content_of(folder / "x.dxf")));
     ASSERT_EQ(lines.size(), loops.size());
     double enclosed = 0;
@@ -351,27 +354,39 @@ TEST(Dxf, LoopsAreClosedOnTheirLayersAndEncloseTheBlanksArea)
     EXPECT_LT(signed_area(loops[1]), 0);
 }
 
-TEST(Dxf, BendLinesHaveTheirLayerAndStayOpen)
+TEST(Dxf, BendLinesHaveTheirLayersAndStayOpen)
 {
     const ScratchFolder folder;
     const samples::Chain chain = samples::chain();
-    const auto loops = blank_outline(chain.part, chain.blank);
-    const std::vector<SheetLine> bends = {{"bend 1", (Eigen::Matrix3Xd(3, 2) << 0, 25.4, 1, 2, 9, 9).finished(), false},
-                                          {"bend 2", Eigen::Matrix3Xd::Random(3, 5), true}};
-    write_dxf(folder / "x.dxf", loops, LengthUnit::inch, bends);
+    BlankDrawing drawing{blank_outline(chain.part, chain.blank), {}, {}};
+    DrawnBend bend{"bend 1", 1.5, 3, 0.44, true, {}, {}};
+    bend.middle = {(Eigen::Matrix2Xd(2, 2) << 0, 25.4, 1, 2).finished()};
+    bend.zone = {(Eigen::Matrix2Xd(2, 3) << 0, 25.4, 30, 1, 2, 50).finished()};
+    drawing.bends = {bend};
+    bend.up = false;
+    bend.zone.clear();
+    drawing.bends.push_back(bend);
+    drawing.marks = {Eigen::Matrix2Xd::Random(2, 5)};
+    write_dxf(folder / "x.dxf", drawing, {.unit = LengthUnit::inch, .curves = DxfCurves::polylines});
     const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
     const auto lines = polylines(pairs);
-    ASSERT_EQ(lines.size(), 4u);
-    EXPECT_EQ(lines[2].layer, "BENDS");
+    ASSERT_EQ(lines.size(), 4u) << "outline, hole, a bent line of the zone, the mark";
+    EXPECT_EQ(lines[2].layer, "BEND_ZONE");
     EXPECT_FALSE(lines[2].closed);
-    EXPECT_EQ(lines[2].x, (std::vector<double>{0, 1}));
-    EXPECT_TRUE(lines[3].closed);
+    EXPECT_EQ(lines[3].layer, "MARKS");
     EXPECT_EQ(lines[3].announced, 5u);
     const auto named = [&](const DxfPair& wanted) { return std::count(pairs.begin(), pairs.end(), wanted); };
-    EXPECT_EQ(named({2, "BENDS"}), 1) << "the layer is declared once";
+    for (const char* layer : {"OUTLINE", "HOLES", "BEND_UP", "BEND_DOWN", "BEND_ZONE", "MARKS"})
+        EXPECT_EQ(named({2, layer}), 1) << layer << " is declared once";
+    EXPECT_EQ(named({0, "LINE"}), 2);
+    EXPECT_EQ(named({0, "TEXT"}), 2);
+    EXPECT_EQ(named({1, "UP 85.94%%d R0.1181 K0.44"}), 1) << "inch";
+    EXPECT_EQ(named({1001, "SPIA"}), 4) << "of each line and its text";
+    EXPECT_EQ(named({2, "SPIA"}), 1) << "the application is declared";
+    EXPECT_EQ(named({6, "DASHED"}), 2);
     for (size_t i = 0; i + 4 < pairs.size(); ++i)
         if (pairs[i] == DxfPair(2, "LAYER") && pairs[i - 1] == DxfPair(0, "TABLE")) {
-            EXPECT_EQ(pairs[i + 4], DxfPair(70, "4")) << "0, OUTLINE, HOLES and BENDS";
+            EXPECT_EQ(pairs[i + 4], DxfPair(70, "7"));
         }
     std::vector<long> handles;
     for (const auto& [code, value] : pairs)
@@ -380,15 +395,15 @@ TEST(Dxf, BendLinesHaveTheirLayerAndStayOpen)
     std::sort(handles.begin(), handles.end());
     EXPECT_EQ(std::adjacent_find(handles.begin() + 1, handles.end()), handles.end())
         << "after the seed, a handle is one's own";
-    const std::vector<SheetLine> none = {{"short", Eigen::Matrix3Xd::Zero(3, 1), false}};
-    EXPECT_THROW(write_dxf(folder / "y.dxf", loops, LengthUnit::mm, none), InputError);
+    drawing.bends[0].middle = {Eigen::Matrix2Xd::Zero(2, 1)};
+    EXPECT_THROW(write_dxf(folder / "y.dxf", drawing), InputError);
 }
 
 TEST(Dxf, UnitsAreMillimetresAndEveryHandleIsUniqueAndBelowTheSeed)
 {
     const ScratchFolder folder;
     const samples::Chain chain = samples::chain();
-    write_dxf(folder / "x.dxf", blank_outline(chain.part, chain.blank));
+    write_dxf(folder / "x.dxf", {blank_outline(chain.part, chain.blank), {}, {}});
     const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
     EXPECT_EQ(pairs.back(), DxfPair(0, "EOF"));
     std::vector<long> handles, owners;
@@ -484,7 +499,7 @@ TEST(PlainFiles, LengthsAreInTheUnitAskedForAndNothingElseChanges)
     const std::vector<NamedField> extra{{"deviation", &deviation}};
     constexpr double inch = 25.4; // mm
 
-    write_dxf(folder / "x.dxf", loops, LengthUnit::inch);
+    write_dxf(folder / "x.dxf", {loops, {}, {}}, {.unit = LengthUnit::inch, .curves = DxfCurves::polylines});
     const auto pairs = dxf_pairs(content_of(folder / "x.dxf"));
     const auto after = [&](const char* variable) {
         return *(std::find(pairs.begin(), pairs.end(), DxfPair(9, variable)) + 1);
@@ -560,7 +575,7 @@ TEST(PlainFiles, FailureLeavesNoFile)
     EXPECT_THROW(write_vtu(folder / "x", chain.part, chain.blank, chain.face, chain.node), InputError);
     EXPECT_THROW(write_fields_csv(folder / "x", chain.part, chain.blank, chain.node), InputError);
     EXPECT_THROW(write_fields_csv(folder / "x", chain.part, chain.blank, samples::chain().node, {1, 2}), InputError);
-    EXPECT_THROW(write_dxf(folder / "x", {}), InputError);
+    EXPECT_THROW(write_dxf(folder / "x", BlankDrawing{}), InputError);
     EXPECT_THROW(write_outline_csv(folder / "x", {OutlineLoop::Zero(2, 2)}), InputError);
     EXPECT_TRUE(folder.names().empty());
 }

@@ -1,0 +1,28 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/exchange/blank_outline.h"
+
+namespace spia {
+
+/// A bend as a press brake needs it, mm in the plane of the blank.
+struct DrawnBend {
+    std::string name;        ///< e.g. "bend 1"
+    double angle = 0;        ///< radians, above 0: by how much the sheet turns
+    double inner_radius = 0; ///< mm, on the hollow side; 0: sharp
+    double k = 0.5;          ///< which fibre has the length of the blank: K x thickness from the hollow side
+    bool up = false;         ///< seen on the blank as it is drawn the legs come towards the eye
+    std::vector<Eigen::Matrix2Xd> middle; ///< along the bend, where it is bent: lines of two points or more
+    std::vector<Eigen::Matrix2Xd> zone;   ///< where the bend begins and ends
+};
+
+/// All that is drawn of a blank, mm.
+struct BlankDrawing {
+    std::vector<OutlineLoop> loops; ///< the outline, then the holes: blank_outline()
+    std::vector<DrawnBend> bends;
+    std::vector<Eigen::Matrix2Xd> marks; ///< what is scribed: lines of two points or more
+};
+
+} // namespace spia

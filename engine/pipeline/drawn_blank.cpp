@@ -1,0 +1,106 @@
+#include "engine/pipeline/drawn_blank.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/unfold/sheet_lines.h"
+
+namespace spia {
+namespace {
+
+/// Thickness of the flat sheet, mm, where a bend is; a sharp one has no faces of its own.
+double thickness_at(const BendMap& map, size_t bend, const SheetFields& face)
+{
+    const int label = map.label_of_bend(bend) >= 0 ? map.label_of_bend(bend) : map.bends[bend].a;
+    for (Eigen::Index f = 0; f < map.label.size(); ++f)
+        if (map.label[f] == label)
+            return face.thickness[f] / (1 - face.thinning[f]);
+    return 0;
+}
+
+/// How far from the hollow side the surface lies that was laid flat, in thicknesses.
+double depth_of(const PartFile& part, bool bulges)
+{
+    if (!part.solid || part.solid->skin == Skin::middle)
+        return 0.5;
+    return (part.solid->skin == Skin::outer) == bulges ? 1 : 0;
+}
+
+/// The straight line along some points, from the first to the last of them; none: a point is farther from it than `within`.
+std::optional<Eigen::Matrix2Xd> straightened(const Eigen::Matrix2Xd& points, double within)
+{
+    const Eigen::Vector2d middle = points.rowwise().mean();
+    const Eigen::Matrix2Xd arm = points.colwise() - middle;
+    const Eigen::Vector2d way = Eigen::JacobiSVD<Eigen::Matrix2Xd>(arm, Eigen::ComputeThinU).matrixU().col(0);
+    const Eigen::RowVectorXd off = way[0] * arm.row(1) - way[1] * arm.row(0), along = way.transpose() * arm;
+    if (off.cwiseAbs().maxCoeff() > within)
+        return std::nullopt;
+    Eigen::Matrix2Xd line(2, 2);
+    line << middle + way * along[0], middle + way * along[along.size() - 1];
+    return line;
+}
+
+/// A bend that a press brake makes is straight: on a mesh whose edges do not run along it its lines waver by about one of them, as the band
+/// of its faces does.
+/// @returns false if one of its lines is not
+bool straighten(const Bend& bend, std::vector<Eigen::Matrix2Xd>& lines)
+{
+    constexpr double of_strip = 1. / 3, of_length = 1e-3;
+    bool all = true;
+    for (Eigen::Matrix2Xd& line : lines) {
+        const double length = (line.rightCols<1>() - line.col(0)).norm();
+        const auto straight =
+            straightened(line, std::max(of_strip * bend.radius * std::abs(bend.angle), of_length * length));
+        if (straight && length > 0)
+            line = *straight;
+        else
+            all = false;
+    }
+    return all;
+}
+
+Eigen::Matrix2Xd flat_points(const SheetLine& line)
+{
+    Eigen::Matrix2Xd points = line.point.topRows<2>();
+    if (line.closed) {
+        points.conservativeResize(2, points.cols() + 1);
+        points.rightCols<1>() = points.col(0);
+    }
+    return points;
+}
+
+} // namespace
+
+BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
+                         bool straight_only)
+{
+    BlankDrawing drawing{blank_outline(part.mesh, blank), {}, {}};
+    const std::vector<SheetLine> lines = bend_lines(part.mesh, map, blank.position);
+    for (size_t k = 0; k < map.bends.size(); ++k) {
+        const Bend& bend = map.bends[k];
+        DrawnBend drawn;
+        drawn.name = map.name(int(map.regions.size() + k));
+        drawn.angle = std::abs(bend.angle);
+        const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the legs go down
+        drawn.up = !bulges;
+        drawn.k = depth_of(part, bulges);
+        drawn.inner_radius = bend.faces > 0 ? std::max(bend.radius - drawn.k * thickness_at(map, k, face), 0.) : 0;
+        for (const SheetLine& line : lines)
+            if (line.name == drawn.name)
+                drawn.middle.push_back(flat_points(line));
+            else if (line.name.starts_with(drawn.name + ","))
+                drawn.zone.push_back(flat_points(line));
+        const bool straight = straighten(bend, drawn.middle);
+        if (straight)
+            straighten(bend, drawn.zone);
+        if (straight_only && (!straight || drawn.middle.empty()))
+            continue;
+        if (!drawn.middle.empty() || !drawn.zone.empty())
+            drawing.bends.push_back(std::move(drawn));
+    }
+    return drawing;
+}
+
+} // namespace spia

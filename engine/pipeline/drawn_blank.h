@@ -1,0 +1,17 @@
+#pragma once
+#include "engine/exchange/blank_drawing.h"
+#include "engine/exchange/read_part.h"
+#include "engine/unfold/bends.h"
+
+namespace spia {
+
+/// What a shop needs of a blank: outline, holes, and the bends between regions with their middle lines.
+/// The inner radius is that of the surface that was laid flat, less what of the thickness lies between it and the hollow side; K tells of
+/// the same: 0.5 of a middle surface and of a part that is no solid of sheet, else as its skin lies.
+/// @param map  of the part
+/// @param face of forming the blank into the part: the thickness of the flat sheet at a bend is told by it
+/// @param straight_only leave out bends with a line that is not straight, which no press brake makes: those of drawn parts
+BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
+                         bool straight_only = false);
+
+} // namespace spia

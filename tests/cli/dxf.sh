@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# usage: dxf.sh SPIA FOLDER ROOT - the DXF files of blanks, as ezdxf reads them (tests/packages.txt)
+set -euo pipefail
+spia=$1 out=$2 parts=$3/assets/parts cases=$3/../shared/cases
+. "$(dirname "$0")/common.sh"
+python=
+for candidate in /usr/bin/python3 python3; do
+    "$candidate" -c 'import ezdxf' 2> /dev/null && { python=$candidate; break; }
+done
+[ -n "$python" ] || { echo "skipped: python3-ezdxf is not installed"; exit 77; }
+audit() { "$python" "$(dirname "$0")/dxf_audit.py" "$@"; }
+draw() { # NAME PART ARGUMENT... - by both commands, in all versions and curves
+    local name=$1 part=$2
+    shift 2
+    for how in "r2000 arcs" "r2000 polylines" "r2000 splines" "r12 arcs" "r12 polylines"; do
+        set -- $how
+        expect 0 "wrote .*dxf" "$spia" unfold "$part" --auto --formats dxf --dxf-version "$1" --dxf-curves "$2" --name "$name-$1-$2" --out "$out"
+        expect 0 "wrote .*dxf" "$spia" run "$part" --formats dxf --dxf-version "$1" --dxf-curves "$2" --name "$name-run-$1-$2" --out "$out"
+        audit "$out/$name-$1-$2-blank.dxf" "$out/$name-run-$1-$2.dxf"
+    done
+}
+draw channel "$parts/perforated-channel.obj"
+draw dome "$parts/dome.obj"
+expect 2 "no splines" "$spia" run "$parts/dome.obj" --dxf-version r12 --dxf-curves splines --out "$out"
+expect 2 "dxf-tolerance is a distance" "$spia" run "$parts/dome.obj" --dxf-tolerance nan --out "$out"
+if [ -d "$cases" ]; then
+    draw plate "$cases/11-plate.step"
+    draw bracket "$cases/05-lbracket.step"
+    grep -qx CIRCLE "$out/plate-run-r12-arcs.dxf" || fail "the hole of the plate is no circle"
+    [ "$(grep -cE '^BEND_(UP|DOWN)$' "$out/bracket-run-r2000-arcs.dxf")" = 3 ] || fail "not one line and its text, and their layer"
+else
+    echo "without $cases"
+fi

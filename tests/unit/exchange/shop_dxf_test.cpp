@@ -1,0 +1,304 @@
+// The DXF file of a blank as a laser and a press brake take it: circles, arcs and lines, read back by our own reader.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "engine/core/error.h"
+#include "engine/exchange/outline_curves.h"
+#include "engine/exchange/read_dxf.h"
+#include "engine/exchange/smooth_spline.h"
+#include "engine/exchange/write_dxf.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using std::numbers::pi;
+using Kind = OutlinePiece::Kind;
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr double exact = 1e-4, within = 0.01; // mm
+
+OutlineLoop loop_of(const Points& points)
+{
+    OutlineLoop loop(2, Eigen::Index(points.size()));
+    for (size_t k = 0; k < points.size(); ++k)
+        loop.col(Eigen::Index(k)) = points[k];
+    return loop;
+}
+
+/// The points of an arc, without the last. @param turn radians, either way
+void add_arc(Points& points, const Eigen::Vector2d& centre, double radius, double from, double turn, int chords)
+{
+    for (int k = 0; k < chords; ++k) {
+        const double angle = from + turn * k / chords;
+        points.emplace_back(centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    }
+}
+
+OutlineLoop circle(double radius, int chords, bool clockwise = false)
+{
+    Points points;
+    add_arc(points, {7, -3}, radius, 0.3, clockwise ? -2 * pi : 2 * pi, chords);
+    return loop_of(points);
+}
+
+/// A rectangle with rounded corners, its sides cut into pieces, begun somewhere.
+OutlineLoop rounded(double width, double height, double radius, int chords, int cuts, int begun)
+{
+    Points points;
+    const Eigen::Vector2d corner[] = {
+        {width - radius, radius}, {width - radius, height - radius}, {radius, height - radius}, {radius, radius}};
+    for (int k = 0; k < 4; ++k) {
+        const double from = (k - 1) * pi / 2;
+        add_arc(points, corner[k], radius, from, pi / 2, chords);
+        const Eigen::Vector2d out(std::cos(from + pi / 2), std::sin(from + pi / 2));
+        const Eigen::Vector2d a = corner[k] + radius * out, b = corner[(k + 1) % 4] + radius * out;
+        for (int c = 0; c < cuts; ++c)
+            points.emplace_back(a + (b - a) * c / cuts);
+    }
+    std::rotate(points.begin(), points.begin() + begun % int(points.size()), points.end());
+    return loop_of(points);
+}
+
+int count_of(const OutlineCurves& curves, Kind kind)
+{
+    return int(
+        std::count_if(curves.pieces.begin(), curves.pieces.end(), [&](const auto& p) { return p.kind == kind; }));
+}
+
+double area_of(const SheetLine& line) { return signed_area(line.point.topRows<2>()); }
+
+DxfLines written_and_read(const ScratchFolder& folder, const BlankDrawing& drawing, const DxfOptions& options)
+{
+    write_dxf(folder / "x.dxf", drawing, options);
+    return read_dxf(folder / "x.dxf");
+}
+
+} // namespace
+
+TEST(OutlineCurves, ACircleOfTheFileIsFoundExactly)
+{
+    for (const int chords : {12, 18, 40, 400})
+        for (const bool clockwise : {false, true}) {
+            const OutlineCurves curves = find_curves(circle(12, chords, clockwise), exact, within);
+            ASSERT_TRUE(curves.circle) << chords;
+            EXPECT_NEAR(curves.radius, 12, 1e-12);
+            EXPECT_NEAR((curves.centre - Eigen::Vector2d(7, -3)).norm(), 0, 1e-12);
+        }
+    for (const int corners : {3, 4, 6, 8})
+        EXPECT_FALSE(find_curves(circle(12, corners), exact, within).circle) << "a nut is none";
+}
+
+TEST(OutlineCurves, AnEllipseIsNoCircleUnlessTheToleranceSaysSo)
+{
+    OutlineLoop ellipse = circle(12, 90);
+    ellipse.row(0) *= 1 + 1e-2;
+    EXPECT_FALSE(find_curves(ellipse, exact, within).circle);
+    EXPECT_TRUE(find_curves(ellipse, exact, 0.2).circle);
+}
+
+TEST(OutlineCurves, RoundedCornersAreArcsBetweenLinesWhereverTheOutlineBegins)
+{
+    for (int begun = 0; begun < 40; ++begun) {
+        const OutlineLoop loop = rounded(80, 50, 6, 5, 3, begun);
+        const OutlineCurves curves = find_curves(loop, exact, within);
+        EXPECT_EQ(count_of(curves, Kind::arc), 4) << begun;
+        EXPECT_EQ(count_of(curves, Kind::line), 4) << begun;
+        EXPECT_EQ(count_of(curves, Kind::points), 0) << begun;
+        int edges = 0;
+        for (const OutlinePiece& piece : curves.pieces) {
+            edges += piece.edges;
+            if (piece.kind == Kind::arc) {
+                EXPECT_NEAR(piece.bulge, std::tan(pi / 8), 1e-12) << "a quarter turn";
+            }
+        }
+        EXPECT_EQ(edges, loop.cols());
+    }
+    // A slot: its ends are half circles that meet straight lines of one edge.
+    const OutlineCurves slot = find_curves(rounded(60, 20, 10, 9, 1, 3), exact, within);
+    EXPECT_EQ(count_of(slot, Kind::arc), 2);
+    EXPECT_EQ(count_of(slot, Kind::line), 2);
+}
+
+TEST(OutlineCurves, RandomOutlinesOfArcsAndLinesComeBackWithTheirRadii)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (int trial = 0; trial < 100; ++trial) {
+        // A star of straight edges, each corner rounded by a radius of its own.
+        const int count = 3 + trial % 7;
+        Points corner;
+        for (int k = 0; k < count; ++k) {
+            const double angle = 2 * pi * (k + 0.5 * any(random)) / count, far = 40 + 60 * any(random);
+            corner.emplace_back(far * std::cos(angle), far * std::sin(angle));
+        }
+        Points points;
+        std::vector<double> radii;
+        bool told = true; // a corner that hardly turns is straight within the tolerance
+        for (int k = 0; k < count; ++k) {
+            const Eigen::Vector2d a = corner[size_t((k + count - 1) % count)], b = corner[size_t(k)],
+                                  c = corner[size_t((k + 1) % count)], u = (b - a).normalized(),
+                                  v = (c - b).normalized();
+            const double turn = std::atan2(u[0] * v[1] - u[1] * v[0], u.dot(v));
+            told &= std::abs(turn) > 0.15;
+            const double room = 0.4 * std::min((b - a).norm(), (c - b).norm());
+            const double radius = std::min(2 + 20 * any(random), room / std::abs(std::tan(turn / 2)));
+            const Eigen::Vector2d left(-u[1], u[0]);
+            const Eigen::Vector2d start = b - u * radius * std::abs(std::tan(turn / 2));
+            const Eigen::Vector2d centre = start + std::copysign(radius, turn) * left;
+            const Eigen::Vector2d arm = start - centre;
+            const int chords = std::max(3, int(std::ceil(std::abs(turn) / 0.35)));
+            add_arc(points, centre, radius, std::atan2(arm[1], arm[0]), turn, chords);
+            const double last = std::atan2(arm[1], arm[0]) + turn;
+            points.emplace_back(centre + radius * Eigen::Vector2d(std::cos(last), std::sin(last)));
+            radii.push_back(radius);
+        }
+        if (!told)
+            continue;
+        const OutlineLoop loop = loop_of(points);
+        const OutlineCurves curves = find_curves(loop, exact, within);
+        std::vector<double> found;
+        for (const OutlinePiece& piece : curves.pieces)
+            if (piece.kind == Kind::arc) {
+                const Eigen::Vector2d a = loop.col(piece.first),
+                                      b = loop.col((piece.first + piece.edges) % loop.cols());
+                found.push_back((a - arc_centre(a, b, piece.bulge)).norm());
+            }
+        ASSERT_EQ(found.size(), radii.size()) << trial;
+        std::sort(found.begin(), found.end());
+        std::sort(radii.begin(), radii.end());
+        for (size_t k = 0; k < found.size(); ++k)
+            EXPECT_NEAR(found[k], radii[k], 1e-6 * radii[k]) << trial;
+    }
+}
+
+TEST(OutlineCurves, NoPointIsFartherFromItsCurveThanTheTolerance)
+{
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (const double tolerance : {1e-3, 0.01, 0.1}) {
+        Points points;
+        const double a = any(random), b = any(random);
+        for (int k = 0; k < 500; ++k) {
+            const double t = 2 * pi * k / 500, r = 60 + 8 * std::sin(2 * t + a) + 5 * std::sin(3 * t + b);
+            points.emplace_back(r * std::cos(t), r * std::sin(t));
+        }
+        const OutlineLoop loop = loop_of(points);
+        const OutlineCurves curves = find_curves(loop, 1e-4, tolerance);
+        int drawn = 0;
+        for (const OutlinePiece& piece : curves.pieces) {
+            drawn += piece.kind == Kind::points ? piece.edges : 1;
+            if (piece.kind != Kind::arc)
+                continue;
+            const Eigen::Vector2d from = loop.col(piece.first),
+                                  to = loop.col((piece.first + piece.edges) % loop.cols());
+            const Eigen::Vector2d centre = arc_centre(from, to, piece.bulge);
+            for (int k = 0; k <= piece.edges; ++k)
+                EXPECT_NEAR((loop.col((piece.first + k) % loop.cols()) - centre).norm(), (from - centre).norm(),
+                            tolerance * (1 + 1e-9));
+        }
+        EXPECT_LT(drawn, tolerance < 0.01 ? 200 : 100) << "fewer pieces than points";
+    }
+}
+
+TEST(ShopDxf, CirclesArcsAndLinesComeBackWithTheAreaOfTheShape)
+{
+    const ScratchFolder folder;
+    const BlankDrawing drawing{{rounded(80, 50, 6, 5, 2, 1), circle(12, 18, true)}, {}, {}};
+    const double plate = 80 * 50 - (4 - pi) * 36, hole = pi * 144;
+    for (const DxfVersion version : {DxfVersion::r12, DxfVersion::r2000})
+        for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::inch}) {
+            const DxfLines read = written_and_read(folder, drawing, {.unit = unit, .version = version});
+            EXPECT_TRUE(read.left_out.empty());
+            ASSERT_EQ(read.lines.size(), 2u);
+            EXPECT_TRUE(read.lines[0].closed && read.lines[1].closed);
+            EXPECT_NEAR(area_of(read.lines[0]), plate, 1e-4 * plate) << "chords for arcs, as our reader has them";
+            EXPECT_NEAR(std::abs(area_of(read.lines[1])), hole, 1e-4 * hole);
+            const std::string text = content_of(folder / "x.dxf");
+            EXPECT_NE(text.find(version == DxfVersion::r12 ? "AC1009" : "AC1015"), std::string::npos);
+            EXPECT_EQ(text.find("AcDb") == std::string::npos, version == DxfVersion::r12) << "no marks of subclasses";
+            EXPECT_NE(text.find("CIRCLE"), std::string::npos);
+        }
+    // Inscribed polygons are smaller.
+    const DxfLines straight = written_and_read(folder, drawing, {.curves = DxfCurves::polylines});
+    EXPECT_LT(std::abs(area_of(straight.lines[1])), 0.99 * hole);
+}
+
+TEST(ShopDxf, SplinesGoThroughAllPlacesAndMeetLinesAndArcsEndToEnd)
+{
+    const ScratchFolder folder;
+    Points points;
+    for (int k = 0; k <= 60; ++k)
+        points.emplace_back(k, 6 * std::sin(pi * k / 30) + 0.4 * std::sin(1.1 * k));
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(60, 40), {0, 40}})
+        points.emplace_back(corner);
+    const OutlineLoop loop = loop_of(points);
+    const DxfLines read = written_and_read(folder, {{loop}, {}, {}}, {.curves = DxfCurves::splines, .tolerance = 1e-4});
+    EXPECT_NE(content_of(folder / "x.dxf").find("SPLINE"), std::string::npos);
+    for (const auto p : loop.colwise()) {
+        double near = 1e9;
+        for (const SheetLine& line : read.lines)
+            for (Eigen::Index k = 0; k + 1 < line.point.cols(); ++k) {
+                const Eigen::Vector2d a = line.point.col(k).head<2>(), b = line.point.col(k + 1).head<2>();
+                const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.);
+                near = std::min(near, (a + t * (b - a) - p).norm());
+            }
+        EXPECT_LT(near, 3e-3) << "our reader's chords stay within 2e-5 of the extent";
+    }
+    // End to end: every end of an entity is that of another.
+    for (const SheetLine& line : read.lines)
+        for (const Eigen::Vector3d& end :
+             {Eigen::Vector3d(line.point.col(0)), Eigen::Vector3d(line.point.rightCols<1>())}) {
+            int meets = 0;
+            for (const SheetLine& other : read.lines)
+                meets += int((other.point.col(0) - end).norm() < 1e-9) +
+                         int((other.point.rightCols<1>() - end).norm() < 1e-9);
+            EXPECT_EQ(meets, 2);
+        }
+    EXPECT_THROW(
+        write_dxf(folder / "y.dxf", {{loop}, {}, {}}, {.version = DxfVersion::r12, .curves = DxfCurves::splines}),
+        InputError);
+    EXPECT_THROW(write_dxf(folder / "y.dxf", {{loop}, {}, {}}, {.tolerance = std::nan("")}), InputError);
+}
+
+TEST(ShopDxf, ASplineThroughPointsOfACircleStaysOnItToFourthOrder)
+{
+    std::vector<double> off;
+    for (const int chords : {24, 48}) {
+        const OutlineLoop loop = circle(10, chords);
+        const auto splines = smooth_splines(loop, true);
+        ASSERT_EQ(splines.size(), 1u);
+        EXPECT_EQ(splines[0].poles.size(), size_t(2 * chords + 2));
+        EXPECT_EQ(splines[0].knots.size(), splines[0].poles.size() + 4);
+        EXPECT_TRUE(std::is_sorted(splines[0].knots.begin(), splines[0].knots.end()));
+        // In the middle of a piece: its four Bezier points are an end, two poles, the other end.
+        const Eigen::Vector2d mid = (loop.col(0) + 3 * splines[0].poles[1] + 3 * splines[0].poles[2] + loop.col(1)) / 8;
+        off.push_back(std::abs((mid - Eigen::Vector2d(7, -3)).norm() - 10));
+    }
+    EXPECT_GT(off[0] / off[1], 7) << "third order or better";
+    EXPECT_LT(off[1], 1e-3);
+}
+
+TEST(ShopDxf, LabelsBesideBendsAreNoLinesToTheReader)
+{
+    const ScratchFolder folder;
+    BlankDrawing drawing{{rounded(80, 50, 6, 5, 2, 1)}, {}, {}};
+    DrawnBend bend{"bend 1", pi / 2, 3, 0.5, false, {}, {}};
+    bend.middle = {(Eigen::Matrix2Xd(2, 2) << 40, 40, 0, 50).finished()};
+    drawing.bends = {bend};
+    for (const DxfVersion version : {DxfVersion::r12, DxfVersion::r2000}) {
+        const DxfLines read = written_and_read(folder, drawing, {.version = version});
+        EXPECT_TRUE(read.left_out.empty());
+        ASSERT_EQ(read.lines.size(), 2u);
+        EXPECT_EQ(read.lines[1].name, "BEND_DOWN");
+        EXPECT_EQ(read.lines[1].point(0, 0), 40);
+    }
+    EXPECT_THROW(dxf_curves("bulges"), InputError);
+    EXPECT_THROW(dxf_version("r13"), InputError);
+}
+
+} // namespace spia

@@ -1,0 +1,90 @@
+#include "engine/pipeline/drawn_blank.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+#include "engine/forming/material_library.h"
+#include "engine/mesh/topology.h"
+#include "engine/unfold/unfold_by_itself.h"
+#include "tests/support/bent_parts.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/profile.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using std::numbers::pi;
+
+struct Bent {
+    PartFile part;
+    BendMap map;
+    UnfoldRun run;
+};
+
+Bent bent(const TriMesh& mesh)
+{
+    const ScratchFolder folder;
+    shapes::write_mesh(folder / "part.obj", mesh);
+    Bent result{read_part(folder / "part.obj"), {}, {}};
+    FlattenOptions options;
+    options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    result.map = find_bends(result.part.mesh);
+    result.run = unfold_by_itself(result.part.mesh, result.map, {}, options).run;
+    return result;
+}
+
+} // namespace
+
+TEST(DrawnBlank, ABendHasItsAngleRadiusSideAndPlace)
+{
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (int trial = 0; trial < 12; ++trial) {
+        const double angle = (0.3 + 1.2 * any(random)) * (trial % 2 ? 1 : -1), radius = 3 + 4 * any(random);
+        const double first = 40 + 20 * any(random), second = 20 + 10 * any(random), width = 50;
+        const Bent l =
+            bent(shapes::extruded(shapes::Profile({0, 0}, 0).straight(first).bend(radius, angle).straight(second),
+                                  width, 3000)
+                     .mesh);
+        ASSERT_TRUE(l.run.blank) << l.run.failure;
+        const BlankDrawing drawing = drawn_blank(l.part, l.map, *l.run.blank, l.run.states.back().face, true);
+        ASSERT_EQ(drawing.bends.size(), 1u);
+        const DrawnBend& bend = drawing.bends[0];
+        EXPECT_NEAR(bend.angle, std::abs(angle), 0.02);
+        EXPECT_NEAR(bend.inner_radius, radius - 0.5, 0.05 * radius) << "a sheet of 1 mm, its middle surface; chords";
+        EXPECT_EQ(bend.k, 0.5);
+        // Seen from the outer side of the large leg the other comes nearer, or not.
+        const TriMesh& mesh = l.part.mesh;
+        const Eigen::Matrix3Xd normal = area_vectors(mesh);
+        Eigen::Vector3d middle[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, eye = Eigen::Vector3d::Zero();
+        int count[2] = {0, 0};
+        for (int f = 0; f < mesh.triangles(); ++f)
+            if (const int region = l.map.label[f]; region < 2) {
+                middle[region] += mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
+                ++count[region];
+                if (region == 0)
+                    eye += normal.col(f);
+            }
+        EXPECT_EQ(bend.up, eye.dot(middle[1] / count[1] - middle[0] / count[0]) > 0);
+        // In the middle of the arc, all across the blank, which lies straight: its length along x.
+        ASSERT_EQ(bend.middle.size(), 1u);
+        const Eigen::Matrix2Xd& line = bend.middle[0];
+        const Eigen::Vector2d size = l.run.blank->position.rowwise().maxCoeff();
+        const double at = line(0, 0), half = radius * std::abs(angle) / 2;
+        EXPECT_NEAR(std::min(at, size[0] - at), second + half, 0.02 * size[0]);
+        EXPECT_NEAR(std::abs(line(1, 0) - line(1, line.cols() - 1)), width, 1e-3);
+        EXPECT_EQ(bend.zone.size(), 2u);
+    }
+}
+
+TEST(DrawnBlank, OfADrawnPartOnlyStraightBendsAreLeft)
+{
+    const Bent cup = bent(shapes::round_cup({.triangles = 2000}));
+    ASSERT_TRUE(cup.run.blank) << cup.run.failure;
+    EXPECT_TRUE(drawn_blank(cup.part, cup.map, *cup.run.blank, cup.run.states.back().face, true).bends.empty());
+    EXPECT_FALSE(drawn_blank(cup.part, cup.map, *cup.run.blank, cup.run.states.back().face).bends.empty());
+}
+
+} // namespace spia
