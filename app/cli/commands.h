@@ -119,6 +119,7 @@ struct UnfoldArguments {
     std::string redo;    ///< "auto", or the step, from 1, from which on a script is run again; empty: all of it
     std::string surface; ///< grid and surface of which blank: "steps", "polished"; empty: none
     std::vector<std::string> surface_formats; ///< of output_formats(); usual_formats() unless others are asked for
+    std::optional<double> tolerance;          ///< mm, of that surface; not given: it runs through the grid
     RemeshArguments remesh;
     bool polish = false; ///< also the blank of the whole part at once, started from that of the steps
     bool strict = false, keep_largest = false;

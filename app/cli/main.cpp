@@ -483,6 +483,11 @@ int main(int count, char** values)
         "also grid and NURBS surface of the blank of the steps (--surface=polished: of the polished one), with "
         "--out written as by `spia run`, and its report as NAME.json");
     unfolding.surface_formats = usual_formats();
+    unfold_command
+        ->add_option("--tolerance", unfolding.tolerance,
+                     "mm, of that surface, as for `spia run` (default: the surface through the nodes of the grid)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("MM");
     unfold_command->add_option("--surface-formats", unfolding.surface_formats, "of these files")
         ->delimiter(',')
         ->check(CLI::IsMember(output_formats()))

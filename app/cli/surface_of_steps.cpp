@@ -43,6 +43,7 @@ SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile
     session.file = arguments.part;
     session.part = std::make_shared<PartFile>(part);
     session.options.flatten = options;
+    session.options.tolerance = arguments.tolerance;
     session.options.steps = {std::make_shared<UnfoldRun>(run), arguments.surface == "polished"};
     for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit}) {
         JobDisplay display{std::string(name(stage))};

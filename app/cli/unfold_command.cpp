@@ -350,6 +350,8 @@ int unfold(const UnfoldArguments& arguments)
         throw InputError("give either --script FILE or --auto");
     if (!arguments.surface.empty() && arguments.surface != "steps" && arguments.surface != "polished")
         throw InputError(fmt::format("--surface={}: there is steps (the default) and polished", arguments.surface));
+    if (arguments.tolerance && arguments.surface.empty())
+        throw InputError("--tolerance is for the surface; ask for it with --surface, or leave it out");
     for (const std::string& format : arguments.formats)
         if (!arguments.surface.empty() &&
             std::count(arguments.surface_formats.begin(), arguments.surface_formats.end(), format) &&

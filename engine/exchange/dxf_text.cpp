@@ -62,8 +62,9 @@ void write_header(DxfText& dxf, const DxfFrame& frame)
     dxf(9, "$ACADVER")(1, dxf.r12() ? "AC1009" : "AC1015")(9, "$DWGCODEPAGE")(3, "ANSI_1252");
     dxf(9, "$INSUNITS")(70, dxf_number(frame.unit))(9, "$MEASUREMENT")(70, metric);
     dxf(9, "$EXTMIN").point(10, frame.low)(30, 0.0)(9, "$EXTMAX").point(10, frame.high)(30, 0.0);
-    if (!dxf.r12())
-        dxf(9, "$HANDSEED").handle(5, frame.next_handle);
+    if (dxf.r12())
+        dxf(9, "$HANDLING")(70, 1);
+    dxf(9, "$HANDSEED").handle(5, frame.next_handle);
     dxf.end_section();
 }
 

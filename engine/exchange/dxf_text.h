@@ -10,7 +10,7 @@
 namespace spia {
 
 /// A DXF file is a row of group codes and values, two lines each. Objects name each other by handles; those of the
-/// fixed objects are below 0x100. Files of version 12 have neither handles nor the marks of subclasses: they are left out.
+/// fixed objects are below 0x100. Files of version 12 have neither owners nor the marks of subclasses: they are left out.
 class DxfText {
 public:
     explicit DxfText(DxfVersion version = DxfVersion::r2000) : r12_(version == DxfVersion::r12) {}
@@ -20,7 +20,7 @@ public:
     DxfText& operator()(int code, int value) { return line(code, value); }
     DxfText& operator()(int code, double value) { return line(code, fmt::format("{:#.17g}", value)); }
     DxfText& point(int code, const Eigen::Vector2d& p) { return (*this)(code, p.x())(code + 10, p.y()); }
-    DxfText& handle(int code, int value) { return r12_ ? *this : line(code, fmt::format("{:X}", value)); }
+    DxfText& handle(int code, int value) { return r12_ && code != 5 ? *this : line(code, fmt::format("{:X}", value)); }
     bool r12() const { return r12_; }
 
     void begin_section(const char* name) { (*this)(0, "SECTION")(2, name); }
@@ -28,7 +28,10 @@ public:
 
     void begin_table(const char* name, int table, int entries)
     {
-        (*this)(0, "TABLE")(2, name).handle(5, table).handle(330, 0)(100, "AcDbSymbolTable")(70, entries);
+        (*this)(0, "TABLE")(2, name);
+        if (!r12_)
+            handle(5, table).handle(330, 0)(100, "AcDbSymbolTable");
+        (*this)(70, entries);
     }
     DxfText& entry(const char* type, const char* subclass, int own, int table, const std::string& name, int flags = 0)
     {

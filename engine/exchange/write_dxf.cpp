@@ -34,16 +34,19 @@ public:
 
     int next_handle() const { return handle_; }
 
-    void polyline(const char* layer, std::span<const Bulged> points, bool closed)
+    /// @param bend what it is of; null: nothing
+    void polyline(const char* layer, std::span<const Bulged> points, bool closed, const DrawnBend* bend = nullptr)
     {
         begin(dxf_.r12() ? "POLYLINE" : "LWPOLYLINE", layer);
         if (dxf_.r12())
             dxf_(66, 1).point(10, {0, 0})(30, 0.0)(70, int(closed));
         else
             dxf_(100, "AcDbPolyline")(90, int(points.size()))(70, int(closed));
+        if (dxf_.r12() && bend) // before its vertices, which are entities of their own
+            about(*bend);
         for (const Bulged& point : points) {
             if (dxf_.r12())
-                dxf_(0, "VERTEX")(8, layer);
+                dxf_(0, "VERTEX").handle(5, handle_++)(8, layer);
             dxf_.point(10, point.at / mm_);
             if (dxf_.r12())
                 dxf_(30, 0.0);
@@ -51,7 +54,9 @@ public:
                 dxf_(42, point.bulge);
         }
         if (dxf_.r12())
-            dxf_(0, "SEQEND")(8, layer);
+            dxf_(0, "SEQEND").handle(5, handle_++)(8, layer);
+        else if (bend)
+            about(*bend);
     }
 
     void circle(const char* layer, const Eigen::Vector2d& centre, double radius)
@@ -220,11 +225,11 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double size, const DxfOpti
     const Eigen::Matrix2Xd* longest = nullptr;
     double length = 0;
     for (const Eigen::Matrix2Xd& line : bend.middle) {
-        if (is_straight(line, options.tolerance))
+        if (is_straight(line, options.tolerance)) {
             draw.line(layer, line.col(0), line.rightCols<1>());
-        else
-            draw.polyline(layer, through(line), false);
-        draw.about(bend);
+            draw.about(bend);
+        } else
+            draw.polyline(layer, through(line), false, &bend);
         if (const double own = (line.rightCols<1>() - line.col(0)).norm(); !longest || own > length) {
             longest = &line;
             length = own;

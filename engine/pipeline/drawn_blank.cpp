@@ -3,7 +3,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "engine/unfold/sheet_lines.h"
 
@@ -28,37 +27,42 @@ double depth_of(const PartFile& part, bool bulges)
     return (part.solid->skin == Skin::outer) == bulges ? 1 : 0;
 }
 
-/// The straight line along some points, from the first to the last of them; none: a point is farther from it than `within`.
-std::optional<Eigen::Matrix2Xd> straightened(const Eigen::Matrix2Xd& points, double within)
-{
-    const Eigen::Vector2d middle = points.rowwise().mean();
-    const Eigen::Matrix2Xd arm = points.colwise() - middle;
-    const Eigen::Vector2d way = Eigen::JacobiSVD<Eigen::Matrix2Xd>(arm, Eigen::ComputeThinU).matrixU().col(0);
-    const Eigen::RowVectorXd off = way[0] * arm.row(1) - way[1] * arm.row(0), along = way.transpose() * arm;
-    if (off.cwiseAbs().maxCoeff() > within)
-        return std::nullopt;
-    Eigen::Matrix2Xd line(2, 2);
-    line << middle + way * along[0], middle + way * along[along.size() - 1];
-    return line;
-}
-
-/// A bend that a press brake makes is straight: on a mesh whose edges do not run along it its lines waver by about one of them, as the band
-/// of its faces does.
-/// @returns false if one of its lines is not
+/// Puts lines onto the straight one along all of them, which a hole or a notch parts, each from its first point to its last: what a press
+/// brake makes is straight. On a mesh whose edges do not run along a bend its lines waver by about one of them, as the band of its faces
+/// does.
+/// @returns false, and leaves them, if they are not straight but for that
 bool straighten(const Bend& bend, std::vector<Eigen::Matrix2Xd>& lines)
 {
-    constexpr double of_strip = 1. / 3, of_length = 1e-3;
-    bool all = true;
-    for (Eigen::Matrix2Xd& line : lines) {
-        const double length = (line.rightCols<1>() - line.col(0)).norm();
-        const auto straight =
-            straightened(line, std::max(of_strip * bend.radius * std::abs(bend.angle), of_length * length));
-        if (straight && length > 0)
-            line = *straight;
-        else
-            all = false;
+    constexpr double of_strip = 1. / 3, of_length = 0.03, rounding = 1e-3;
+    Eigen::Index count = 0;
+    for (const Eigen::Matrix2Xd& line : lines)
+        count += line.cols();
+    if (count == 0)
+        return true;
+    Eigen::Matrix2Xd all(2, count);
+    count = 0;
+    for (const Eigen::Matrix2Xd& line : lines) {
+        all.middleCols(count, line.cols()) = line;
+        count += line.cols();
     }
-    return all;
+    const Eigen::Vector2d middle = all.rowwise().mean();
+    const Eigen::Matrix2Xd arm = all.colwise() - middle;
+    const Eigen::Vector2d way = Eigen::JacobiSVD<Eigen::Matrix2Xd>(arm, Eigen::ComputeThinU).matrixU().col(0);
+    const Eigen::RowVectorXd off = way[0] * arm.row(1) - way[1] * arm.row(0), along = way.transpose() * arm;
+    const double length = along.maxCoeff() - along.minCoeff(),
+                 within = std::min(of_length * length,
+                                   std::max(of_strip * bend.radius * std::abs(bend.angle), rounding * length));
+    if (off.cwiseAbs().maxCoeff() > within)
+        return false;
+    for (Eigen::Matrix2Xd& line : lines) {
+        Eigen::Matrix2Xd straight(2, 2);
+        for (const Eigen::Index end : {Eigen::Index(0), line.cols() - 1})
+            straight.col(end == 0 ? 0 : 1) = middle + way * way.dot(line.col(end) - middle);
+        if (straight.col(0) == straight.col(1))
+            return false;
+        line = straight;
+    }
+    return true;
 }
 
 Eigen::Matrix2Xd flat_points(const SheetLine& line)
@@ -94,7 +98,11 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
                 drawn.zone.push_back(flat_points(line));
         const bool straight = straighten(bend, drawn.middle);
         if (straight)
-            straighten(bend, drawn.zone);
+            for (Eigen::Matrix2Xd& line : drawn.zone) {
+                std::vector<Eigen::Matrix2Xd> alone = {line};
+                if (straighten(bend, alone))
+                    line = alone.front();
+            }
         if (straight_only && (!straight || drawn.middle.empty()))
             continue;
         if (!drawn.middle.empty() || !drawn.zone.empty())

@@ -1,6 +1,7 @@
 #include "engine/pipeline/surface_shortcomings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 
 #include "engine/pipeline/certificate_report.h"
@@ -15,6 +16,9 @@ bool at_a_corner(const Refusal& refusal)
     const auto end = [](double parameter) { return parameter == 0 || parameter == 1; };
     return refusal.why == Refusal::Why::vanishes && end(refusal.place.u) && end(refusal.place.v);
 }
+
+/// A coordinate without what rounding leaves of zero, mm.
+double tidy(double x) { return std::round(x * 1e4) / 1e4 + 0.; }
 
 /// In percent, of which little is not nothing and most is not all.
 std::string percent(double share)
@@ -40,8 +44,8 @@ std::optional<std::string> far_surface(const Session& session)
         "the surface is up to {:.3g} mm from the part, near ({:.6g}, {:.6g}, {:.6g}), on {} of its area by more than the "
         "usual tolerance of {:.3g} mm: ask for a tolerance of the surface (--tolerance), for patches (--patches auto), or for "
         "more cells (--grid)",
-        deviation.max(), worse.where.x(), worse.where.y(), worse.where.z(), percent(1 - deviation.within()),
-        usual_tolerance);
+        deviation.max(), tidy(worse.where.x()), tidy(worse.where.y()), tidy(worse.where.z()),
+        percent(1 - deviation.within()), usual_tolerance);
 }
 
 std::optional<std::string> folded_surface(const Session& session)

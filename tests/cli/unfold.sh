@@ -91,7 +91,7 @@ expect_exit 0 "$spia" unfold "$part" --auto --polish --out "$out/polished" --jso
 for file in blank.dxf polished.dxf polished.vtu; do [ -s "$out/polished/lipped-channel-$file" ] || fail "no $file"; done
 grep -q "outline_distance_mm" "$out/polished.json" || fail "the two blanks are not compared"
 grep -q "outlines up to" "$out.log" || fail "the summary does not compare the blanks"
-expect_exit 0 "$spia" unfold "$part" --auto --surface --out "$out/surface" --json "$out/surface.json" --strict
+expect_exit 0 "$spia" unfold "$part" --auto --surface --tolerance 0.5 --out "$out/surface" --json "$out/surface.json" --strict
 for file in iges step glb vtu dxf json; do [ -s "$out/surface/lipped-channel.$file" ] || fail "no $file of the surface"; done
 grep -aq blank_from "$out/surface/lipped-channel.vtu" || fail "the fields do not tell where the blank comes from"
 grep -q '"lipped-channel.iges"\|/lipped-channel.iges"' "$out/surface.json" || fail "the report does not list the surface"
@@ -101,7 +101,9 @@ report = json.load(open(sys.argv[1]))
 assert report["source"]["from"] == "steps" and len(report["source"]["steps"]) == 5
 assert report["grid"]["folded_cells"] == 0 and report["surface"]["deviation_p95_mm"] < 2 and not report["shortcomings"]
 END
-expect_exit 0 "$spia" unfold "$part" --auto --surface=polished --surface-formats step --out "$out/polished-surface" --strict
+expect_exit 1 "$spia" unfold "$part" --auto --surface=polished --surface-formats step --out "$out/polished-surface" --strict
+grep -q "usual tolerance" "$out.log" || fail "a surface that is off without a tolerance is not said"
+expect_exit 2 "$spia" unfold "$part" --auto --tolerance 0.5
 grep -q '"from": "steps, polished"' "$out/polished-surface/lipped-channel.json" || fail "the polished blank is not told"
 [ ! -e "$out/polished-surface/lipped-channel.iges" ] || fail "a surface format that was not asked for"
 expect_exit 2 "$spia" unfold "$part" --auto --surface=other

@@ -60,6 +60,10 @@ OutlineLoop rounded(double width, double height, double radius, int chords, int 
         for (int c = 0; c < cuts; ++c)
             points.emplace_back(a + (b - a) * c / cuts);
     }
+    const auto same = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < 1e-9; };
+    points.erase(std::unique(points.begin(), points.end(), same), points.end()); // a side without length
+    if (same(points.front(), points.back()))
+        points.pop_back();
     std::rotate(points.begin(), points.begin() + begun % int(points.size()), points.end());
     return loop_of(points);
 }

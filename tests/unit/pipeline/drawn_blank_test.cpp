@@ -42,7 +42,7 @@ TEST(DrawnBlank, ABendHasItsAngleRadiusSideAndPlace)
     std::mt19937 random(9);
     std::uniform_real_distribution<double> any(0, 1);
     for (int trial = 0; trial < 12; ++trial) {
-        const double angle = (0.3 + 1.2 * any(random)) * (trial % 2 ? 1 : -1), radius = 3 + 4 * any(random);
+        const double angle = (0.8 + 0.7 * any(random)) * (trial % 2 ? 1 : -1), radius = 3 + 4 * any(random);
         const double first = 40 + 20 * any(random), second = 20 + 10 * any(random), width = 50;
         const Bent l =
             bent(shapes::extruded(shapes::Profile({0, 0}, 0).straight(first).bend(radius, angle).straight(second),
