@@ -22,7 +22,7 @@ grep -q LWPOLYLINE "$out/auto/lipped-channel-blank.dxf" || fail "no outline"
 for file in step1-trim step3-trim blank; do
     for ending in dxf iges step; do [ -s "$out/auto/lipped-channel-$file.$ending" ] || fail "no $file.$ending"; done
 done
-echo '{"lines": [{"name": "slot", "closed": true, "points": [[-60, -60], [50, -60], [50, 20], [-60, 20]]}, {"name": "off", "points": [[0, 0], [-900, 3]]}]}' > "$out/slot.json"
+echo '{"lines": [{"name": "slot", "closed": true, "points": [[40, 30], [150, 30], [150, 110], [40, 110]]}, {"name": "off", "points": [[50, 50], [-900, 3]]}]}' > "$out/slot.json"
 expect_exit 1 "$spia" unfold "$part" --auto --out "$out/lines" --formats dxf --to-part "$out/slot.json" --strict
 grep -q '"off" leaves the blank at -900, 3' "$out.log" || fail "what leaves the blank is not named"
 [ ! -e "$out/lines/lipped-channel-step1.vtu" ] || fail "a format that was not asked for"
@@ -32,7 +32,7 @@ import json, sys
 line, = json.load(open(sys.argv[1]))["lines"]
 at = line["points"]
 assert line["closed"] and line["name"] == "slot"
-assert all(min(abs(x + 60), abs(x - 50), abs(y + 60), abs(y - 20)) < 1e-9 for x, y, z in at)
+assert all(min(abs(x - 40), abs(x - 150), abs(y - 30), abs(y - 110)) < 1e-9 for x, y, z in at)
 assert abs(sum(((a[0] - b[0])**2 + (a[1] - b[1])**2)**.5 for a, b in zip(at, at[1:] + at[:1])) - 380) < 1e-9
 END
 expect_exit 2 "$spia" unfold "$part" --auto --to-part "$out/slot.json"
@@ -165,7 +165,7 @@ expect_exit 2 "$spia" unfold "$part" --auto --out "$out/less" --surface --json "
 ! grep -q "step 1" "$out.log" || fail "the place of the report is looked at after the work"
 expect_exit 3 "$spia" unfold "$part" --script "$out/one.json" --out "$out/less" --surface
 expect_exit 2 "$spia" unfold "$part" --auto --thickness nan
-echo '{"lines": [{"closed": true, "points": [[0, 0], [20, 0], [20, 0], [20, 20], [0, 0]]}]}' > "$out/twice.json"
+echo '{"lines": [{"closed": true, "points": [[20, 20], [40, 20], [40, 20], [40, 40], [20, 20]]}]}' > "$out/twice.json"
 expect_exit 0 "$spia" unfold "$part" --auto --out "$out/less" --to-part "$out/twice.json" --strict
 "$spia" unfold "$2/assets/parts/square-cup.obj" --auto > "$out.log" 2>&1
 grep -q "strained beyond" "$out.log" || fail "necking is not told"
