@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <optional>
 #include <set>
+#include <utility>
 
+#include "engine/mesh/sheet_or_hollow.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -15,19 +19,28 @@ bool of_the_surface(const Finding& finding)
     return finding.fault == Fault::closed_surface || finding.fault == Fault::handle;
 }
 
-bool is_asked_for(const PartFile& part, const ReadOptions& options, bool solid)
+/// Why a surface may be that of a solid.
+enum class Claim {
+    none,
+    measured, ///< it is closed: what its two skins say decides
+    stated    ///< by the file, by the user, or it is so thin that nothing else can be meant
+};
+
+Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
 {
     const DoctorReport& report = part.doctor;
     const bool sick = std::any_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
         return finding.severity == Severity::fatal && !of_the_surface(finding);
     });
     if (sick || report.components != 1 || !report.boundary_loops)
-        return false;
+        return Claim::none;
     if (options.skin)
-        return true;
+        return Claim::stated;
     if (options.seam.mode == SeamOptions::Mode::given || part.deck) // a hollow body; shells have a thickness already
-        return false;
-    return *report.boundary_loops == 0 ? solid || has_both_skins(part.mesh) : seems_thin_solid(part.mesh);
+        return Claim::none;
+    if (*report.boundary_loops == 0)
+        return solid || has_both_skins(part.mesh) ? Claim::stated : Claim::measured;
+    return seems_thin_solid(part.mesh) ? Claim::stated : Claim::none;
 }
 
 ThinSolidOptions faces_of(const PartFile& part)
@@ -112,6 +125,110 @@ void replace_mesh(PartFile& part, const SkinMesh& skin)
     part.mesh = std::move(examination.mesh);
 }
 
+/// What stood for the part until its marks were put back.
+struct AsMarked {
+    TriMesh mesh;
+    std::vector<int> source_vertex, source_face;
+};
+
+void put_back(PartFile& part, AsMarked& marked)
+{
+    part.mesh = std::move(marked.mesh);
+    part.source_vertex = std::move(marked.source_vertex);
+    part.source_face = std::move(marked.source_face);
+}
+
+/// Numbers are those of the solid as it is in the file.
+Finding finding_of(const std::vector<SheetMark>& marks, double thickness, const PartFile& part,
+                   const std::vector<SheetSide>& side)
+{
+    Tally where;
+    double engraved = 0, raised = 0;
+    for (const SheetMark& mark : marks) {
+        where.add(part.source_face[size_t(mark.face)]);
+        (mark.raised ? raised : engraved) = std::max(mark.raised ? raised : engraved, mark.depth);
+    }
+    std::vector<std::string> kinds;
+    if (engraved > 0)
+        kinds.push_back(fmt::format("up to {:.4g} mm deep", engraved));
+    if (raised > 0)
+        kinds.push_back(fmt::format("up to {:.4g} mm high", raised));
+    Finding finding{Fault::mark,
+                    Severity::note,
+                    int(marks.size()),
+                    where.first,
+                    fmt::format("{} of the sheet, {}, {} passed over: what is laid flat is the skin without {} (marks "
+                                "of up to {:.2g} of the thickness, {:.4g} mm, are); the first is at {:.6g}, {:.6g}, "
+                                "{:.6g}",
+                                counted(int(marks.size()), "mark or step on a skin", "marks or steps on the skins"),
+                                fmt::join(kinds, " and "), marks.size() == 1 ? "is" : "are",
+                                marks.size() == 1 ? "it" : "them", deepest_mark, deepest_mark * thickness,
+                                marks.front().place.x(), marks.front().place.y(), marks.front().place.z()),
+                    "",
+                    where.where,
+                    {}};
+    for (size_t i = 0; i < finding.where.size(); ++i) {
+        const SheetMark& mark = marks[i];
+        finding.place.push_back(mark.place);
+        finding.what.push_back(fmt::format("{:.4g} mm {} on the {} skin", mark.depth, mark.raised ? "high" : "deep",
+                                           side[size_t(mark.face)] == SheetSide::inner ? "inner" : "outer"));
+    }
+    return finding;
+}
+
+/// Measures the solid; its shallow marks are taken out of the part before.
+/// @param marked, found  set to the part as it was, and what was done to it, if it had marks
+/// @throws NotASheet
+ThinSolid without_its_marks(PartFile& part, std::optional<AsMarked>& marked, std::optional<Finding>& found,
+                            const Progress& progress)
+{
+    ThinSolid sheet = thin_solid(part.mesh, faces_of(part), progress);
+    if (sheet.marks.empty())
+        return sheet;
+    PlainSolid plain = without_marks(part.mesh, sheet);
+    found = finding_of(sheet.marks, sheet.thickness, part, sheet.side);
+    std::vector<int> vertex, face;
+    for (const int v : plain.source_vertex)
+        vertex.push_back(part.source_vertex[size_t(v)]);
+    for (const int f : plain.source_face)
+        face.push_back(part.source_face[size_t(f)]);
+    marked = {std::exchange(part.mesh, std::move(plain.mesh)), std::exchange(part.source_vertex, std::move(vertex)),
+              std::exchange(part.source_face, std::move(face))};
+    return thin_solid(part.mesh, faces_of(part), progress);
+}
+
+/// Says why it is a hollow body, if it may be another thing.
+void note_hollow(PartFile& part, const std::string& why)
+{
+    if (seems_thin_solid(part.mesh))
+        part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of sheet; "
+                                         "but {}. It is taken as a hollow body; if it is a solid of sheet, choose the "
+                                         "skin that stands for it (--skin outer) for the reason to refuse it",
+                                         why));
+}
+
+void doubt(PartFile& part, std::string text)
+{
+    part.notes.push_back(text);
+    part.doubts.push_back(std::move(text));
+}
+
+/// @returns whether it is taken for a solid of sheet; says so where it may be the other thing as well
+bool decide(PartFile& part, const ThinSolid& sheet)
+{
+    const ClosedSurface closed = sheet_or_hollow(sheet);
+    const std::string either =
+        fmt::format("a solid of sheet {:.6g} mm thick and a hollow body of its size are the same closed surface, and "
+                    "the file does not say which it is; the sheet would be {:.2g} times as thick as it is wide",
+                    sheet.thickness, proportion(sheet));
+    if (closed == ClosedSurface::perhaps_sheet)
+        doubt(part, either + ". It is taken as a solid; a hollow body is cut open along a seam that you give (--seam)");
+    if (closed == ClosedSurface::perhaps_hollow)
+        doubt(part, either + ". It is taken as a hollow body; for a solid choose the skin that stands for it (--skin "
+                             "outer)");
+    return closed != ClosedSurface::perhaps_hollow;
+}
+
 void note_skin(PartFile& part)
 {
     const SolidOrigin& solid = *part.solid;
@@ -132,21 +249,25 @@ void note_skin(PartFile& part)
 
 bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Progress& progress)
 {
-    if (!is_asked_for(part, options, solid)) {
-        if (part.doctor.boundary_loops == 0 && part.doctor.components == 1 && !options.skin && !part.deck &&
-            seems_thin_solid(part.mesh))
-            part.notes.push_back("it is taken as a hollow body; if it is a solid of thick sheet, choose the skin that "
-                                 "stands for it (--skin outer)");
+    const Claim claim = claim_of(part, options, solid);
+    if (claim == Claim::none)
         return false;
-    }
     const bool open = *part.doctor.boundary_loops > 0;
     if (open && !seems_thin_solid(part.mesh)) { // and a skin was asked for
         part.notes.push_back("it is no solid but a surface already, and taken as it is: there is no skin to choose");
         return false;
     }
+    std::optional<AsMarked> marked;
+    std::optional<Finding> marks;
+    const int all_faces = faces(part, [](size_t) { return true; });
     try {
+        const ThinSolid sheet = without_its_marks(part, marked, marks, progress);
+        if (claim == Claim::measured && !decide(part, sheet)) {
+            if (marked)
+                put_back(part, *marked);
+            return false;
+        }
         const ThinSolidOptions units = faces_of(part);
-        const ThinSolid sheet = thin_solid(part.mesh, units, progress);
         const Skin wanted = options.skin.value_or(Skin::outer);
         const SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
@@ -159,14 +280,22 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Pro
                       area(skin.mesh),
                       sheet.rim,
                       sheet.volume,
-                      faces(part, [](size_t) { return true; }),
+                      all_faces,
                       faces(part, on(SheetSide::outer)),
                       faces(part, on(SheetSide::inner)),
                       open};
         part.thickness_mm = sheet.thickness;
         replace_mesh(part, skin);
         note_skin(part);
+        if (marks)
+            part.doctor.findings.push_back(std::move(*marks));
     } catch (const NotASheet& reason) {
+        if (marked)
+            put_back(part, *marked);
+        if (claim == Claim::measured) {
+            note_hollow(part, reason.what());
+            return false;
+        }
         if (open)
             part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of "
                                              "sheet; but {}. It is taken as a surface",

@@ -36,7 +36,8 @@ enum class Fault {
     gap,                ///< between faces of a CAD file, or a sliver of a face, closed [vertex]
     unmeshed_face,      ///< a face of a CAD file that gave no triangle [none]
     damaged_entity,     ///< of a CAD file, which no shape needs [none]
-    overlap             ///< faces of a CAD file that lie on one another [face]
+    overlap,            ///< faces of a CAD file that lie on one another [face]
+    mark                ///< a shallow place of a skin of a solid, passed over [face]
 };
 std::string_view name(Fault fault);
 

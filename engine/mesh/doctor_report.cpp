@@ -41,6 +41,7 @@ std::string_view name(Fault fault)
     case Fault::unmeshed_face: return "face not meshed";
     case Fault::damaged_entity: return "damaged entity";
     case Fault::overlap: return "overlapping faces";
+    case Fault::mark: return "mark";
     }
     return "";
 }

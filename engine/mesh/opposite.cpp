@@ -127,6 +127,24 @@ double main_distance(const std::vector<Opposite>& places, const std::vector<char
     std::sort(found.begin(), found.end());
     const auto [from, to] = heaviest(found, 0, found.size(), 1.1);
     const auto [first, last] = heaviest(found, from, to, 1.02);
+    // Flat walls are parallel and have one distance, to rounding; between chords of bends it spreads.
+    constexpr double parallel = 1 - 1e-9, least = 0.1;
+    Weighted flat;
+    double weight = 0, of_flat = 0;
+    for (size_t i = first; i < last; ++i)
+        weight += found[i].second;
+    for (size_t i = 0; i < places.size(); ++i)
+        if (counts[i] && places[i].hit >= 0 && places[i].facing > parallel &&
+            places[i].distance >= found[first].first && places[i].distance <= found[last - 1].first)
+            flat.emplace_back(places[i].distance, places[i].area);
+    if (!flat.empty()) {
+        std::sort(flat.begin(), flat.end());
+        const auto [low, high] = heaviest(flat, 0, flat.size(), 1 + 1e-5);
+        for (size_t i = low; i < high; ++i)
+            of_flat += flat[i].second;
+        if (of_flat >= least * weight)
+            return quantile({flat.begin() + long(low), flat.begin() + long(high)}, 0.5);
+    }
     return quantile({found.begin() + long(first), found.begin() + long(last)}, 0.5);
 }
 

@@ -23,7 +23,7 @@ std::vector<Opposite> opposites(const TriMesh& mesh, const Eigen::Matrix3Xd& nor
                                 const Progress& progress = {});
 
 /// The distance that most area has, of places that a face turned against them lies behind: the median within the two
-/// per cent with the most area of the ten per cent with the most. 0 if there is none. @param counts per place
+/// per cent with the most area of the ten per cent with the most; where a tenth of that has one distance to rounding, that. 0 if there is none. @param counts per place
 double main_distance(const std::vector<Opposite>& places, const std::vector<char>& counts);
 
 /// The value below which a share of the weight lies. @param weighted values and weights, at least one

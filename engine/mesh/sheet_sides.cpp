@@ -64,6 +64,17 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
             const auto p = size_t(pieces.piece[size_t(at.face)]);
             share[p] += at.area / pieces.area[p];
         }
+    // Low walls around raised marks lie opposite to each other, too; strips of bends go on smoothly at their sides.
+    constexpr double low = 0.25; // of the thickness, for twice the area over the outline: the height of a wall
+    std::vector<double> around(size_t(pieces.count()), 0), smooth(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const int p : {c.a, c.b}) {
+            around[size_t(p)] += c.length();
+            smooth[size_t(p)] += c.smooth;
+        }
+    for (size_t p = 0; p < share.size(); ++p)
+        if (smooth[p] < around[p] / 2 && 2 * pieces.area[p] < low * thickness * around[p])
+            share[p] = 0;
     return share;
 }
 
@@ -160,6 +171,34 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
     return settled;
 }
 
+/// Pieces that are not sure, by what looks at them from behind: the outer faces of thick sheet lie opposite to the inner ones with the part
+/// that is not in a corner only, those of a thick tube with the share of the inner radius in the outer one. What touches the side that looks at
+/// it is none.
+/// @returns whether one was
+bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness, Side& side)
+{
+    constexpr double least = 0.1; // of its area
+    std::vector<std::array<double, 2>> looked(size_t(pieces.count()), {0, 0});
+    for (const Opposite& at : places)
+        if (across(at, thickness))
+            if (const int s = side[size_t(pieces.piece[size_t(at.face)])]; s >= 0)
+                looked[size_t(pieces.piece[size_t(at.hit)])][size_t(s)] += at.area;
+    std::vector<char> touches(size_t(pieces.count()), 0); // 1 one, 2 other
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            touches[size_t(p)] |= side[size_t(q)] >= 0 ? side[size_t(q)] + 1 : 0;
+    bool settled = false;
+    for (int p = 0; p < pieces.count(); ++p) {
+        const auto [one, other] = looked[size_t(p)];
+        if (side[size_t(p)] >= 0 || std::max(one, other) < least * pieces.area[size_t(p)] ||
+            std::min(one, other) > least * std::max(one, other) || (touches[size_t(p)] & (one > other ? 1 : 2)))
+            continue;
+        side[size_t(p)] = one > other ? 1 : 0;
+        settled = true;
+    }
+    return settled;
+}
+
 } // namespace
 
 bool across(const Opposite& place, double thickness)
@@ -175,7 +214,7 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
     result.opposite_area = opposite_shares(pieces, places, thickness);
     const std::vector<double>& share = result.opposite_area;
     Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
-    while (settle_groups(pieces, share, side)) {
+    while (settle_faced(pieces, places, thickness, side) || settle_groups(pieces, share, side)) {
     }
 
     double whole = 0, same = 0, most = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "engine/core/parallel.h"
@@ -18,7 +19,9 @@
 namespace spia {
 namespace {
 
-constexpr double thick = 0.25; // of the side of a square with the area of one skin: beyond this it is a block
+constexpr double thick =
+    0.25; // of the side of a square with the area of one skin: what is open and thicker is no sheet
+constexpr double block = 0.36; // of that with half of the area: a square plate half as thick as it is wide
 
 double signed_volume(const TriMesh& mesh)
 {
@@ -78,7 +81,7 @@ void require_thin(const Solid& solid, double thickness, double area)
     const auto all = [](int) { return true; };
     if (thickness <= 0)
         solid.refuse("it is no sheet: no two of its faces lie opposite to each other", solid.largest(all));
-    if (thickness > thick * width)
+    if (thickness > block * width)
         solid.refuse(fmt::format("it is no thin sheet but a block: most of it is {:.4g} mm thick, at a surface like "
                                  "that of a plate {:.4g} mm wide",
                                  thickness, width),
@@ -128,6 +131,19 @@ void require_two_sides(const Solid& solid, double thickness, double area)
     }
 }
 
+/// Of pieces that stand off their side: "; they reach ... ", and what would be let pass.
+template <class Counts> std::string how_deep(const Solid& solid, PieceSide side, double thickness, const Counts& counts)
+{
+    std::vector<char> chosen;
+    for (int p = 0; p < solid.pieces.count(); ++p)
+        chosen.push_back(counts(p));
+    const double depth = depth_of(solid.mesh, solid.pieces, solid.sides.side, chosen, side, thickness);
+    return depth > 0 ? fmt::format(", {:.4g} mm off the level of that side; marks of up to {:.4g} mm, {:.2g} of the "
+                                   "thickness, would be passed over",
+                                   depth, deepest_mark * thickness, deepest_mark)
+                     : "";
+}
+
 /// Each side in one piece, the faces across the thickness between both.
 void require_connected(Solid& solid, double thickness, double area)
 {
@@ -152,11 +168,13 @@ void require_connected(Solid& solid, double thickness, double area)
             solid.refuse("it has one side only: nothing lies opposite to it", solid.largest([](int) { return true; }));
         constexpr double speck = 0.005; // of the surface
         if (second >= 0 && size[size_t(second)] > speck * area)
-            solid.refuse(fmt::format("one of its sides is in several pieces that only faces across the {:.4g} mm of "
-                                     "thickness join: it has more than two sides, or a step; the second piece has "
-                                     "{:.4g} mm2",
-                                     thickness, size[size_t(second)]),
-                         solid.largest([&](int p) { return together.root(p) == second; }));
+            solid.refuse(
+                fmt::format("one of its sides is in several pieces that only faces across the {:.4g} mm of "
+                            "thickness join: it has more than two sides, or a step; the second piece has "
+                            "{:.4g} mm2{}",
+                            thickness, size[size_t(second)],
+                            how_deep(solid, side, thickness, [&](int p) { return together.root(p) == second; })),
+                solid.largest([&](int p) { return together.root(p) == second; }));
         for (int p = 0; p < pieces.count(); ++p)
             if (solid.sides.side[size_t(p)] == side && together.root(p) != largest)
                 solid.sides.side[size_t(p)] = PieceSide::rim;
@@ -171,8 +189,10 @@ void require_connected(Solid& solid, double thickness, double area)
         if (solid.closed && together.root(p) == p && solid.sides.side[size_t(p)] == PieceSide::rim &&
             touches[size_t(p)] != 3 && size[size_t(p)] > 4 * thickness * thickness)
             solid.refuse(fmt::format("one of its sides has a step, a pocket or a boss: faces of {:.4g} mm2 across the "
-                                     "{:.4g} mm thick sheet do not reach its other side",
-                                     size[size_t(p)], thickness),
+                                     "{:.4g} mm thick sheet do not reach its other side{}",
+                                     size[size_t(p)], thickness,
+                                     how_deep(solid, touches[size_t(p)] == 1 ? PieceSide::one : PieceSide::other,
+                                              thickness, [&](int q) { return together.root(q) == p; })),
                          solid.largest([&](int q) { return together.root(q) == p; }));
 }
 
@@ -209,13 +229,50 @@ TriMesh only(const Solid& solid, PieceSide side)
     return mesh;
 }
 
+/// What a fourth of the distances are to single precision of a part a hundred times as large. @param sorted  at least one
+std::optional<double> agreed(const std::vector<double>& sorted)
+{
+    constexpr double equal = 1 + 1e-5;
+    size_t first = 0, most = 0;
+    for (size_t i = 0, j = 0; i < sorted.size(); ++i) {
+        while (j < sorted.size() && sorted[j] <= equal * sorted[i])
+            ++j;
+        if (j - i > most) {
+            most = j - i;
+            first = i;
+        }
+    }
+    if (4 * most < sorted.size())
+        return std::nullopt;
+    return sorted[first + most / 2];
+}
+
+/// Vertices at which a skin turns: they lie on its surface, while those within a chord of a bend lie below it.
+std::vector<char> turning_vertices(const Solid& solid)
+{
+    constexpr double turn = 0.99985; // 1 degree
+    std::vector<int> first(size_t(solid.mesh.vertices()), -1);
+    std::vector<char> turns(size_t(solid.mesh.vertices()), 0);
+    for (int f = 0; f < solid.mesh.triangles(); ++f)
+        for (int k = 0; k < 3 && solid.side(f) != PieceSide::rim; ++k) {
+            const auto v = size_t(solid.mesh.triangle(k, f));
+            if (first[v] < 0)
+                first[v] = f;
+            const auto n = solid.normal.col(first[v]), m = solid.normal.col(f);
+            turns[v] |= m.dot(n) < turn * m.norm() * n.norm();
+        }
+    return turns;
+}
+
 /// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on them, so the thickness is
-/// the distance of vertices that lie straight opposite to each other.
+/// the distance of vertices that lie straight opposite to each other: of those where the skins turn, if there are enough.
 /// @param by_rays mm, and what is returned where too few vertices lie so
 double between_vertices(const Solid& solid, double by_rays)
 {
-    constexpr double exact = 1e-4, most_off = 0.02, alike = 1e-3;
-    std::vector<double> distance;
+    constexpr double exact = 1e-4, alike = 1e-3;
+    constexpr double nearer = 0.02, farther = 0.1; // chords of 50 degrees are nearer to each other by that
+    std::vector<double> distance, turning;
+    const std::vector<char> turns = turning_vertices(solid);
     int asked = 0;
     for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
         const ClosestPointSearch opposite(only(solid, side == PieceSide::one ? PieceSide::other : PieceSide::one));
@@ -227,14 +284,27 @@ double between_vertices(const Solid& solid, double by_rays)
                     continue;
                 ++asked;
                 const ClosestPoint near = opposite.nearest(solid.mesh.position.col(v), 2 * by_rays);
-                if (near.face >= 0 && near.barycentric.maxCoeff() > 1 - exact &&
-                    std::abs(near.distance - by_rays) <= most_off * by_rays)
-                    distance.push_back(near.distance);
+                if (near.face < 0 || near.barycentric.maxCoeff() <= 1 - exact ||
+                    near.distance < (1 - nearer) * by_rays || near.distance > (1 + farther) * by_rays)
+                    continue;
+                distance.push_back(near.distance);
+                if (turns[size_t(v)])
+                    turning.push_back(near.distance);
             }
     }
-    if (int(distance.size()) < std::max(8, asked / 50))
+    constexpr size_t enough = 8;
+    std::sort(turning.begin(), turning.end());
+    if (turning.size() >= enough)
+        if (const std::optional<double> same = agreed(turning))
+            return *same;
+    if (distance.size() < std::max(enough, size_t(asked / 50)))
         return by_rays;
     std::sort(distance.begin(), distance.end());
+    if (const std::optional<double> same = agreed(distance))
+        return *same;
+    std::erase_if(distance, [&](double d) { return d > (1 + nearer) * by_rays; });
+    if (distance.size() < std::max(enough, size_t(asked / 50)))
+        return by_rays;
     // Those that do not lie quite opposite are farther away.
     const double low = distance[distance.size() / 10], median = distance[distance.size() / 2];
     return median - low <= alike * low ? low : median;
@@ -295,6 +365,39 @@ void require_even(const Solid& solid, const std::vector<Local>& local, double th
                      solid.largest([&](int p) { return p == worst; }));
 }
 
+/// How many outlines there are, whether they are rounded, and whether the skins are plane.
+void describe_outline(const Solid& solid, ThinSolid& result)
+{
+    const SurfacePieces& pieces = solid.pieces;
+    const auto rim = [&](int p) { return solid.sides.side[size_t(p)] == PieceSide::rim; };
+    DisjointSets together(size_t(pieces.count()));
+    for (const PieceContact& c : pieces.contact)
+        if (rim(c.a) && rim(c.b))
+            together.join(c.a, c.b);
+    double smooth = 0, whole = 0;
+    std::vector<char> touches(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact)
+        if (rim(c.a) != rim(c.b)) {
+            smooth += c.smooth;
+            whole += c.length();
+            const auto [outline, skin] = rim(c.a) ? std::pair(c.a, c.b) : std::pair(c.b, c.a);
+            touches[size_t(together.root(outline))] |= solid.sides.side[size_t(skin)] == PieceSide::one ? 1 : 2;
+        }
+    result.outlines = int(std::count(touches.begin(), touches.end(), 3));
+    result.rounded = whole > 0 ? smooth / whole : 0;
+    constexpr double flat = 1e-4; // of the area: the whole plane but for a degree
+    for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        double size = 0;
+        for (int f = 0; f < solid.mesh.triangles(); ++f)
+            if (solid.side(f) == side) {
+                sum += solid.normal.col(f);
+                size += solid.normal.col(f).norm();
+            }
+        result.bent |= sum.norm() < (1 - flat) * size;
+    }
+}
+
 ThinSolid result_of(const Solid& solid, double volume, double flipped)
 {
     ThinSolid result;
@@ -350,6 +453,9 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     progress.checkpoint(0.6, "taking the sides apart");
     solid.sides = sheet_sides(solid.pieces, solid.places, thickness);
     require_two_sides(solid, thickness, area);
+    std::vector<SheetMark> marks;
+    if (solid.closed)
+        marks = find_marks(mesh, solid.normal, solid.pieces, solid.sides.side, thickness);
     require_connected(solid, thickness, area);
     if (!solid.closed)
         require_rim(solid);
@@ -364,11 +470,13 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
 
     ThinSolid result = result_of(solid, std::abs(volume), flipped);
     result.thickness = thickness;
+    result.marks = std::move(marks);
     std::vector<std::pair<double, double>> spread;
     for (const Local& at : local)
         spread.emplace_back(at.thickness, at.area);
     result.least = std::min(thickness, quantile(spread, 0.01));
     result.most = std::max(thickness, quantile(spread, 0.99));
+    describe_outline(solid, result);
     const double filled = volume * flipped / (thickness * (result.outer + result.inner) / 2);
     if (solid.closed && (filled < 0.8 || filled > 1.25))
         solid.refuse(fmt::format("its volume of {:.6g} mm3 is {:.3g} times that of a sheet {:.4g} mm thick with these "

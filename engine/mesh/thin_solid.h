@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
+#include "engine/mesh/sheet_marks.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -28,6 +29,10 @@ struct ThinSolid {
     double outer = 0, inner = 0, rim = 0; ///< mm2
     double volume = 0;                    ///< mm3
     double flipped = 0;                   ///< -1 if the triangles are seen from inside the solid, else 1
+    int outlines = 0;                     ///< groups of faces across the thickness: one more than there are holes
+    bool bent = false;                    ///< either skin is not plane
+    double rounded = 0;                   ///< share of the skins' outline where they go over into the rim smoothly
+    std::vector<SheetMark> marks = {};    ///< shallow places; `side` has their walls on their skin, too
 
     double area(SheetSide of) const { return of == SheetSide::outer ? outer : of == SheetSide::inner ? inner : rim; }
 };
@@ -43,7 +48,8 @@ struct NotASheet : InputError {
 /// they meet a face turned against the one they come from, they give a thickness, and the one that most of the area has is
 /// the sheet's. Pieces of surface (CAD faces, or pieces that turn by less than 12 degrees) whose rays do so belong to a skin;
 /// those that face each other belong to different skins, those beside each other without a convex edge to the same one. Pieces
-/// between are settled by what they touch: fillets by the skin that they go on from smoothly, what touches both skins is rim.
+/// between are settled by what lies behind them and what they touch: fillets by the skin that they go on from smoothly, what touches
+/// both skins is rim. Shallow marks count to their skin, see find_marks(); without_marks() takes them out.
 /// @param solid  one component, manifold, seen from one side; closed, or with a face or two missing
 /// @throws NotASheet  the surface is not that of a sheet of one thickness: a block, a rib, a coined place, sides that run into
 ///         each other; InputError if units do not count the triangles

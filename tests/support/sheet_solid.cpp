@@ -68,6 +68,68 @@ TriMesh thickened(const TriMesh& outer, const Eigen::Matrix3Xd& inwards)
     return solid;
 }
 
+TriMesh stepped(const TriMesh& solid, int skin_faces, const std::vector<char>& chosen, const Eigen::Matrix3Xd& way)
+{
+    const int before = solid.vertices(), rim_from = 2 * skin_faces;
+    const auto is_chosen = [&](int f) { return f < rim_from && chosen[size_t(f)] != 0; };
+    std::map<std::pair<int, int>, int> face_of; // per directed edge
+    for (int f = 0; f < solid.triangles(); ++f)
+        for (int k = 0; k < 3; ++k)
+            face_of[{solid.triangle(k, f), solid.triangle((k + 1) % 3, f)}] = f;
+    std::vector<char> follows(size_t(solid.triangles()), 0), stays(size_t(before), 0), moves(size_t(before), 0);
+    for (int f = 0; f < rim_from; ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = solid.triangle(k, f), b = solid.triangle((k + 1) % 3, f), on = face_of.at({b, a});
+            (is_chosen(f) ? moves : stays)[size_t(a)] = 1;
+            if (is_chosen(f) && on >= rim_from) { // its faces come in pairs, one for each edge of the outer skin
+                const int first = rim_from + (on - rim_from) / 2 * 2;
+                follows[size_t(first)] = follows[size_t(first + 1)] = 1;
+            }
+        }
+    std::vector<int> copy(size_t(before), -1);
+    std::vector<Eigen::Vector3d> position;
+    for (int v = 0; v < before; ++v)
+        position.push_back(solid.position.col(v) +
+                           (moves[size_t(v)] && !stays[size_t(v)] ? way.col(v).eval() : Eigen::Vector3d::Zero()));
+    for (int v = 0; v < before; ++v)
+        if (moves[size_t(v)] && stays[size_t(v)]) {
+            copy[size_t(v)] = int(position.size());
+            position.push_back(solid.position.col(v) + way.col(v));
+        }
+    const auto lower = [&](int v) { return copy[size_t(v)] >= 0 ? copy[size_t(v)] : v; };
+    std::vector<Eigen::Vector3i> triangle, added;
+    for (int f = 0; f < solid.triangles(); ++f) {
+        Eigen::Vector3i t = solid.triangle.col(f);
+        for (int k = 0; k < 3; ++k) {
+            const int a = solid.triangle(k, f), b = solid.triangle((k + 1) % 3, f), on = face_of.at({b, a});
+            if (is_chosen(f) && on < rim_from && !is_chosen(on)) {
+                added.emplace_back(a, b, lower(b));
+                added.emplace_back(a, lower(b), lower(a));
+            }
+            // Between two pairs of the rim one of which has its corner moved.
+            if (follows[size_t(f)] && on >= rim_from && !follows[size_t(on)]) {
+                if (copy[size_t(a)] >= 0)
+                    added.emplace_back(lower(a), a, b);
+                else if (copy[size_t(b)] >= 0)
+                    added.emplace_back(a, b, lower(b));
+            }
+        }
+        if (is_chosen(f) || follows[size_t(f)])
+            for (int k = 0; k < 3; ++k)
+                t[k] = lower(t[k]);
+        triangle.push_back(t);
+    }
+    triangle.insert(triangle.end(), added.begin(), added.end());
+    TriMesh result;
+    result.position.resize(3, Eigen::Index(position.size()));
+    for (size_t v = 0; v < position.size(); ++v)
+        result.position.col(Eigen::Index(v)) = position[v];
+    result.triangle.resize(3, Eigen::Index(triangle.size()));
+    for (size_t f = 0; f < triangle.size(); ++f)
+        result.triangle.col(Eigen::Index(f)) = triangle[f];
+    return result;
+}
+
 std::vector<int> cad_faces(const BentSheet& sheet, const TriMesh& solid)
 {
     const int f = sheet.mesh.triangles(), pieces = *std::max_element(sheet.piece.begin(), sheet.piece.end()) + 1;

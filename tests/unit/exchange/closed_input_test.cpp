@@ -1,0 +1,267 @@
+// What is closed: solids of sheet and hollow bodies, told apart by measuring.
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
+#include "engine/mesh/topology.h"
+#include "tests/support/lots.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/mesh_tools.h"
+#include "tests/support/plane_faces.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using shapes::Lots;
+using shapes::PlaneLoop;
+using shapes::ProfilePiece;
+constexpr double pi = std::numbers::pi;
+
+/// A solid of sheet and what is known of it.
+struct KnownSheet {
+    std::string name;
+    TriMesh mesh;
+    double thickness;
+    double middle;      ///< mm2, volume / thickness
+    double exact;       ///< what the thickness may be off, of it: chords of curved skins without flats
+    bool plain = false; ///< a plate without holes: the same surface as a closed box
+};
+
+ProfilePiece flat(double length) { return {length, 0, 0}; }
+ProfilePiece bend(double radius, double angle) { return {0, radius, angle}; }
+
+/// @param share  of the thickness in the least width of the flats
+std::vector<KnownSheet> sheets(double share, int chords, int divisions, std::uint64_t seed)
+{
+    Lots lots(seed);
+    const double t = lots.between(0.5, 8), w = t / share; // the narrowest flat on an inner side
+    const auto more = [&](double least, double most) { return w * lots.between(least, most); };
+    std::vector<KnownSheet> result;
+    const auto add = [&](std::string name, TriMesh mesh, double exact, bool plain = false) {
+        mesh = shapes::divided(mesh, divisions);
+        double volume = 0;
+        for (int f = 0; f < mesh.triangles(); ++f)
+            volume += mesh.position.col(mesh.triangle(0, f))
+                          .dot(mesh.position.col(mesh.triangle(1, f)).cross(mesh.position.col(mesh.triangle(2, f)))) /
+                      6;
+        mesh = shapes::permuted(shapes::transformed(mesh, shapes::random_rotation(seed + result.size()),
+                                                    {lots.between(-50, 50), lots.between(-50, 50), 7}),
+                                seed)
+                   .mesh;
+        result.push_back({fmt::format("{} (t {:.3g} of {:.3g}, {} chords, {} divisions, seed {})", name, t, w, chords,
+                                      divisions, seed),
+                          mesh, t, volume / t, exact, plain});
+    };
+    const auto rectangle = [](double a, double b) { return PlaneLoop{{0, 0}, {a, 0}, {a, b}, {0, b}}; };
+    const double a = more(1, 2), b = more(1, 1.5);
+    add("plate", shapes::extruded(rectangle(a, b), {}, t), 1e-6, true);
+    add("plate with holes",
+        shapes::extruded(rectangle(3 * w, 2.2 * w),
+                         {shapes::circle({0.8 * w, 0.8 * w}, 0.3 * w, 4 * chords, true),
+                          shapes::circle({2.1 * w, 1.1 * w}, 0.5 * w, 4 * chords, true)},
+                         t),
+        1e-6);
+    const double length = more(1, 2), r = t * lots.between(0.1, 2);
+    const auto bent = [&](const std::string& name, const std::vector<ProfilePiece>& pieces) {
+        add(name, shapes::extruded(shapes::sheet_section(pieces, t, chords), {}, length), 1e-6);
+    };
+    bent("bracket", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2))});
+    bent("open bracket", {flat(more(1, 2)), bend(r, lots.between(0.3, 1.3)), flat(more(1, 2))});
+    bent("channel", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2))});
+    bent("step", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2)), bend(r, -pi / 2), flat(more(1, 2))});
+    bent("hat", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 1.5)), bend(r, -pi / 2), flat(more(1, 2)),
+                 bend(r, -pi / 2), flat(more(1, 1.5)), bend(r, pi / 2), flat(more(1, 2))});
+    bent("hem", {flat(more(2, 3)), bend(lots.between(0.1, 0.5) * t, pi), flat(more(1, 2))});
+    bent("knuckle", {flat(more(1, 2)), bend(lots.between(0.6, 1.5) * t, lots.between(1.1, 1.45) * pi)});
+    // Sharp edges inside and outside.
+    const double leg = more(1, 2) + t, foot = more(1, 2) + t;
+    add("mitred bracket", shapes::extruded({{0, 0}, {foot, 0}, {foot, t}, {t, t}, {t, leg}, {0, leg}}, {}, length),
+        1e-6);
+    const double inside = t * lots.between(0.3, 3);
+    add("tube",
+        shapes::extruded(shapes::circle({0, 0}, inside + t, 8 * chords, false),
+                         {shapes::circle({0, 0}, inside, 8 * chords, true)}, std::max(length, 2 * t)),
+        1e-6);
+    // An open box of walls with sharp edges.
+    const double x = more(1, 2), y = more(1, 2), h = more(1, 1.5);
+    shapes::PlaneFaces box;
+    const auto p = [](double px, double py, double pz) { return Eigen::Vector3d(px, py, pz); };
+    const double X = x + 2 * t, Y = y + 2 * t, H = h + t;
+    box.add({p(0, 0, 0), p(0, Y, 0), p(X, Y, 0), p(X, 0, 0)});
+    box.add({p(0, 0, 0), p(X, 0, 0), p(X, 0, H), p(0, 0, H)});
+    box.add({p(X, 0, 0), p(X, Y, 0), p(X, Y, H), p(X, 0, H)});
+    box.add({p(X, Y, 0), p(0, Y, 0), p(0, Y, H), p(X, Y, H)});
+    box.add({p(0, Y, 0), p(0, 0, 0), p(0, 0, H), p(0, Y, H)});
+    box.add({p(0, 0, H), p(X, 0, H), p(X, Y, H), p(0, Y, H)},
+            {{p(t, t, H), p(t, Y - t, H), p(X - t, Y - t, H), p(X - t, t, H)}});
+    box.add({p(t, t, t), p(X - t, t, t), p(X - t, Y - t, t), p(t, Y - t, t)});
+    box.add({p(t, t, H), p(X - t, t, H), p(X - t, t, t), p(t, t, t)});
+    box.add({p(X - t, t, H), p(X - t, Y - t, H), p(X - t, Y - t, t), p(X - t, t, t)});
+    box.add({p(X - t, Y - t, H), p(t, Y - t, H), p(t, Y - t, t), p(X - t, Y - t, t)});
+    box.add({p(t, Y - t, H), p(t, t, H), p(t, t, t), p(t, Y - t, t)});
+    add("open box", box.mesh(), 1e-6);
+    return result;
+}
+
+std::vector<std::pair<std::string, TriMesh>> hollow_bodies(int around, int divisions, std::uint64_t seed)
+{
+    Lots lots(seed);
+    std::vector<std::pair<std::string, TriMesh>> result;
+    const auto add = [&](const std::string& name, const TriMesh& mesh) {
+        result.emplace_back(fmt::format("{} ({} around, {} divisions, seed {})", name, around, divisions, seed),
+                            shapes::transformed(shapes::divided(mesh, divisions),
+                                                shapes::random_rotation(seed + result.size()), {5, -20, 3}));
+    };
+    const double a = lots.between(30, 60);
+    const auto rectangle = [](double x, double y) { return PlaneLoop{{0, 0}, {x, 0}, {x, y}, {0, y}}; };
+    add("cube", shapes::extruded(rectangle(a, a), {}, a));
+    add("box", shapes::extruded(rectangle(a, a * lots.between(1, 1.5)), {}, a * lots.between(0.7, 2)));
+    add("long box", shapes::extruded(rectangle(a, a * lots.between(1, 1.15)), {}, 8 * a));
+    for (const double height : {1.0, 2.0, 10.0}) // the diameter of the shortest is its height, too
+        add(fmt::format("closed tube {} diameters long", height),
+            shapes::extruded(shapes::circle({0, 0}, a / 2, around, false), {}, height * a));
+    add("prism of six sides", shapes::extruded(shapes::circle({0, 0}, a, 6, false), {}, 3 * a));
+    add("bottle",
+        shapes::turned({{0, 0}, {a, 0}, {a, 2 * a}, {0.3 * a, 2.6 * a}, {0.3 * a, 3.2 * a}, {0, 3.2 * a}}, around));
+    add("cone", shapes::turned({{0, 0}, {a, 0}, {0.2 * a, 2 * a}, {0, 2 * a}}, around));
+    PlaneLoop capsule;
+    for (int i = 0; i <= 8; ++i)
+        capsule.emplace_back(i == 0 ? 0 : a * std::sin(pi / 16 * i), -a * std::cos(pi / 16 * i));
+    for (int i = 8; i >= 0; --i)
+        capsule.emplace_back(i == 0 ? 0 : a * std::sin(pi / 16 * i), 2 * a + a * std::cos(pi / 16 * i));
+    add("capsule", shapes::turned(capsule, around));
+    PlaneLoop lens;
+    for (int i = 0; i <= 10; ++i)
+        lens.emplace_back(i == 0 || i == 10 ? 0 : a * std::sin(pi / 10 * i), -0.3 * a * std::cos(pi / 10 * i));
+    add("lens", shapes::turned(lens, around));
+    return result;
+}
+
+PartFile examined(const TriMesh& mesh, std::optional<Skin> skin = {})
+{
+    ReadOptions options;
+    options.skin = skin;
+    return examine_soup(shapes::soup_of(mesh), options);
+}
+
+std::string words_of(const PartFile& part)
+{
+    std::string result;
+    for (const std::string& note : part.notes)
+        result += note + "\n";
+    for (const Finding& finding : part.doctor.findings)
+        result += finding.text + "\n";
+    return result;
+}
+
+} // namespace
+
+TEST(ClosedInput, SheetIsTakenHoweverThickForItsSize)
+{
+    std::uint64_t seed = 1;
+    int count = 0, doubted = 0;
+    for (const double share : {0.02, 0.05, 0.1, 0.2, 0.3, 0.4})
+        for (const auto& [chords, divisions] : {std::pair(3, 0), {4, 0}, {6, 1}, {4, 2}})
+            for (const KnownSheet& known : sheets(share, chords, divisions, seed++)) {
+                SCOPED_TRACE(known.name);
+                const PartFile part = examined(known.mesh, {});
+                ++count;
+                if (!part.solid) {
+                    ADD_FAILURE() << "not taken: " << words_of(part);
+                    continue;
+                }
+                EXPECT_NEAR(part.solid->thickness, known.thickness, known.exact * known.thickness);
+                const bool doubt = std::any_of(part.doubts.begin(), part.doubts.end(), [](const std::string& text) {
+                    return text.find("hollow body") != std::string::npos && text.find("--seam") != std::string::npos;
+                });
+                doubted += doubt;
+                EXPECT_FALSE(share <= 0.1 && doubt) << words_of(part);
+                EXPECT_TRUE(share < 0.29 || !known.plain || doubt) << "a closed box, too";
+                // Chords of the middle lie nearer to each other than those of the skins, by 1 - cos of half their angle.
+                EXPECT_NEAR((part.solid->outer_area + part.solid->inner_area) / 2, known.middle, 0.04 * known.middle);
+            }
+    RecordProperty("sheets", count);
+    RecordProperty("doubted", doubted);
+    EXPECT_GE(count, 250);
+    EXPECT_LT(doubted, count / 5);
+}
+
+TEST(ClosedInput, HollowBodiesStayWhatTheyAre)
+{
+    std::uint64_t seed = 1;
+    for (const int around : {7, 8, 12, 16, 40})
+        for (const int divisions : {0, 2})
+            for (const auto& [name, mesh] : hollow_bodies(around, divisions, seed++)) {
+                SCOPED_TRACE(name);
+                const PartFile part = examined(mesh);
+                EXPECT_FALSE(part.solid) << words_of(part);
+                EXPECT_FALSE(part.seam.empty()) << "it is cut open";
+            }
+    for (const TriMesh& mesh :
+         {shapes::closed_sphere(30, 2000), shapes::torus(50, 12, 3000), shapes::torus(50, 3, 6000)})
+        EXPECT_FALSE(examined(mesh).solid);
+}
+
+TEST(ClosedInput, SaysWhatItIsNotSureOf)
+{
+    const auto tin = [](double height) { return shapes::extruded(shapes::circle({0, 0}, 40, 48, false), {}, height); };
+    const PartFile disk = examined(tin(5)), tall = examined(tin(24)), taller = examined(tin(34));
+    ASSERT_TRUE(disk.solid);
+    EXPECT_TRUE(disk.doubts.empty());
+    ASSERT_TRUE(tall.solid);
+    ASSERT_EQ(tall.doubts.size(), 1u);
+    EXPECT_NE(tall.doubts[0].find("--seam"), std::string::npos);
+    EXPECT_FALSE(taller.solid);
+    ASSERT_EQ(taller.doubts.size(), 1u);
+    EXPECT_NE(taller.doubts[0].find("--skin"), std::string::npos);
+    const PartFile asked = examined(tin(34), Skin::outer);
+    ASSERT_TRUE(asked.solid) << words_of(asked);
+    EXPECT_NEAR(asked.solid->thickness, 34, 1e-9);
+    EXPECT_TRUE(asked.doubts.empty());
+}
+
+class ClosedFile : public testing::TestWithParam<const char*> {
+protected:
+    ScratchFolder folder_;
+};
+
+TEST_P(ClosedFile, OfEveryFormatIsMeasured)
+{
+    const TriMesh mesh = shapes::extruded(shapes::sheet_section({flat(22), bend(3, pi / 2), flat(37)}, 2, 6), {}, 30);
+    const std::filesystem::path file = folder_ / (std::string("bracket.") + GetParam());
+    shapes::write_mesh(file, mesh);
+    ReadOptions options;
+    options.unit = LengthUnit::mm;
+    const PartFile part = read_part(file, options);
+    ASSERT_TRUE(part.solid) << words_of(part);
+    EXPECT_NEAR(part.solid->thickness, 2, 2e-5) << "single precision";
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, ClosedFile, testing::Values("stl", "obj"));
+
+// ../shared/cases, K2.
+TEST(SharedCases, SheetsWithoutACadSolidHaveTheirThickness)
+{
+    const std::filesystem::path cases = std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/cases";
+    if (!std::filesystem::exists(cases / "08-plate.stl"))
+        GTEST_SKIP() << "no " << cases;
+    ReadOptions options;
+    options.skin = Skin::middle;
+    const PartFile plate = read_part(cases / "08-plate.stl"), bracket = read_part(cases / "08-lbracket.igs"),
+                   middle = read_part(cases / "08-lbracket.igs", options);
+    ASSERT_TRUE(plate.solid);
+    EXPECT_NEAR(plate.solid->thickness, 3, 3e-6);
+    EXPECT_EQ(plate.doctor.boundary_loops, 4);
+    EXPECT_TRUE(plate.doubts.empty());
+    ASSERT_TRUE(bracket.solid);
+    EXPECT_NEAR(bracket.solid->thickness, 2, 2e-6);
+    EXPECT_NEAR(area(middle.mesh), 71.283 * 30, 3e-4 * 71.283 * 30) << "of chords";
+}
+
+} // namespace spia

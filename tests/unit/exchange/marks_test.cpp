@@ -1,0 +1,263 @@
+// Shallow marks on the skins of solids of sheet: what is laid flat is the skin without them.
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
+#include "engine/mesh/topology.h"
+#include "tests/support/lots.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/mesh_tools.h"
+#include "tests/support/plane_faces.h"
+#include "tests/support/sheet_solid.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+using shapes::BentSheet;
+using shapes::PlaneLoop;
+using shapes::Profile;
+constexpr double pi = std::numbers::pi, thickness = 2;
+
+/// Bends to both sides. Flats to x = 30 and from about x = 72 on.
+BentSheet step_sheet()
+{
+    return shapes::bent_sheet(
+        Profile({0, 0}, 0).straight(30).bend(6, -pi / 2).straight(20).bend(9, pi / 2).straight(40), 60, 2);
+}
+
+TriMesh solid_of(const BentSheet& sheet) { return shapes::thickened(sheet.mesh, -thickness * sheet.normal); }
+
+/// Where a mark lies: cells of the sheet by the middle of their outer side.
+using Where = std::function<bool(const Eigen::Vector3d&)>;
+
+/// @param depth  mm, below zero: raised
+TriMesh marked(const BentSheet& sheet, const TriMesh& solid, const Where& where, double depth, bool inner = false)
+{
+    const int faces = sheet.mesh.triangles(), vertices = sheet.mesh.vertices();
+    std::vector<char> chosen(2 * size_t(faces), 0);
+    for (int f = 0; f < faces; ++f) {
+        const auto middle = [&](int g) {
+            return Eigen::Vector3d(sheet.mesh.position(Eigen::all, sheet.mesh.triangle.col(g)).rowwise().mean());
+        };
+        chosen[size_t(f + (inner ? faces : 0))] = where((middle(f) + middle(f ^ 1)) / 2);
+    }
+    Eigen::Matrix3Xd way = Eigen::Matrix3Xd::Zero(3, solid.vertices());
+    way.leftCols(vertices) = -depth * sheet.normal;
+    way.middleCols(vertices, vertices) = depth * sheet.normal;
+    for (int v = 2 * vertices; v < solid.vertices(); ++v) { // of a step before: as the vertex that it was
+        Eigen::Index nearest;
+        (sheet.mesh.position.colwise() - solid.position.col(v)).colwise().norm().minCoeff(&nearest);
+        way.col(v) = -depth * sheet.normal.col(nearest);
+    }
+    return shapes::stepped(solid, faces, chosen, way);
+}
+
+Where box(double x0, double x1, double y0, double y1, double z0 = -1e9)
+{
+    return [=](const Eigen::Vector3d& p) { return p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1 && p.z() > z0; };
+}
+
+PartFile examined(const TriMesh& mesh, Skin skin)
+{
+    ReadOptions options;
+    options.skin = skin;
+    return examine_soup(shapes::soup_of(mesh), options);
+}
+
+std::string words_of(const PartFile& part)
+{
+    std::string result;
+    for (const std::string& note : part.notes)
+        result += note + "\n";
+    for (const Finding& finding : part.doctor.findings)
+        result += finding.text + "\n";
+    return result;
+}
+
+/// The part with marks is the one without.
+void expect_same(const TriMesh& plain, const TriMesh& with_marks, int marks, double depth, double tolerance)
+{
+    for (const Skin skin : {Skin::outer, Skin::middle, Skin::inner}) {
+        const PartFile expected = examined(plain, skin), found = examined(with_marks, skin);
+        ASSERT_TRUE(expected.solid) << words_of(expected);
+        ASSERT_TRUE(found.solid) << words_of(found);
+        EXPECT_TRUE(found.doctor.healthy());
+        EXPECT_NEAR(found.solid->thickness, expected.solid->thickness, tolerance * thickness);
+        EXPECT_NEAR(area(found.mesh), area(expected.mesh), tolerance * area(expected.mesh)) << name(skin);
+        EXPECT_EQ(found.doctor.boundary_loops, expected.doctor.boundary_loops);
+        const Finding* finding = found.doctor.find(Fault::mark);
+        ASSERT_TRUE(finding) << words_of(found);
+        EXPECT_EQ(finding->severity, Severity::note);
+        EXPECT_EQ(finding->count, marks) << finding->text;
+        EXPECT_EQ(int(finding->place.size()), marks);
+        EXPECT_NE(finding->text.find(fmt::format("{:.4g} mm", depth)), std::string::npos) << finding->text;
+        EXPECT_TRUE(found.doubts.empty());
+    }
+}
+
+/// A plate with words cut into its upper side: L, an O with its island, T.
+TriMesh plate_with_text(double depth)
+{
+    const double z = 3;
+    const auto lifted = [](const PlaneLoop& loop, double at, bool reversed) {
+        shapes::Loop result;
+        for (const Eigen::Vector2d& p : loop)
+            result.emplace_back(p.x(), p.y(), at);
+        if (reversed)
+            std::reverse(result.begin(), result.end());
+        return result;
+    };
+    const PlaneLoop l = {{10, 10}, {18, 10}, {18, 12}, {12, 12}, {12, 24}, {10, 24}};
+    const PlaneLoop t = {{50, 10}, {52, 10}, {52, 22}, {56, 22}, {56, 24}, {46, 24}, {46, 22}, {50, 22}};
+    const PlaneLoop o = shapes::circle({32, 17}, 7, 32, false), island = shapes::circle({32, 17}, 5, 28, false);
+    const PlaneLoop outline = {{0, 0}, {70, 0}, {70, 36}, {0, 36}};
+    shapes::PlaneFaces faces;
+    faces.add(lifted(outline, z, false), {lifted(l, z, true), lifted(t, z, true), lifted(o, z, true)});
+    faces.add(lifted(outline, 0, true));
+    for (size_t i = 0; i < outline.size(); ++i) {
+        const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        faces.add({{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), z}, {a.x(), a.y(), z}});
+    }
+    faces.add(lifted(l, z - depth, false));
+    faces.add(lifted(t, z - depth, false));
+    faces.add(lifted(o, z - depth, false), {lifted(island, z - depth, true)});
+    faces.add(lifted(island, z, false));
+    for (const auto& [loop, outside] : {std::pair(l, false), {t, false}, {o, false}, {island, true}})
+        for (size_t i = 0; i < loop.size(); ++i) {
+            const Eigen::Vector2d &a = loop[i], &b = loop[(i + 1) % loop.size()];
+            shapes::Loop wall = {
+                {a.x(), a.y(), z - depth}, {b.x(), b.y(), z - depth}, {b.x(), b.y(), z}, {a.x(), a.y(), z}};
+            if (!outside)
+                std::reverse(wall.begin(), wall.end());
+            faces.add(wall);
+        }
+    return faces.mesh();
+}
+
+} // namespace
+
+TEST(Marks, OnFlatsAndAcrossBendsAreTakenOutOfTheSkin)
+{
+    const BentSheet sheet = step_sheet();
+    const TriMesh solid = solid_of(sheet);
+    const std::vector<std::pair<const char*, Where>> places = {
+        {"on a flat", box(8, 20, 20, 40)},
+        {"across a bend", box(22, 60, 16, 30, -12)},
+        {"near the rim", box(2, 12, 2, 8)},
+        {"an L of cells", [](const Eigen::Vector3d& p) {
+             return p.x() < 26 &&
+                    ((p.x() > 6 && p.x() < 10 && p.y() > 8 && p.y() < 50) || (p.x() > 6 && p.y() > 8 && p.y() < 12));
+         }}};
+    for (const auto& [where, cells] : places)
+        for (const double depth : {0.005, 0.1, 0.39, -0.1, -0.39})
+            for (const bool inner : {false, true}) {
+                SCOPED_TRACE(fmt::format("{}, {} mm, {} side", where, depth, inner ? "lower" : "upper"));
+                const TriMesh with = marked(sheet, solid, cells, depth, inner);
+                ASSERT_TRUE(boundary_loops(with).empty());
+                expect_same(solid, with, 1, std::abs(depth), 5e-6); // floors over bends follow their chords
+            }
+}
+
+TEST(Marks, ThatReachTheRimAndTinyStepsAreTakenOut)
+{
+    const BentSheet sheet = step_sheet();
+    const TriMesh solid = solid_of(sheet);
+    for (const double depth : {0.02, 0.3, -0.3})
+        for (const auto& [where, cells] : {std::pair<const char*, Where>{"a groove to the rim", box(10, 16, -1, 30)},
+                                           {"a groove across the sheet", box(10, 16, -1, 61)},
+                                           {"a corner", box(-1, 9, -1, 9)},
+                                           {"a step of the whole side", box(-1, 20, -1, 61)}}) {
+            SCOPED_TRACE(fmt::format("{}, {} mm", where, depth));
+            expect_same(solid, marked(sheet, solid, cells, depth), 1, std::abs(depth), 1e-9);
+        }
+}
+
+TEST(Marks, SeveralAndThoseWithTwoDepthsAreTakenOut)
+{
+    const BentSheet sheet = step_sheet();
+    const TriMesh solid = solid_of(sheet);
+    const TriMesh three =
+        marked(sheet, marked(sheet, marked(sheet, solid, box(4, 10, 10, 20), 0.1), box(14, 24, 30, 50), -0.2),
+               box(80, 90, 10, 40), 0.3, true);
+    expect_same(solid, three, 3, 0.3, 1e-9);
+    // A pocket in a pocket.
+    const TriMesh twice = marked(sheet, marked(sheet, solid, box(4, 26, 10, 50), 0.1), box(8, 20, 20, 40), 0.2);
+    expect_same(solid, twice, 1, 0.3, 1e-9);
+}
+
+TEST(Marks, AreTheSameTurnedAndRenumbered)
+{
+    const BentSheet sheet = step_sheet();
+    const TriMesh solid = solid_of(sheet), with = marked(sheet, solid, box(22, 60, 16, 30, -12), 0.1);
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const TriMesh other =
+            shapes::permuted(shapes::transformed(with, shapes::random_rotation(seed), {100, -20, 7}), seed).mesh;
+        expect_same(solid, other, 1, 0.1, 5e-6);
+    }
+}
+
+TEST(Marks, TextOfFewLongTrianglesIsPassedOver)
+{
+    const TriMesh plain = shapes::extruded({{0, 0}, {70, 0}, {70, 36}, {0, 36}}, {}, 3);
+    for (const double depth : {0.01, 0.2, 0.5, -0.2})
+        for (const int divisions : {0, 2})
+            expect_same(plain, shapes::divided(plate_with_text(depth), divisions), 3, std::abs(depth), 1e-9);
+    ScratchFolder folder;
+    shapes::write_mesh(folder / "text.stl", plate_with_text(0.2));
+    const PartFile part = read_part(folder / "text.stl");
+    ASSERT_TRUE(part.solid);
+    EXPECT_NEAR(area(part.mesh), 70 * 36, 1e-3);
+    EXPECT_TRUE(part.doctor.find(Fault::mark));
+}
+
+TEST(Marks, DeeperOnesAreRefusedWithTheirDepth)
+{
+    const BentSheet sheet = step_sheet();
+    const TriMesh solid = solid_of(sheet);
+    for (const double depth : {0.45, 0.6, -0.5}) {
+        const PartFile part = examined(marked(sheet, solid, box(8, 20, 20, 40), depth), Skin::outer);
+        EXPECT_FALSE(part.doctor.healthy());
+        const std::string why = words_of(part);
+        EXPECT_NE(why.find(fmt::format("{:.4g} mm off", std::abs(depth))), std::string::npos) << why;
+        EXPECT_NE(why.find("0.4 mm"), std::string::npos) << why;
+    }
+}
+
+TEST(Marks, ChamfersAndHolesAreNone)
+{
+    const BentSheet sheet = shapes::without(
+        step_sheet(), [](const Eigen::Vector3d& p) { return p.x() > 10 && p.x() < 16 && p.y() > 20 && p.y() < 30; });
+    const PartFile part = examined(solid_of(sheet), Skin::outer);
+    ASSERT_TRUE(part.solid);
+    EXPECT_FALSE(part.doctor.find(Fault::mark));
+    EXPECT_EQ(part.doctor.boundary_loops, 2);
+}
+
+// ../shared/cases, K3.
+TEST(SharedCases, ShallowMarksArePassedOver)
+{
+    const std::filesystem::path cases = std::filesystem::path(SPIA_SOURCE_DIR) / "../shared/cases";
+    if (!std::filesystem::exists(cases / "01-mark-none.step"))
+        GTEST_SKIP() << "no " << cases;
+    for (const Skin skin : {Skin::outer, Skin::middle}) {
+        ReadOptions options;
+        options.skin = skin;
+        const PartFile plain = read_part(cases / "01-mark-none.step", options);
+        EXPECT_NEAR(area(plain.mesh), (skin == Skin::outer ? 91.0 : 87.85) * 40, 1e-3 * 91 * 40);
+        for (const char* file : {"01-mark-0.01.step", "01-mark-0.2.step"}) {
+            const PartFile part = read_part(cases / file, options);
+            ASSERT_TRUE(part.solid) << words_of(part);
+            EXPECT_NEAR(part.solid->thickness, 4, 4e-6);
+            EXPECT_NEAR(area(part.mesh), area(plain.mesh), 1e-6 * area(plain.mesh));
+            ASSERT_TRUE(part.doctor.find(Fault::mark));
+            EXPECT_EQ(part.doctor.find(Fault::mark)->count, 1);
+        }
+    }
+}
+
+} // namespace spia
