@@ -95,9 +95,12 @@ std::optional<EvolvingMesh::Quad> EvolvingMesh::quad(Edge edge) const
                 mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o))};
 }
 
-EvolvingMesh::Placed EvolvingMesh::place(const Vector& point) const
+EvolvingMesh::Placed EvolvingMesh::place(const Vector& point, double way) const
 {
-    const ClosestPoint found = search_.nearest(point);
+    constexpr double rounding = 1e-6;
+    ClosestPoint found = search_.nearest(point, (1 + rounding) * way);
+    if (found.face < 0)
+        found = search_.nearest(point);
     double asked = 0;
     for (int k = 0; k < 3; ++k)
         asked += found.barycentric[k] * original_size_[original_.triangle(k, found.face)];
@@ -130,7 +133,7 @@ EvolvingMesh::Vertex EvolvingMesh::split(Edge edge, const Vector& position, doub
 void EvolvingMesh::split(Edge edge)
 {
     const auto [a, b] = ends(edge);
-    const Placed middle = place((at(a) + at(b)) / 2);
+    const Placed middle = place((at(a) + at(b)) / 2, length(a, b) / 2);
     split(edge, middle.position, middle.size, false);
 }
 
@@ -299,8 +302,9 @@ bool EvolvingMesh::flip_if_sound(Edge edge, const Quad& v, double worst)
 /// what it is and below good_enough.
 bool EvolvingMesh::move(Vertex v, const Vector& place_of_it, const Vector& normal, double good_enough)
 {
-    const Placed placed = place(place_of_it);
-    const Vector before = at(v), side = original_normal_.col(placed.face);
+    const Vector before = at(v);
+    const Placed placed = place(place_of_it, (place_of_it - before).norm());
+    const Vector side = original_normal_.col(placed.face);
     constexpr double same_layer = 0.5; // cosine; the nearest place may be on a sheet that lies behind this one
     if (side.dot(normal) < same_layer * side.norm())
         return false;

@@ -74,7 +74,8 @@ private:
         int face;    ///< of the given mesh
     };
 
-    Placed place(const Vector& point) const;
+    /// @param way  mm, to any place of the given mesh: nothing farther away is looked for
+    Placed place(const Vector& point, double way) const;
     bool near(const Vector& a, const Vector& b) const;
     Edge edge_between(Vertex a, Vertex b) const { return mesh_.edge_handle(mesh_.find_halfedge(a, b)); }
     Vertex split(Edge edge, const Vector& position, double asked, bool line);

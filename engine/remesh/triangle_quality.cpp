@@ -14,13 +14,13 @@ namespace spia {
 
 double least_angle(const Eigen::Matrix3d& triangle)
 {
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d a = triangle.col((k + 1) % 3) - triangle.col(k),
-                              b = triangle.col((k + 2) % 3) - triangle.col(k);
-        least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-    return least;
+    // The one opposite to the shortest edge: an arc tangent costs as much as all else here.
+    const Eigen::Vector3d side[3] = {triangle.col(2) - triangle.col(1), triangle.col(0) - triangle.col(2),
+                                     triangle.col(1) - triangle.col(0)};
+    const double length[3] = {side[0].squaredNorm(), side[1].squaredNorm(), side[2].squaredNorm()};
+    const int k = length[0] <= length[1] ? (length[0] <= length[2] ? 0 : 2) : (length[1] <= length[2] ? 1 : 2);
+    const Eigen::Vector3d &a = side[(k + 1) % 3], &b = side[(k + 2) % 3];
+    return std::atan2(a.cross(b).norm(), 0 - a.dot(b)); // not -0, whose angle is pi
 }
 
 double edge_ratio(const Eigen::Matrix3d& triangle)
