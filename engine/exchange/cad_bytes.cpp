@@ -82,6 +82,7 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.soup.corner);
     way.row(cad.soup.first);
     way.row(cad.face);
+    way.row(cad.normal);
     way.one(cad.faces);
     way.one(cad.taken);
     way.row(cad.tree.item);

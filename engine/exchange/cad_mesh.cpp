@@ -1,5 +1,6 @@
 #include "engine/exchange/cad_mesh.h"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
@@ -13,6 +14,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -136,6 +138,30 @@ private:
     }
 };
 
+/// Of a face at its nodes, to the side that its orientation makes the outer one.
+std::vector<Eigen::Vector3f> node_normals(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles)
+{
+    std::vector<Eigen::Vector3f> normal(size_t(triangles->NbNodes()), Eigen::Vector3f::Zero());
+    if (!triangles->HasUVNodes())
+        return normal;
+    const BRepAdaptor_Surface surface(face, false);
+    constexpr double pole = 1e-9; // of the square of a derivative
+    for (int k = 1; k <= triangles->NbNodes(); ++k) {
+        const gp_Pnt2d at = triangles->UVNode(k);
+        gp_Pnt point;
+        gp_Vec u, v;
+        surface.D1(at.X(), at.Y(), point, u, v);
+        gp_Vec n = u.Crossed(v);
+        if (!(n.Magnitude() > pole * std::max(u.SquareMagnitude(), v.SquareMagnitude())))
+            continue;
+        n.Normalize();
+        if (face.Orientation() == TopAbs_REVERSED)
+            n.Reverse();
+        normal[size_t(k - 1)] = Eigen::Vector3d(n.X(), n.Y(), n.Z()).cast<float>();
+    }
+    return normal;
+}
+
 } // namespace
 
 FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress)
@@ -149,6 +175,7 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
         const Handle(Poly_Triangulation) triangles = sound_triangles(faces[f], place);
         if (triangles.IsNull())
             continue;
+        const std::vector<Eigen::Vector3f> normal = node_normals(faces[f], triangles);
         for (int t = 1; t <= triangles->NbTriangles(); ++t) {
             std::array<int, 3> node{}, corner{};
             triangles->Triangle(t).Get(node[0], node[1], node[2]);
@@ -167,6 +194,8 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
                 continue; // it lies along a pole or an edge that is a point
             result.soup.add_polygon(corner);
             result.face.push_back(int(f));
+            result.normal.push_back(
+                {normal[size_t(node[0] - 1)], normal[size_t(node[1] - 1)], normal[size_t(node[2] - 1)]});
         }
     }
     return result;

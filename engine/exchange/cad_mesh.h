@@ -1,5 +1,6 @@
 #pragma once
 #include <TopoDS_Face.hxx>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -10,8 +11,10 @@
 namespace spia {
 
 struct FaceTriangles {
-    PolygonSoup soup;      ///< mm
-    std::vector<int> face; ///< per triangle: index of its face
+    PolygonSoup soup;                                   ///< mm
+    std::vector<int> face;                              ///< per triangle: index of its face
+    std::vector<std::array<Eigen::Vector3f, 3>> normal; ///< per triangle at its corners: of its face, to the side from
+                                                        ///< which the triangle is counter-clockwise; zero at poles
 };
 
 /// Triangulates faces and joins the triangles along the edges that faces share, by which point of the edge they have: no

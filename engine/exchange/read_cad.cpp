@@ -131,6 +131,7 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     FaceTriangles mesh = mesh_faces(sewn.face, result.deflection, options.angle, progress.part(0.5, 0.95));
     progress.checkpoint(0.95, "looking for overlapping faces");
     result.soup = std::move(mesh.soup);
+    result.normal = std::move(mesh.normal);
     std::vector<char> meshed(taken.size(), 0);
     for (const auto& [face, on] : sewn.doubles) {
         meshed[size_t(face)] = 1; // by the other

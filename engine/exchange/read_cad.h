@@ -32,13 +32,14 @@ struct CadSliver {
 
 /// Faces of a CAD file as one triangle mesh. Faces are numbered as the file has them, from 0.
 struct CadContent {
-    PolygonSoup soup;            ///< triangles, mm; neighbours share the vertices of their common edge
-    std::vector<int> face;       ///< per triangle the face it lies on
-    int faces = 0;               ///< of the file
-    int taken = 0;               ///< of them
-    CadTree tree;                ///< what the file holds
-    bool solid = false;          ///< some of the faces taken are of a solid
-    std::string format;          ///< e.g. "STEP"
+    PolygonSoup soup;      ///< triangles, mm; neighbours share the vertices of their common edge
+    std::vector<int> face; ///< per triangle the face it lies on
+    std::vector<std::array<Eigen::Vector3f, 3>> normal; ///< per triangle at its corners, as mesh_faces() has it
+    int faces = 0;                                      ///< of the file
+    int taken = 0;                                      ///< of them
+    CadTree tree;                                       ///< what the file holds
+    bool solid = false;                                 ///< some of the faces taken are of a solid
+    std::string format;                                 ///< e.g. "STEP"
     std::string unit;            ///< of the file, e.g. "INCH"; lengths here are mm; empty: the format has none (BREP)
     double deflection = 0;       ///< mm, largest distance between triangle and face that was asked for
     double sewing_tolerance = 0; ///< mm; 0: the faces were taken as they are

@@ -222,9 +222,9 @@ void note_size(PartFile& part, bool unit_given)
 }
 
 /// Examines and cuts what the file holds; the part has its format, unit and notes already.
-/// @param solid  whether the file says that it is one
+/// @param solid  whether the file says that it is one; @param normals  of CAD faces; nullptr: unknown
 void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, bool weld, bool solid,
-          const Progress& progress)
+          const CornerNormals* normals, const Progress& progress)
 {
     part.file_vertices = soup.vertices();
     part.file_faces = soup.polygons();
@@ -236,7 +236,7 @@ void fill(PartFile& part, const PolygonSoup& soup, const ReadOptions& options, b
     part.source_vertex = std::move(examination.source_vertex);
     part.source_face = std::move(examination.source_face);
     part.same_as = std::move(examination.same_as);
-    const bool refused = take_skin(part, options, solid, progress.part(0.6, 0.95));
+    const bool refused = take_skin(part, options, solid, normals, progress.part(0.6, 0.95));
     progress.checkpoint(0.95, "finding where it must be cut open");
     if (!refused)
         cut_where_needed(part, options.seam, soup);
@@ -250,7 +250,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     PartFile part;
     if (is_deck("." + extension)) {
         const PolygonSoup soup = soup_of_deck(path, options, part, progress.part(0, 0.5));
-        fill(part, soup, options, part.deck->copies, false, progress.part(0.5, 1));
+        fill(part, soup, options, part.deck->copies, false, nullptr, progress.part(0.5, 1));
         return part;
     }
     if (is_cad("." + extension)) {
@@ -258,7 +258,8 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         part.format = cad.format;
         part.cad = CadOrigin{cad.face, cad.faces, cad.deflection, cad.sewing_tolerance, !cad.unit.empty(), cad.tree};
         part.unit = options.unit.value_or(LengthUnit::mm);
-        fill(part, cad.soup, options, true, cad.solid, progress.part(0.8, 1));
+        const CornerNormals normals(cad.soup, cad.normal);
+        fill(part, cad.soup, options, true, cad.solid, &normals, progress.part(0.8, 1));
         report_cad(cad, part);
         return part;
     }
@@ -273,7 +274,7 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         part.notes.push_back("lengths were read as metres, as the glTF specification says");
     for (Eigen::Vector3d& p : file.soup.position)
         p *= millimetres(part.unit);
-    fill(part, file.soup, options, gltf || extension == "stl", false, progress.part(0.5, 1));
+    fill(part, file.soup, options, gltf || extension == "stl", false, nullptr, progress.part(0.5, 1));
     return part;
 }
 
@@ -344,7 +345,7 @@ PartFile examine_soup(const PolygonSoup& soup, const ReadOptions& options, const
 {
     PartFile part;
     part.format = "in memory";
-    fill(part, soup, options, false, false, progress);
+    fill(part, soup, options, false, false, nullptr, progress);
     return part;
 }
 

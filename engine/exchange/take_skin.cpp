@@ -43,12 +43,16 @@ Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
     return seems_thin_solid(part.mesh) ? Claim::stated : Claim::none;
 }
 
-ThinSolidOptions faces_of(const PartFile& part)
+ThinSolidOptions faces_of(const PartFile& part, const CornerNormals* normals)
 {
     ThinSolidOptions options;
     if (part.cad)
         for (const int f : part.source_face)
             options.unit.push_back(part.cad->face[size_t(f)]);
+    if (normals)
+        options.normal_at = [&part, normals](int f, const Eigen::Vector3d& place, const Eigen::Vector3d& own) {
+            return normals->at(part.source_face[size_t(f)], place, own);
+        };
     options.face_name = [&part](int f) {
         const int in_file = part.source_face[size_t(f)];
         return part.cad ? fmt::format("CAD face {}", part.cad->face[size_t(in_file)]) : fmt::format("face {}", in_file);
@@ -179,10 +183,10 @@ Finding finding_of(const std::vector<SheetMark>& marks, double thickness, const 
 /// Measures the solid; its shallow marks are taken out of the part before.
 /// @param marked, found  set to the part as it was, and what was done to it, if it had marks
 /// @throws NotASheet
-ThinSolid without_its_marks(PartFile& part, std::optional<AsMarked>& marked, std::optional<Finding>& found,
-                            const Progress& progress)
+ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::optional<AsMarked>& marked,
+                            std::optional<Finding>& found, const Progress& progress)
 {
-    ThinSolid sheet = thin_solid(part.mesh, faces_of(part), progress);
+    ThinSolid sheet = thin_solid(part.mesh, faces_of(part, normals), progress);
     if (sheet.marks.empty())
         return sheet;
     PlainSolid plain = without_marks(part.mesh, sheet);
@@ -194,7 +198,7 @@ ThinSolid without_its_marks(PartFile& part, std::optional<AsMarked>& marked, std
         face.push_back(part.source_face[size_t(f)]);
     marked = {std::exchange(part.mesh, std::move(plain.mesh)), std::exchange(part.source_vertex, std::move(vertex)),
               std::exchange(part.source_face, std::move(face))};
-    return thin_solid(part.mesh, faces_of(part), progress);
+    return thin_solid(part.mesh, faces_of(part, normals), progress);
 }
 
 /// Says why it is a hollow body, if it may be another thing.
@@ -247,7 +251,8 @@ void note_skin(PartFile& part)
 
 } // namespace
 
-bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Progress& progress)
+bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const CornerNormals* normals,
+               const Progress& progress)
 {
     const Claim claim = claim_of(part, options, solid);
     if (claim == Claim::none)
@@ -261,13 +266,13 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Pro
     std::optional<Finding> marks;
     const int all_faces = faces(part, [](size_t) { return true; });
     try {
-        const ThinSolid sheet = without_its_marks(part, marked, marks, progress);
+        const ThinSolid sheet = without_its_marks(part, normals, marked, marks, progress);
         if (claim == Claim::measured && !decide(part, sheet)) {
             if (marked)
                 put_back(part, *marked);
             return false;
         }
-        const ThinSolidOptions units = faces_of(part);
+        const ThinSolidOptions units = faces_of(part, normals);
         const Skin wanted = options.skin.value_or(Skin::outer);
         const SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };

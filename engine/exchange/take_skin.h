@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/exchange/corner_normals.h"
 #include "engine/exchange/read_part.h"
 
 namespace spia {
@@ -7,7 +8,9 @@ namespace spia {
 /// sheet of one thickness gets a fatal finding with the reason and the place; an open one stays as it is. Sheets stay as they
 /// are.
 /// @param part  examined, not cut open yet; @param solid  whether the file says that it is a solid
+/// @param normals  of the faces of the file, where CAD faces say them; nullptr: unknown
 /// @returns whether it was refused
-bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Progress& progress);
+bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const CornerNormals* normals,
+               const Progress& progress);
 
 } // namespace spia

@@ -87,6 +87,7 @@ private:
 struct MiddleSurface {
     const TriMesh& solid;
     const ThinSolid& sheet;
+    const ThinSolidOptions& options;
     Eigen::Matrix3Xd normal;              ///< of the solid's faces, outwards, unit length
     Eigen::VectorXd size;                 ///< of them, mm2
     std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
@@ -102,19 +103,24 @@ struct MiddleSurface {
         const auto larger = [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; };
         std::sort(skin.begin(), skin.end(), larger);
         std::sort(rim.begin(), rim.end(), larger);
+        // Of the surfaces at the vertex itself where they are known: triangles of a bend are its chords.
+        const auto normal_of = [&](int f) {
+            const Eigen::Vector3d own = normal.col(f);
+            return options.normal_at ? options.normal_at(f, solid.position.col(v), own) : own;
+        };
         Eigen::Vector3d mean = Eigen::Vector3d::Zero();
         for (const int f : skin)
-            mean += size[f] * normal.col(f);
+            mean += size[f] * normal_of(f);
         mean.normalize();
         const auto farthest_from = [&](const Eigen::Vector3d& direction) {
             return *std::min_element(skin.begin(), skin.end(), [&](int a, int b) {
-                return normal.col(a).dot(direction) < normal.col(b).dot(direction);
+                return normal_of(a).dot(direction) < normal_of(b).dot(direction);
             });
         };
-        const Eigen::Vector3d first = normal.col(farthest_from(mean));
+        const Eigen::Vector3d first = normal_of(farthest_from(mean));
         // Above 50 degrees it is an edge, above 40 degrees an edge or a coarse bend, where the inner skin may tell.
         constexpr double edge = 0.643, smooth = 0.766;
-        const double turn = first.dot(normal.col(farthest_from(first)));
+        const double turn = first.dot(normal_of(farthest_from(first)));
         const std::optional<Eigen::Vector3d> told = turn < edge ? std::nullopt : from_inner(v, mean);
         const bool sharp = turn < smooth && !told;
 
@@ -122,14 +128,14 @@ struct MiddleSurface {
         Planes planes;
         if (sharp)
             for (const int f : skin)
-                planes.add(normal.col(f), -half);
+                planes.add(normal_of(f), -half);
         else
             planes.add(told.value_or(mean), -half);
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
         bool at_rim = false;
         for (const int f : rim)
             if (sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
-                planes.add(normal.col(f), 0);
+                planes.add(normal_of(f), 0);
                 at_rim = true;
             }
         const Eigen::Vector3d moved = planes.move();
@@ -209,6 +215,7 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
     ClosestPointSearch nearest_inner(inner);
     const MiddleSurface middle{solid,
                                sheet,
+                               options,
                                vectors.colwise().normalized(),
                                vectors.colwise().norm().transpose(),
                                faces_around(solid),

@@ -17,6 +17,9 @@ enum class SheetSide : char { outer, inner, rim };
 struct ThinSolidOptions {
     std::vector<int> unit = {}; ///< per triangle: the CAD face it lies on, which belongs to one side as a whole; empty:
                                 ///< pieces of surface are found
+    /// Of a triangle, at a place of it, mm: the normal of the surface that it is a chord of, towards the triangle's own, outwards
+    /// from the solid; not given: the triangle's.
+    std::function<Eigen::Vector3d(int face, const Eigen::Vector3d& place, const Eigen::Vector3d& own)> normal_at = {};
     std::function<std::string(int)> face_name = {}; ///< of a triangle, for messages; not given: "face 7"
 };
 
