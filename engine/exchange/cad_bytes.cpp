@@ -105,6 +105,7 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.one(cad.unmeshed_left_out);
     way.row(cad.doubled);
     way.row(cad.overlapping);
+    way.row(cad.surface);
 }
 
 } // namespace

@@ -256,7 +256,8 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
     if (is_cad("." + extension)) {
         const CadContent cad = read_cad(path, options.cad, options.parts, options.unit, progress.part(0, 0.8));
         part.format = cad.format;
-        part.cad = CadOrigin{cad.face, cad.faces, cad.deflection, cad.sewing_tolerance, !cad.unit.empty(), cad.tree};
+        part.cad = CadOrigin{cad.face,          cad.faces, cad.deflection, cad.sewing_tolerance,
+                             !cad.unit.empty(), cad.tree,  cad.surface};
         part.unit = options.unit.value_or(LengthUnit::mm);
         const CornerNormals normals(cad.soup, cad.normal);
         fill(part, cad.soup, options, true, cad.solid, &normals, progress.part(0.8, 1));

@@ -14,6 +14,7 @@
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/skin.h"
+#include "engine/mesh/stated_surface.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -28,7 +29,7 @@ struct ReadOptions {
                                    ///< assemblies ("body:2", "assembly:0", names: chosen_faces()); empty: all
     CadOptions cad = {};           ///< of a CAD file
     SeamOptions seam = {};         ///< where a part is cut open that is no sheet; vertices of the file
-    std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the outer one, and closed surfaces that are not
+    std::optional<Skin> skin = {}; ///< of a solid of sheet; not given: the middle one, and closed surfaces that are not
                                    ///< flat enough (has_both_skins()) are taken as hollow bodies, not as solids
     std::optional<RemeshOptions> remesh =
         {}; ///< not given: the triangles stay as they are, but for cad.keep_triangles; a part that is refused has none
@@ -59,11 +60,12 @@ struct CadOrigin {
     double sewing_tolerance = 0; ///< mm; 0: nothing had to be sewn
     bool unit_stated = false;    ///< by the file; a unit given for it is refused
     CadTree tree = {};           ///< what the file holds
+    std::vector<StatedSurface> surface = {}; ///< per CAD face of the file: the plane or cylinder it lies on
 };
 
 /// What a part that is one surface of a solid of sheet comes from.
 struct SolidOrigin {
-    Skin skin = Skin::outer;                         ///< the surface that was taken
+    Skin skin = Skin::middle;                        ///< the surface that was taken
     double thickness = 0, least = 0, most = 0;       ///< mm, as in ThinSolid
     double outer_area = 0, inner_area = 0, area = 0; ///< mm2, of both skins and of what was taken
     double rim_area = 0;                             ///< mm2, of the faces across the thickness

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <optional>
@@ -43,15 +44,24 @@ Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
     return seems_thin_solid(part.mesh) ? Claim::stated : Claim::none;
 }
 
+/// What a triangle of the solid lies on.
+const StatedSurface& surface_of(const PartFile& part, int triangle)
+{
+    return part.cad->surface[size_t(part.cad->face[size_t(part.source_face[size_t(triangle)])])];
+}
+
 ThinSolidOptions faces_of(const PartFile& part, const CornerNormals* normals)
 {
     ThinSolidOptions options;
     if (part.cad)
         for (const int f : part.source_face)
             options.unit.push_back(part.cad->face[size_t(f)]);
-    if (normals)
-        options.normal_at = [&part, normals](int f, const Eigen::Vector3d& place, const Eigen::Vector3d& own) {
-            return normals->at(part.source_face[size_t(f)], place, own);
+    const bool stated = part.cad && !part.cad->surface.empty();
+    if (stated || normals) // exactly of planes and cylinders
+        options.normal_at = [&part, normals, stated](int f, const Eigen::Vector3d& place, const Eigen::Vector3d& own) {
+            if (stated && surface_of(part, f).kind != StatedSurface::Kind::other)
+                return normal_at(surface_of(part, f), place, own);
+            return normals ? normals->at(part.source_face[size_t(f)], place, own) : own;
         };
     options.face_name = [&part](int f) {
         const int in_file = part.source_face[size_t(f)];
@@ -207,7 +217,7 @@ void note_hollow(PartFile& part, const std::string& why)
     if (seems_thin_solid(part.mesh))
         part.notes.push_back(fmt::format("most of it lies opposite to another part of itself, as in a solid of sheet; "
                                          "but {}. It is taken as a hollow body; if it is a solid of sheet, choose the "
-                                         "skin that stands for it (--skin outer) for the reason to refuse it",
+                                         "skin that stands for it (--skin middle) for the reason to refuse it",
                                          why));
 }
 
@@ -229,8 +239,90 @@ bool decide(PartFile& part, const ThinSolid& sheet)
         doubt(part, either + ". It is taken as a solid; a hollow body is cut open along a seam that you give (--seam)");
     if (closed == ClosedSurface::perhaps_hollow)
         doubt(part, either + ". It is taken as a hollow body; for a solid choose the skin that stands for it (--skin "
-                             "outer)");
+                             "middle)");
     return closed != ClosedSurface::perhaps_hollow;
+}
+
+double thickness_of(const PartFile& part, const ThinSolid& sheet)
+{
+    std::vector<StatedSurface> surface;
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        surface.push_back(surface_of(part, f));
+    return stated_thickness(part.mesh, sheet, surface);
+}
+
+/// Vertices of a middle surface that lie on one CAD cylinder, exactly onto the middle one. Along faces across the thickness that are slanted
+/// against the bend, as those of a hole through it, they were moved in the tangent plane.
+void onto_cylinders(const PartFile& part, const ThinSolid& sheet, SkinMesh& middle)
+{
+    const auto vertices = size_t(middle.mesh.vertices());
+    std::vector<const StatedSurface*> on(vertices, nullptr);
+    std::vector<char> alone(vertices, 1), hollow(vertices, 0);
+    const Eigen::Matrix3Xd normal = area_vectors(middle.mesh);
+    for (int f = 0; f < middle.mesh.triangles(); ++f) {
+        const StatedSurface& surface = surface_of(part, middle.source_face[size_t(f)]);
+        for (const int v : middle.mesh.triangle.col(f)) {
+            alone[size_t(v)] &= surface.kind == StatedSurface::Kind::cylinder &&
+                                (!on[size_t(v)] || same_cylinder(*on[size_t(v)], surface));
+            on[size_t(v)] = &surface;
+            const Eigen::Vector3d out =
+                middle.mesh.position.col(v) -
+                (surface.point +
+                 (middle.mesh.position.col(v) - surface.point).dot(surface.direction) * surface.direction);
+            hollow[size_t(v)] = normal.col(f).dot(out) < 0;
+        }
+    }
+    for (size_t v = 0; v < vertices; ++v) {
+        if (!alone[v] || !on[v])
+            continue;
+        const StatedSurface& cylinder = *on[v];
+        const auto across = [&](const Eigen::Vector3d& way) {
+            return Eigen::Vector3d(way - way.dot(cylinder.direction) * cylinder.direction);
+        };
+        const Eigen::Vector3d start = part.mesh.position.col(middle.source_vertex[v]);
+        auto place = middle.mesh.position.col(Eigen::Index(v));
+        const Eigen::Vector3d from = across(start - cylinder.point), way = across(place - start);
+        const double radius = cylinder.radius + (hollow[v] ? 1 : -1) * sheet.thickness / 2;
+        // |from + x way| = radius, the solution that is nearest to the move as it was, x = 1.
+        const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - radius * radius;
+        constexpr double on_it = 1e-4; // of the thickness; a shallow mark in a bend was put back to another radius
+        if (std::abs(from.norm() - cylinder.radius) > on_it * sheet.thickness)
+            continue;
+        if (!(radius > 0) || !(a > 0) || !(b * b > a * c))
+            continue;
+        const double root = std::sqrt(b * b - a * c), x = (-b + root) / a, y = (-b - root) / a;
+        const double nearest = std::abs(x - 1) < std::abs(y - 1) ? x : y;
+        constexpr double most = 1; // farther it is another place of the cylinder
+        if (std::abs(nearest - 1) < most)
+            place = start + nearest * (place - start);
+    }
+}
+
+/// The surface that is wanted. Where none was asked for and there is no middle one the outer skin is better than nothing, and a doubt.
+/// @param wanted  set to the one that is taken
+SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, Skin& wanted, bool asked, const ThinSolidOptions& units)
+{
+    try {
+        SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
+        if (wanted == Skin::middle && units.normal_at)
+            onto_cylinders(part, sheet, skin);
+        if (skin.straightened > 0)
+            part.notes.push_back(fmt::format(
+                "{} not halfway along an edge that crosses the sheet askew but straight below the outer skin, up to "
+                "half a thickness beside it, for triangles not to turn over",
+                counted(skin.straightened, "vertex of the middle surface lies", "vertices of the middle surface lie")));
+        return skin;
+    } catch (const NotASheet& reason) {
+        if (asked)
+            throw;
+        part.notes.push_back(fmt::format(
+            "{}. Nothing else was asked for, so the outer skin is laid flat: lengths over bends are those of the outer "
+            "skin, which are longer than the sheet's",
+            reason.what()));
+        part.doubts.push_back(part.notes.back());
+        wanted = Skin::outer;
+        return skin_of(part.mesh, sheet, wanted, units);
+    }
 }
 
 void note_skin(PartFile& part)
@@ -266,15 +358,17 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
     std::optional<Finding> marks;
     const int all_faces = faces(part, [](size_t) { return true; });
     try {
-        const ThinSolid sheet = without_its_marks(part, normals, marked, marks, progress);
+        ThinSolid sheet = without_its_marks(part, normals, marked, marks, progress);
         if (claim == Claim::measured && !decide(part, sheet)) {
             if (marked)
                 put_back(part, *marked);
             return false;
         }
         const ThinSolidOptions units = faces_of(part, normals);
-        const Skin wanted = options.skin.value_or(Skin::outer);
-        const SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
+        if (part.cad && !part.cad->surface.empty())
+            sheet.thickness = thickness_of(part, sheet);
+        Skin wanted = options.skin.value_or(Skin::middle);
+        const SkinMesh skin = wanted_skin(part, sheet, wanted, options.skin.has_value(), units);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
         part.solid = {wanted,
                       sheet.thickness,

@@ -94,8 +94,8 @@ struct MiddleSurface {
     TriMesh inner;                        ///< the inner skin
     ClosestPointSearch nearest_inner;
 
-    /// Where a vertex of the outer skin goes.
-    Eigen::Vector3d move(int v) const
+    /// Where a vertex of the outer skin goes. @param to_rim  at the rim along its faces; else as if there were none
+    Eigen::Vector3d move(int v, bool to_rim = true) const
     {
         std::vector<int> skin, rim;
         for (const int f : around[size_t(v)])
@@ -134,7 +134,7 @@ struct MiddleSurface {
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
         bool at_rim = false;
         for (const int f : rim)
-            if (sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
+            if (to_rim && sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
                 planes.add(normal_of(f), 0);
                 at_rim = true;
             }
@@ -166,6 +166,29 @@ struct MiddleSurface {
         return best;
     }
 };
+
+/// Along slanted edges, of holes that were drilled through a bend askew, vertices can move farther aside than the triangles beside them are
+/// broad. Where those turn over, such vertices go straight in. @returns how many did
+int straighten_folds(const TriMesh& before, const MiddleSurface& middle, SkinMesh& result)
+{
+    constexpr int rounds = 100; // each may bare a triangle beside it, as far as the rim of a hole
+    std::vector<char> straight(result.source_vertex.size(), 0);
+    for (int round = 0; round < rounds; ++round) {
+        const Eigen::Matrix3Xd was = area_vectors(before), is = area_vectors(result.mesh);
+        bool any = false;
+        for (int f = 0; f < before.triangles(); ++f)
+            if (was.col(f).dot(is.col(f)) <= 0)
+                for (const int i : before.triangle.col(f))
+                    if (!std::exchange(straight[size_t(i)], char(1))) {
+                        result.mesh.position.col(i) =
+                            before.position.col(i) + middle.move(result.source_vertex[size_t(i)], false);
+                        any = true;
+                    }
+        if (!any)
+            break;
+    }
+    return int(std::count(straight.begin(), straight.end(), 1));
+}
 
 /// @throws NotASheet if triangles turned over that have more than a speck of the area
 void require_unfolded(const TriMesh& before, const SkinMesh& middle, const ThinSolidOptions& options)
@@ -224,6 +247,7 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
     const TriMesh before = result.mesh;
     parallel_for(int(result.source_vertex.size()),
                  [&](int i) { result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]); });
+    result.straightened = straighten_folds(before, middle, result);
     require_unfolded(before, result, options);
     return result;
 }

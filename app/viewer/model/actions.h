@@ -25,7 +25,7 @@ enum class PickMode { replace, add, remove };
 /// How a part is read of its file. In scripts: weld (vertices at one place are joined or not; not given: as the format needs), weld_gap_mm
 /// (with weld: gaps between open edges up to this are closed, too; not given: only what is at one place), keep_largest (all
 /// but the largest piece of sheet is left out), parts (of a solver deck by ids or names, of a CAD file bodies and faces; none:
-/// all), skin (of a solid of sheet: "outer", the default, "inner" or "middle"), and of CAD files sewing_mm (gaps up to this are closed;
+/// all), skin (of a solid of sheet: "middle", the default, "outer" or "inner"), and of CAD files sewing_mm (gaps up to this are closed;
 /// not given: found from the gaps), deflection_mm (between triangles and faces; not given: 1/2000 of the diagonal), leave_out_bad_faces
 /// (those that cannot be read or meshed) and keep_triangles (needles on drawn parts are not remeshed).
 struct Reading {

@@ -319,7 +319,7 @@ void skin_choice(ImportChoices& choices)
         ImGui::EndCombo();
     } else
         tooltip(
-            "For solids: the skin to read, or the middle surface. Automatic: the outer skin where the solid is a sheet");
+            "For solids: the skin to read, or the middle surface. Automatic: the middle surface where the solid is a sheet");
 }
 
 void length_field(const Frame& frame, const char* label, std::string& text, bool sound, const char* help)
