@@ -37,7 +37,8 @@ struct RemeshArguments {
 
 struct RunArguments {
     std::filesystem::path part, folder = "spia-out", json, process;
-    std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: outer
+    std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: middle
+    std::string k_factor;                            ///< a number, a name or a file; empty: 0.5
     std::vector<std::string> parts;                  ///< of a solver deck, ids or names
     std::optional<double> thickness;                 ///< mm; not given: that of the part, else 1
     std::string grid;                                ///< NxM; empty: automatic
@@ -112,6 +113,7 @@ struct UnfoldArguments {
     std::vector<std::string> formats;
     bool automatic = false;
     std::string skin, material = "mild_steel", unit, seam = "auto", name; ///< of the files; empty name: the part's
+    std::string k_factor;                                                 ///< as for run
     std::vector<std::string> parts;                                       ///< of a solver deck, ids or names
     std::vector<double> rolling;                                          ///< direction of the sheet; empty: none
     std::optional<double> thickness;                                      ///< mm; not given: that of the deck, else 1
@@ -157,6 +159,8 @@ MeshTargets mesh_targets(const RemeshArguments& arguments);
 /// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.
 /// @throws InputError unless it is above 0
 double sheet_thickness(const std::optional<double>& asked, const PartFile& part);
+/// @throws InputError if a K factor and a skin other than the middle surface are asked for
+void require_one_surface(const std::string& k_factor, const std::string& skin);
 /// Where it is from; empty if that needs no word.
 std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part);
 

@@ -57,8 +57,18 @@ void add_skin(CLI::App* command, std::string& skin)
     command
         ->add_option("--skin", skin,
                      "of a solid of sheet: the surface that stands for it, outer (the larger one), inner or middle "
-                     "(default: outer)")
+                     "(default: middle)")
         ->check(CLI::IsMember({"outer", "inner", "middle"}));
+}
+
+void add_k_factor(CLI::App* command, std::string& k_factor)
+{
+    command
+        ->add_option(
+            "--k-factor", k_factor,
+            "where the neutral fibre of bends lies, as a share of the thickness from their inner side: a number, "
+            "din6935 (by radius over thickness), or a file of rows R/t K (default: 0.5, the middle)")
+        ->type_name("K|din6935|FILE");
 }
 
 void add_thickness(CLI::App* command, std::optional<double>& thickness, const char* text)
@@ -191,6 +201,7 @@ int main(int count, char** values)
     add_parts(run_command, run.parts);
     add_cad(run_command, run.cad);
     add_skin(run_command, run.skin);
+    add_k_factor(run_command, run.k_factor);
     add_remesh(run_command, run.remesh);
     run_command->add_option("--unit", run.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));
@@ -467,6 +478,7 @@ int main(int count, char** values)
     add_parts(unfold_command, unfolding.parts);
     add_cad(unfold_command, unfolding.cad);
     add_skin(unfold_command, unfolding.skin);
+    add_k_factor(unfold_command, unfolding.k_factor);
     add_remesh(unfold_command, unfolding.remesh);
     unfold_command->add_option("--unit", unfolding.unit, "length unit of the file (default mm, glTF: m)")
         ->check(CLI::IsMember({"mm", "cm", "m", "inch"}));

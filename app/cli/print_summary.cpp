@@ -8,6 +8,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
 
@@ -47,6 +48,12 @@ void print_limits(const LimitsResult& limits, const PartFile& part)
 
 } // namespace
 
+void print_bends(const BendTable& table)
+{
+    for (const std::string& line : in_words(table))
+        say("{}{}\n", line.substr(0, 6) == "note: " ? "  " : "bends     ", line);
+}
+
 void print_summary(const Session& session)
 {
     const TriMesh& part = session.part->mesh;
@@ -67,6 +74,8 @@ void print_summary(const Session& session)
             flat.report.whole()     ? "converged"
             : flat.report.converged ? fmt::format("converged ({})", name(flat.report.system))
                                     : "NOT converged");
+    if (session.bends)
+        print_bends(*session.bends);
     say("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
         100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
         flat.face.strain_equivalent.maxCoeff());

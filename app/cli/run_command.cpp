@@ -13,6 +13,7 @@
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/deform_file.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
@@ -53,6 +54,9 @@ SessionOptions options(const RunArguments& arguments)
     result.read.doctor.keep_largest = arguments.keep_largest;
     if (!arguments.skin.empty())
         result.read.skin = skin_by_name(arguments.skin);
+    if (!arguments.k_factor.empty())
+        result.k_factor = k_factor(arguments.k_factor);
+    require_one_surface(arguments.k_factor, arguments.skin);
     result.read.seam = seam_options(arguments.seam);
     set_remeshing(result.read, arguments.remesh);
     result.flatten.material = find_material(arguments.material, assets() / "materials");

@@ -19,6 +19,15 @@ double sheet_thickness(const std::optional<double>& asked, const PartFile& part)
     return thickness;
 }
 
+void require_one_surface(const std::string& k_factor, const std::string& skin)
+{
+    if (!k_factor.empty() && (skin == "outer" || skin == "inner"))
+        throw InputError(
+            fmt::format("--k-factor moves the middle surface of bends to their neutral fibre, and --skin {} "
+                        "takes another surface; leave one of them out",
+                        skin));
+}
+
 std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part)
 {
     const char* from = part.solid ? "as the part is" : "as in the deck";

@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/part_bends.h"
 
 namespace spia::cli {
 namespace {
@@ -44,6 +45,8 @@ SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile
     session.part = std::make_shared<PartFile>(part);
     session.options.flatten = options;
     session.options.tolerance = arguments.tolerance;
+    if (!arguments.k_factor.empty())
+        session.options.k_factor = k_factor(arguments.k_factor);
     session.options.steps = {std::make_shared<UnfoldRun>(run), arguments.surface == "polished"};
     for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit}) {
         JobDisplay display{std::string(name(stage))};

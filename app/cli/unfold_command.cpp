@@ -21,6 +21,7 @@
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/shortcomings.h"
@@ -46,6 +47,11 @@ FlattenOptions flatten_options(const UnfoldArguments& arguments)
     if (arguments.thickness)
         options.thickness = *arguments.thickness;
     return options;
+}
+
+std::optional<KFactor> wanted_k(const UnfoldArguments& arguments)
+{
+    return arguments.k_factor.empty() ? std::nullopt : std::optional(k_factor(arguments.k_factor));
 }
 
 PartFile part_of(const UnfoldArguments& arguments)
@@ -373,6 +379,8 @@ int unfold(const UnfoldArguments& arguments)
     if (!arguments.json.empty())
         require_writable(arguments.json);
     FlattenOptions options = flatten_options(arguments);
+    require_one_surface(arguments.k_factor, arguments.skin);
+    wanted_k(arguments); // before the work
     const PartFile part = part_of(arguments);
     require_deck_ids(arguments.formats, part);
     for (const std::string& line : reading_notes(part))
@@ -397,6 +405,10 @@ int unfold(const UnfoldArguments& arguments)
     if (arguments.polish)
         polished = polished_blank(part, run, options, findings);
     const PolishedBlank* both = polished ? &*polished : nullptr;
+    NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
+    lay_anew(part.mesh, options, fibre, done.run);
+    if (!arguments.k_factor.empty())
+        findings.insert(findings.end(), fibre.table.notes.begin(), fibre.table.notes.end());
     std::vector<std::filesystem::path> files;
     if (!arguments.folder.empty())
         files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
@@ -414,9 +426,11 @@ int unfold(const UnfoldArguments& arguments)
                                            name(surface->failure->stage), surface->failure->message));
     }
     if (!arguments.json.empty())
-        write_atomically(arguments.json,
-                         unfold_report_json(arguments.part, part, map, steps, run, findings, files, both));
+        write_atomically(arguments.json, unfold_report_json(arguments.part, part, map, steps, run, findings, files,
+                                                            both, run.blank ? &fibre.table : nullptr));
     print_states(run, bounding_diagonal(part.mesh));
+    if (run.blank)
+        print_bends(fibre.table);
     if (polished)
         print_polish(*polished);
     if (surface && surface->session.blank)

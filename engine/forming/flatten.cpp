@@ -71,8 +71,8 @@ Eigen::Matrix2Xd first_guess(const TriMesh& part, const std::vector<Element>& el
 }
 
 /// @param start none: a first guess of its own
-FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* start, const FlattenOptions& options,
-                           const Progress& progress)
+FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* start, const LaidLengths& laid,
+                           const FlattenOptions& options, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
     require_valid(original, options);
@@ -83,7 +83,7 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     const Eigen::Vector3d centre = (part.position.rowwise().minCoeff() + part.position.rowwise().maxCoeff()) / 2;
     part.position.colwise() -= centre;
     progress.checkpoint(0, "looking for the stamping direction");
-    const std::vector<Element> element = elements(part);
+    const std::vector<Element> element = elements(part, laid);
     FlattenResult result{};
     result.stamping = stamping(part, options);
     const Eigen::Matrix<double, 3, 2> plane = blank_plane(result.stamping.direction);
@@ -111,7 +111,7 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     if (options.skins)
         result.skins = skin_strains(part, element, result.blank, sheet);
     result.necking_triangles = result.face.necking.sum();
-    result.volume_error = volume_error(part, result.blank, result.face, sheet.thickness);
+    result.volume_error = volume_error(part, result.blank, result.face, sheet.thickness, laid);
     result.blank.position.colwise() += plane.transpose() * centre;
     result.flipped_triangles = flipped_triangles(part.triangle, result.blank.position);
     if (result.flipped_triangles > 0)
@@ -140,13 +140,19 @@ std::string_view name(SolvedSystem system)
 
 FlattenResult flatten(const TriMesh& part, const FlattenOptions& options, const Progress& progress)
 {
-    return flatten_part(part, nullptr, options, progress);
+    return flatten_part(part, nullptr, {}, options, progress);
 }
 
 FlattenResult flatten_from(const TriMesh& part, const Eigen::Matrix2Xd& start, const FlattenOptions& options,
                            const Progress& progress)
 {
-    return flatten_part(part, &start, options, progress);
+    return flatten_part(part, &start, {}, options, progress);
+}
+
+FlattenResult flatten_laid(const TriMesh& part, const LaidLengths& laid, const Eigen::Matrix2Xd* start,
+                           const FlattenOptions& options, const Progress& progress)
+{
+    return flatten_part(part, start, laid, options, progress);
 }
 
 } // namespace spia

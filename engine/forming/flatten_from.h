@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/forming/flatten.h"
+#include "engine/forming/laid_lengths.h"
 
 namespace spia {
 
@@ -10,5 +11,10 @@ namespace spia {
 /// @throws InputError also if the start is no such place: names the first offending face
 FlattenResult flatten_from(const TriMesh& part, const Eigen::Matrix2Xd& start, const FlattenOptions& options,
                            const Progress& progress = {});
+
+/// Likewise, where the material of some faces has other lengths than their triangles: bends with the length of their neutral fibre.
+/// @param start  as in flatten_from(); null: a first guess of its own, as in flatten()
+FlattenResult flatten_laid(const TriMesh& part, const LaidLengths& laid, const Eigen::Matrix2Xd* start,
+                           const FlattenOptions& options, const Progress& progress = {});
 
 } // namespace spia

@@ -14,6 +14,7 @@
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/shortcomings.h"
@@ -368,6 +369,10 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
         json["solve"] = solve_json(session.blank->report, session.blank->stamping,
                                    session.options.steps && !session.options.steps->polish);
         json["blank"] = blank_json(*session.part, *session.blank);
+        if (session.bends) {
+            json["blank"]["lengths_of"] = session.bends->surface;
+            json["bend_table"] = bend_table_json(*session.bends);
+        }
         json["result"] = result_json(*session.blank);
         if (session.blank->skins)
             json["skins"] = skins_json(*session.blank->skins);

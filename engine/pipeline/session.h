@@ -18,6 +18,8 @@
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/interpolate.h"
 #include "engine/nurbs/trim.h"
+#include "engine/unfold/bend_table.h"
+#include "engine/unfold/k_factor.h"
 #include "engine/unfold/unfold_script.h"
 
 namespace spia {
@@ -38,6 +40,7 @@ struct BlankOfSteps {
 struct SessionOptions {
     ReadOptions read;
     FlattenOptions flatten;
+    std::optional<KFactor> k_factor;   ///< of bends over cylinders, on the middle surface; not given: 0.5
     std::optional<BlankOfSteps> steps; ///< not given: the blank is solved in one step
     LimitsOptions limits;
     std::optional<std::array<int, 4>> corners; ///< vertices of the file; chosen automatically if not given
@@ -90,6 +93,7 @@ struct Session {
 
     std::shared_ptr<const PartFile> part;
     std::shared_ptr<const FlattenResult> blank;
+    std::shared_ptr<const BendTable> bends;     ///< of the part and on the blank; made together with it
     std::shared_ptr<const LimitsResult> limits; ///< of the blank; made together with it
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;

@@ -107,6 +107,8 @@ std::vector<std::string> shortcomings(const Session& session)
             list.push_back(std::move(line));
         for (std::string& line : idle_process(session))
             list.push_back(std::move(line));
+        if (session.bends && session.options.k_factor) // asked for, and not done everywhere
+            list.insert(list.end(), session.bends->notes.begin(), session.bends->notes.end());
         const FlattenResult& flat = *session.blank;
         if (!flat.report.whole())
             list.push_back(flat.report.reason);

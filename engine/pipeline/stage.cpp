@@ -11,9 +11,11 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/blank_chart.h"
+#include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/usual_tolerance.h"
 #include "engine/unfold/polish.h"
+#include "engine/unfold/relaid_blank.h"
 #include "engine/unfold/stepped_blank.h"
 #include "engine/unfold/upright.h"
 
@@ -103,20 +105,45 @@ void lay_straight(const TriMesh& part, const FlattenOptions& options, FlattenRes
     flat.overlap = overlap(part, flat.blank.position);
 }
 
-void solve(Session& session, const Progress& progress)
+/// Steps know nothing of the neutral fibre. Where they only bend the sheet, the blank is solved again with its lengths.
+void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& fibre, FlattenResult& flat,
+                    const Progress& progress)
 {
-    if (const auto& steps = session.options.steps) {
-        require_no_tools(session.options.flatten.process);
-        const TriMesh& part = session.part->mesh;
-        progress.checkpoint(0, "taking the blank of the steps");
-        session.blank = std::make_shared<FlattenResult>(
-            steps->polish ? polish(part, *steps->run, session.options.flatten, progress).whole
-                          : stepped_blank(part, *steps->run, session.options.flatten));
+    if (fibre.laid.empty())
+        return;
+    if (flat.face.strain_equivalent.maxCoeff() > most_relaid_strain) {
+        keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is");
         return;
     }
-    FlattenResult flat = flatten(session.part->mesh, session.options.flatten, progress);
-    lay_straight(session.part->mesh, session.options.flatten, flat);
+    SolveReport of_steps = std::move(flat.report);
+    StampingDirection stamping = std::move(flat.stamping);
+    flat = relaid_blank(part, flat.blank.position, fibre.laid, options, progress);
+    flat.stamping = std::move(stamping);
+    lay_straight(part, options, flat);
+    if (flat.report.whole())
+        flat.report = std::move(of_steps);
+}
+
+void solve(Session& session, const Progress& progress)
+{
+    const TriMesh& part = session.part->mesh;
+    const FlattenOptions& options = session.options.flatten;
+    progress.checkpoint(0, "looking for bends");
+    NeutralFibre fibre = part_bends(*session.part, options.thickness, session.options.k_factor);
+    FlattenResult flat;
+    if (const auto& steps = session.options.steps) {
+        require_no_tools(options.process);
+        progress.checkpoint(0, "taking the blank of the steps");
+        flat = steps->polish ? polish(part, *steps->run, options, progress).whole
+                             : stepped_blank(part, *steps->run, options);
+        lay_steps_anew(part, options, fibre, flat, progress);
+    } else {
+        flat = flatten_laid(part, fibre.laid, nullptr, options, progress);
+        lay_straight(part, options, flat);
+    }
+    place_on_blank(fibre, part, flat.blank);
     session.blank = std::make_shared<FlattenResult>(std::move(flat));
+    session.bends = std::make_shared<BendTable>(std::move(fibre.table));
 }
 
 void grid(Session& session, const Progress& progress)
@@ -376,6 +403,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
         session.grid = nullptr;
     if (stage <= Stage::solve) {
         session.blank = nullptr;
+        session.bends = nullptr;
         session.limits = nullptr;
     }
     if (stage <= Stage::read)

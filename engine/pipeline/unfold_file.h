@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/exchange/read_part.h"
+#include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/unfold_script.h"
@@ -35,10 +36,11 @@ std::string unfold_script_json(const PartFile& part, const BendMap& map, const U
 /// What a run gave (schema spia.unfold-result/1, engine/pipeline/README.md).
 /// @param files    written, in order
 /// @param polished null: not asked for, or there was none
+/// @param table    of the bends on the blank; null: not made
 std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
                                const UnfoldScript& steps, const UnfoldRun& run,
                                const std::vector<std::string>& findings,
-                               const std::vector<std::filesystem::path>& files,
-                               const PolishedBlank* polished = nullptr);
+                               const std::vector<std::filesystem::path>& files, const PolishedBlank* polished = nullptr,
+                               const BendTable* table = nullptr);
 
 } // namespace spia

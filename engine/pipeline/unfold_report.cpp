@@ -6,6 +6,7 @@
 
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_shortcomings.h"
 
@@ -279,7 +280,8 @@ std::string unfold_script_json(const PartFile& part, const BendMap& map, const U
 std::string unfold_report_json(const std::filesystem::path& input, const PartFile& part, const BendMap& map,
                                const UnfoldScript& steps, const UnfoldRun& run,
                                const std::vector<std::string>& findings,
-                               const std::vector<std::filesystem::path>& files, const PolishedBlank* polished)
+                               const std::vector<std::filesystem::path>& files, const PolishedBlank* polished,
+                               const BendTable* table)
 {
     Json states = Json::array(), names = Json::array();
     for (const UnfoldState& state : run.states)
@@ -305,6 +307,8 @@ std::string unfold_report_json(const std::filesystem::path& input, const PartFil
         json["blank"] = {{"size_mm", {size[0], size[1]}}, {"flipped_triangles", run.flipped}};
     } else
         json["blank"] = nullptr;
+    if (table)
+        json["bend_table"] = bend_table_json(*table);
     json["polish"] = polished ? polish_json(*polished) : Json(nullptr);
     json["files"] = names;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

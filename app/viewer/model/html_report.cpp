@@ -80,7 +80,7 @@ void write_html_report(const std::filesystem::path& file, const Session& session
                        tiles(session, figures, options.lengths) + all_doubts(session, doubts, options.lengths) +
                        crack_words(session, options.lengths);
     if (wanted.key_figures)
-        html += key_figures(session, figures, options.lengths);
+        html += key_figures(session, figures, options.lengths) + bend_table(session, options.lengths);
     if (wanted.worst_spots)
         html += thinnest_places(session, options.lengths) + limits_section(session, options.lengths);
     if (wanted.assumptions)

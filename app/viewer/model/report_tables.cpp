@@ -198,6 +198,8 @@ std::string key_figures(const Session& session, const Json& figures, LengthUnit 
     rows += row("Blank", fmt::format("{0} \u00d7 {1} {2}, area {3}, outline {4} {2} long", in.round(size[0], 1),
                                      in.round(size[1], 1), in.word, in.area(blank["area_mm2"].get<double>()),
                                      in.round(blank["perimeter_mm"].get<double>(), 1)));
+    if (session.bends)
+        rows += row("Lengths of the blank", "those of the " + session.bends->surface);
     rows += row("Thickness", fmt::format("{} to {} {}, from a sheet of {}", in.fine(flat.face.thickness.minCoeff(), 3),
                                          in.fine(flat.face.thickness.maxCoeff(), 3), in.word,
                                          in.text(session.options.flatten.thickness)));
@@ -284,6 +286,29 @@ std::string thinnest_places(const Session& session, LengthUnit lengths)
         "<th>Thickness, {1}</th><th>Major strain</th><th>Minor strain</th><th>At x, y, z, {1}</th>"
         "<th>Face of the file</th></tr>\n{0}</table></section>\n",
         rows, in.word);
+}
+
+std::string bend_table(const Session& session, LengthUnit lengths)
+{
+    if (!session.bends || session.bends->bends.empty())
+        return "";
+    constexpr double degrees = 180 / std::numbers::pi;
+    const InUnit in{lengths};
+    std::string rows, notes;
+    int number = 0;
+    for (const SheetBend& bend : session.bends->bends)
+        rows += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            ++number, in.fine(bend.inner_radius, 3), fixed(degrees * bend.angle, 2), bend.up ? "up" : "down",
+            fixed(bend.k, 3), in.fine(bend.allowance, 3), in.fine(bend.deduction, 3), in.fine(bend.length, 1),
+            fmt::format("{}, {}, {}", in.fine(bend.place[0], 1), in.fine(bend.place[1], 1), in.fine(bend.place[2], 1)));
+    for (const std::string& note : session.bends->notes)
+        notes += fmt::format("<p>{}</p>\n", escaped(in_shown_lengths(in_viewer_words(note), lengths)));
+    return fmt::format(
+        "<section class=\"whole\"><h2>Bends</h2>\n<table class=\"spots\"><tr><th>Bend</th><th>Inner radius, {1}</th>"
+        "<th>Angle, \u00b0</th><th>K</th><th>Allowance, {1}</th><th>Deduction, {1}</th><th>Length, {1}</th>"
+        "<th>At x, y, z, {1}</th></tr>\n{0}</table>\n{2}</section>\n",
+        rows, in.word, notes);
 }
 
 /// What the tools were taken to do, one row a condition.

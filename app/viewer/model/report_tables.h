@@ -13,6 +13,8 @@ std::string tiles(const Session& session, const Json& figures, LengthUnit length
 std::string key_figures(const Session& session, const Json& figures, LengthUnit lengths = LengthUnit::mm);
 /// Where the sheet thins most: the first five of worst_spots().
 std::string thinnest_places(const Session& session, LengthUnit lengths = LengthUnit::mm);
+/// What the lengths of the blank are lengths of, and all bends.
+std::string bend_table(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// What was taken for granted, asked for and given up: material, sheet, direction, friction, method, equations, repairs.
 std::string assumptions(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// How the solver got there, with its residuals and the hardening curve.

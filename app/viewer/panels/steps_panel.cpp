@@ -212,6 +212,10 @@ void unfold_step(Frame& frame)
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
     figure(frame, "Blank", size_text(sheet.size[0], sheet.size[1], frame.lengths()));
+    if (session.bends && (session.part->solid || !session.bends->bends.empty())) {
+        figure(frame, "Lengths of", session.bends->surface);
+        tooltip("Which surface of the sheet the lengths of the blank are those of; the report lists the bends");
+    }
     figure(frame, "Thinning", percent_range(sheet.thinning));
     tooltip("Smallest and largest value of all faces; negative: thicker than before");
     figure(frame, "Equivalent strain",

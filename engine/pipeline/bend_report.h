@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/core/json_file.h"
+#include "engine/unfold/bend_table.h"
+
+namespace spia {
+
+/// The member "bend_table" of the reports, the contract of engine/pipeline/README.md.
+Json bend_table_json(const BendTable& table);
+
+/// A line each: what the lengths of the blank are lengths of, the bends (the first of many), the notes.
+std::vector<std::string> in_words(const BendTable& table);
+
+/// "R 3 mm, 90 degrees up, K 0.44, allowance 6.095 mm, deduction 3.905 mm"
+std::string in_words(const SheetBend& bend);
+
+} // namespace spia

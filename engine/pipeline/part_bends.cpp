@@ -1,0 +1,83 @@
+#include "engine/pipeline/part_bends.h"
+
+#include <charconv>
+#include <fmt/core.h>
+
+#include "engine/core/error.h"
+#include "engine/exchange/file_content.h"
+#include "engine/unfold/relaid_blank.h"
+
+namespace spia {
+namespace {
+
+SheetLayers layers_of(const PartFile& part, double thickness, const std::optional<KFactor>& k)
+{
+    SheetLayers layers;
+    layers.thickness = part.solid ? part.solid->thickness : thickness;
+    layers.k = k;
+    if (part.solid) {
+        const double half = layers.thickness / 2;
+        const Skin skin = part.solid->skin;
+        layers.mesh_at = skin == Skin::outer ? half : skin == Skin::inner ? -half : 0;
+        layers.face_at = skin == Skin::inner ? -half : half; // the middle surface has the faces of the outer skin
+    }
+    return layers;
+}
+
+std::vector<BendZone> zones_of(const PartFile& part)
+{
+    if (part.cad && !part.cad->surface.empty()) {
+        std::vector<StatedSurface> surface;
+        for (const int f : part.source_face)
+            surface.push_back(part.cad->surface[size_t(part.cad->face[size_t(f)])]);
+        return stated_zones(part.mesh, surface);
+    }
+    return fitted_zones(part.mesh, find_bends(part.mesh));
+}
+
+} // namespace
+
+NeutralFibre part_bends(const PartFile& part, double thickness, const std::optional<KFactor>& k)
+{
+    NeutralFibre fibre = neutral_fibre(part.mesh, zones_of(part), layers_of(part, thickness, k));
+    // A sheet that is given as triangles is these triangles, unless its bends are asked for. Of solids and CAD faces they are ours or
+    // stand for arcs.
+    if (!k && !part.cad && !part.solid)
+        keep_triangles(fibre, "the mesh has them; a K factor (--k-factor, also 0.5) lays arcs in their place");
+    return fibre;
+}
+
+void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& fibre, UnfoldRun& run,
+              const Progress& progress)
+{
+    if (!run.blank || run.states.empty())
+        return;
+    if (!fibre.laid.empty()) {
+        if (run.flipped > 0 || run.states.back().face.strain_equivalent.maxCoeff() > most_relaid_strain)
+            keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is");
+        else
+            run.blank->position = relaid_blank(part, run.blank->position, fibre.laid, options, progress).blank.position;
+    }
+    place_on_blank(fibre, part, *run.blank);
+}
+
+KFactor k_factor(const std::string& text)
+{
+    if (text == "din6935")
+        return din6935_k();
+    double value = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault != std::errc::invalid_argument && end == text.data() + text.size())
+        return constant_k(fault == std::errc() ? value : 0);
+    constexpr std::uintmax_t most_bytes = 1 << 20;
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(text, none))
+        throw InputError(fmt::format("--k-factor {}: give a number above 0 and below 1, din6935, or a file with a "
+                                     "table of R/t and K",
+                                     text));
+    if (std::filesystem::file_size(text, none) > most_bytes)
+        throw InputError(fmt::format("{}: a table of K factors has 1 MB at most", text));
+    return parse_k_table(file_content(text), text);
+}
+
+} // namespace spia

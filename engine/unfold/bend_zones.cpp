@@ -1,0 +1,333 @@
+#include "engine/unfold/bend_zones.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Across each edge of a face; -1: none.
+Eigen::Matrix3Xi neighbours(const TriMesh& mesh)
+{
+    Eigen::Matrix3Xi result = Eigen::Matrix3Xi::Constant(3, mesh.triangles(), -1);
+    const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end != begin + 2)
+            return;
+        result(uses[begin].corner, uses[begin].face) = uses[begin + 1].face;
+        result(uses[begin + 1].corner, uses[begin + 1].face) = uses[begin].face;
+    });
+    return result;
+}
+
+/// Unit vectors across the axis, right-handed with it.
+Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis)
+{
+    Eigen::Matrix<double, 3, 2> result;
+    result.col(0) = axis.unitOrthogonal();
+    result.col(1) = axis.cross(result.col(0));
+    return result;
+}
+
+double nearest_turn(double angle, double to) { return angle - 2 * pi * std::round((angle - to) / (2 * pi)); }
+
+/// Angles of all corners without jumps, from face to face; and what follows from them.
+void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& zone)
+{
+    const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
+    std::sort(zone.face.begin(), zone.face.end());
+    const auto index = [&](int f) {
+        const auto at = std::lower_bound(zone.face.begin(), zone.face.end(), f);
+        return at != zone.face.end() && *at == f ? int(at - zone.face.begin()) : -1;
+    };
+    zone.turn.assign(zone.face.size(), Eigen::Vector3d::Zero());
+    std::vector<double> off;
+    std::vector<char> seen(zone.face.size(), 0);
+    std::vector<int> reached{0};
+    seen[0] = 1;
+    double start = 0;
+    const auto place = [&](int i, double near) {
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector2d p =
+                frame.transpose() * (part.position.col(part.triangle(k, zone.face[size_t(i)])) - zone.point);
+            off.push_back(std::abs(p.norm() - zone.radius));
+            zone.turn[size_t(i)][k] = nearest_turn(std::atan2(p.y(), p.x()), near);
+            near = zone.turn[size_t(i)][k]; // a triangle spans less than a half turn
+        }
+    };
+    place(0, start);
+    while (!reached.empty()) {
+        const int i = reached.back();
+        reached.pop_back();
+        for (int k = 0; k < 3; ++k) {
+            const int f = zone.face[size_t(i)], next = neighbour(k, f);
+            const int j = next < 0 ? -1 : index(next);
+            if (j < 0 || seen[size_t(j)])
+                continue;
+            // From a corner that both have.
+            const int shared = part.triangle(k, f);
+            place(j, 0);
+            for (int c = 0; c < 3; ++c)
+                if (part.triangle(c, next) == shared) {
+                    const double shift = zone.turn[size_t(i)][k] - zone.turn[size_t(j)][c];
+                    zone.turn[size_t(j)].array() += 2 * pi * std::round(shift / (2 * pi));
+                }
+            seen[size_t(j)] = 1;
+            reached.push_back(j);
+        }
+    }
+    std::sort(off.begin(), off.end());
+    zone.off = off[off.size() * 3 / 4];
+    const double middle_off = off[off.size() / 2];
+    size_t kept = 0; // what only a corner joins to the rest would have angles of its own
+    for (size_t i = 0; i < zone.face.size(); ++i)
+        if (seen[i]) {
+            zone.face[kept] = zone.face[i];
+            zone.turn[kept++] = zone.turn[i];
+        }
+    zone.face.resize(kept);
+    zone.turn.resize(kept);
+    // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the cylinder, or on it beyond the border. Where
+    // it ends is what corners on it say that it has in common with the sheet beside it; at a free edge any.
+    const double on = 4 * middle_off + 1e-6 * zone.radius;
+    std::set<int> common;
+    for (const int f : zone.face)
+        for (int k = 0; k < 3; ++k)
+            if (const int next = neighbour(k, f); next >= 0 && index(next) < 0)
+                common.insert({part.triangle(k, f), part.triangle((k + 1) % 3, f)});
+    double from = std::numeric_limits<double>::infinity(), to = -from;
+    zone.from = from;
+    zone.to = to;
+    for (size_t i = 0; i < zone.face.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector2d p =
+                frame.transpose() * (part.position.col(part.triangle(k, zone.face[i])) - zone.point);
+            if (std::abs(p.norm() - zone.radius) > on)
+                continue;
+            zone.from = std::min(zone.from, zone.turn[i][k]);
+            zone.to = std::max(zone.to, zone.turn[i][k]);
+            if (common.count(part.triangle(k, zone.face[i]))) {
+                from = std::min(from, zone.turn[i][k]);
+                to = std::max(to, zone.turn[i][k]);
+            }
+        }
+    constexpr double near = 0.1; // of the angle; farther in it is a notch that ends within the bend
+    const double much = near * (zone.to - zone.from);
+    zone.from = from - zone.from < much ? from : zone.from;
+    zone.to = zone.to - to < much ? to : zone.to;
+}
+
+/// Whether the faces' own normals point away from the axis.
+bool bulges(const TriMesh& part, const Eigen::Matrix3Xd& normal, const BendZone& zone)
+{
+    double out = 0;
+    for (const int f : zone.face) {
+        const Eigen::Vector3d from =
+            Eigen::Vector3d(part.position(Eigen::all, part.triangle.col(f)).rowwise().mean()) - zone.point;
+        out += normal.col(f).dot((from - from.dot(zone.axis) * zone.axis).normalized());
+    }
+    return out > 0;
+}
+
+/// Circle through places of a plane. [Kasa 1976] Nothing if they lie on a line.
+std::optional<Eigen::Vector3d> circle(const Eigen::Matrix2Xd& place)
+{
+    const Eigen::Vector2d middle = place.rowwise().mean();
+    const Eigen::Matrix2Xd p = place.colwise() - middle;
+    const double size = p.colwise().norm().maxCoeff();
+    if (!(size > 0))
+        return std::nullopt;
+    Eigen::MatrixX3d a(p.cols(), 3);
+    a << p.transpose() / size, Eigen::VectorXd::Ones(p.cols());
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> qr(a);
+    const Eigen::VectorXd right = p.colwise().squaredNorm().transpose() / (size * size);
+    const Eigen::Vector3d x = qr.solve(right);
+    const double square = x[2] + (x[0] * x[0] + x[1] * x[1]) / 4;
+    if (!x.allFinite() || !(square > 0))
+        return std::nullopt;
+    return Eigen::Vector3d(middle.x() + size * x[0] / 2, middle.y() + size * x[1] / 2, size * std::sqrt(square));
+}
+
+/// The cylinder through the vertices of some faces, and how far the farthest is off it.
+std::optional<BendZone> cylinder_of(const TriMesh& part, const Eigen::Matrix3Xd& normal,
+                                    const Eigen::Matrix3Xi& neighbour, const std::vector<int>& faces)
+{
+    const std::set<int> in(faces.begin(), faces.end());
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+    for (const int f : faces)
+        for (int k = 0; k < 3; ++k)
+            if (const int g = neighbour(k, f); g > f && in.count(g)) {
+                const Eigen::Vector3d edge =
+                    part.position.col(part.triangle((k + 1) % 3, f)) - part.position.col(part.triangle(k, f));
+                const Eigen::Vector3d turn = normal.col(f).normalized().cross(normal.col(g).normalized()) * edge.norm();
+                axis += turn.dot(axis) < 0 ? Eigen::Vector3d(-turn) : turn;
+            }
+    if (!(axis.norm() > 0))
+        return std::nullopt;
+    BendZone zone{};
+    zone.axis = axis.normalized();
+    std::set<int> vertices;
+    for (const int f : faces)
+        for (int k = 0; k < 3; ++k)
+            vertices.insert(part.triangle(k, f));
+    const std::vector<int> list(vertices.begin(), vertices.end());
+    const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
+    const Eigen::Matrix2Xd flat = frame.transpose() * part.position(Eigen::all, list);
+    const auto round = circle(flat);
+    if (!round)
+        return std::nullopt;
+    zone.point = frame * round->head<2>();
+    zone.radius = (*round)[2];
+    zone.face = faces;
+    for (Eigen::Index i = 0; i < flat.cols(); ++i)
+        zone.off = std::max(zone.off, std::abs((flat.col(i) - round->head<2>()).norm() - zone.radius));
+    return zone;
+}
+
+bool lies_on(const TriMesh& part, const BendZone& zone, int face, double within)
+{
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d from = part.position.col(part.triangle(k, face)) - zone.point;
+        if (std::abs((from - from.dot(zone.axis) * zone.axis).norm() - zone.radius) > within)
+            return false;
+    }
+    return true;
+}
+
+/// Pieces of one bend that holes or notches part: on one cylinder between the same angles.
+void join_pieces(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, std::vector<BendZone>& zones)
+{
+    constexpr double alike = 1e-3; // radians, and of the radius
+    std::vector<BendZone> joined;
+    for (BendZone& zone : zones) {
+        bool taken = false;
+        for (size_t i = 0; i < joined.size() && !taken; ++i) {
+            BendZone& to = joined[i];
+            const Eigen::Vector3d off = zone.point - to.point;
+            if (zone.bulging != to.bulging || std::abs(zone.radius - to.radius) > alike * to.radius ||
+                zone.axis.cross(to.axis).norm() > alike ||
+                (off - off.dot(to.axis) * to.axis).norm() > alike * to.radius)
+                continue;
+            BendZone other = zone; // told around the other's axis
+            other.point = to.point;
+            other.axis = to.axis;
+            measure(part, neighbour, other);
+            const double shift = nearest_turn(other.from, to.from) - other.from;
+            if (other.face.size() != zone.face.size() || std::abs(other.from + shift - to.from) > alike ||
+                std::abs(other.to + shift - to.to) > alike)
+                continue;
+            for (size_t k = 0; k < other.face.size(); ++k) {
+                const auto at = std::lower_bound(to.face.begin(), to.face.end(), other.face[k]) - to.face.begin();
+                to.face.insert(to.face.begin() + at, other.face[k]);
+                to.turn.insert(to.turn.begin() + at, (other.turn[k].array() + shift).matrix());
+            }
+            to.off = std::max(to.off, other.off);
+            taken = true;
+        }
+        if (!taken)
+            joined.push_back(std::move(zone));
+    }
+    zones = std::move(joined);
+}
+
+} // namespace
+
+std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface)
+{
+    const Eigen::Matrix3Xi neighbour = neighbours(part);
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    DisjointSets together(size_t(part.triangles()));
+    for (int f = 0; f < part.triangles(); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (const int g = neighbour(k, f); g > f && same_cylinder(surface[size_t(f)], surface[size_t(g)]))
+                together.join(f, g);
+    std::vector<BendZone> zones;
+    std::vector<int> number(size_t(part.triangles()), -1);
+    for (int f = 0; f < part.triangles(); ++f) {
+        const StatedSurface& s = surface[size_t(f)];
+        if (s.kind != StatedSurface::Kind::cylinder)
+            continue;
+        int& zone = number[size_t(together.root(f))];
+        if (zone < 0) {
+            zone = int(zones.size());
+            BendZone fresh{};
+            fresh.point = s.point;
+            fresh.axis = s.direction;
+            fresh.stated = s.radius;
+            zones.push_back(fresh);
+        }
+        zones[size_t(zone)].face.push_back(f);
+    }
+    for (BendZone& zone : zones) {
+        zone.bulging = bulges(part, normal, zone);
+        // The mesh may be another side of the sheet than the CAD face: where its vertices are is what they say.
+        std::vector<double> radius;
+        for (const int f : zone.face)
+            for (int k = 0; k < 3; ++k) {
+                const Eigen::Vector3d from = part.position.col(part.triangle(k, f)) - zone.point;
+                radius.push_back((from - from.dot(zone.axis) * zone.axis).norm());
+            }
+        std::nth_element(radius.begin(), radius.begin() + long(radius.size() / 2), radius.end());
+        zone.radius = radius[radius.size() / 2];
+        measure(part, neighbour, zone);
+    }
+    join_pieces(part, neighbour, zones);
+    return zones;
+}
+
+std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map)
+{
+    constexpr double most_off = 2e-3; // of the radius: vertices of meshes are rounded
+    const Eigen::Matrix3Xi neighbour = neighbours(part);
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    std::vector<BendZone> zones;
+    std::vector<char> taken(size_t(part.triangles()), 0);
+    for (size_t b = 0; b < map.bends.size(); ++b) {
+        if (map.bends[b].faces == 0 || map.bends[b].b < 0)
+            continue;
+        FaceSet faces = map.faces_of(map.label_of_bend(b));
+        std::optional<BendZone> zone = cylinder_of(part, normal, neighbour, faces);
+        // Of a band that is too broad the faces farthest off go first.
+        for (int round = 0; round < 4 && zone && zone->off > most_off * zone->radius; ++round) {
+            const double within = std::max(zone->off / 2, most_off * zone->radius);
+            std::erase_if(faces, [&](int f) { return !lies_on(part, *zone, f, within); });
+            zone = faces.empty() ? std::nullopt : cylinder_of(part, normal, neighbour, faces);
+        }
+        if (!zone || zone->off > most_off * zone->radius)
+            continue;
+        std::vector<int> grown = zone->face;
+        std::set<int> in(grown.begin(), grown.end());
+        for (size_t i = 0; i < grown.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                if (const int g = neighbour(k, grown[i]);
+                    g >= 0 && !in.count(g) && !taken[size_t(g)] && lies_on(part, *zone, g, most_off * zone->radius)) {
+                    in.insert(g);
+                    grown.push_back(g);
+                }
+        std::erase_if(grown, [&](int f) { return bool(taken[size_t(f)]); });
+        if (grown.empty())
+            continue;
+        zone->face = std::move(grown);
+        for (const int f : zone->face)
+            taken[size_t(f)] = 1;
+        zone->bulging = bulges(part, normal, *zone);
+        measure(part, neighbour, *zone);
+        zones.push_back(std::move(*zone));
+    }
+    join_pieces(part, neighbour, zones);
+    return zones;
+}
+
+} // namespace spia
