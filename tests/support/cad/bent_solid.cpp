@@ -1,0 +1,187 @@
+#include "tests/support/cad/bent_solid.h"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepTools.hxx>
+#include <Eigen/Core>
+#include <GC_MakeArcOfCircle.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/exchange/occt_session.h"
+#include "tests/support/lots.h"
+#include "tests/support/profile.h"
+
+namespace spia::shapes {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// The middle line.
+Profile middle_of(const BentSolid& solid)
+{
+    Profile profile({0, 0}, 0);
+    profile.straight(solid.leg[0]);
+    for (size_t b = 0; b < solid.bend.size(); ++b)
+        profile.bend(solid.bend[b].inner_radius + solid.thickness / 2, solid.bend[b].angle).straight(solid.leg[b + 1]);
+    return profile;
+}
+
+double heading(const Profile::Piece& piece, double s) { return piece.heading + piece.curvature * (s - piece.from); }
+
+/// At arc length s of the middle line, that far to its left.
+gp_Pnt beside(const Profile& profile, const Profile::Piece& piece, double s, double left)
+{
+    const Eigen::Vector2d p = profile.at(s);
+    const double h = heading(piece, s);
+    return {p.x() - left * std::sin(h), 0, p.y() + left * std::cos(h)};
+}
+
+/// Whether the section keeps clear of itself: by a tenth of its thickness at least.
+bool clear(const BentSolid& solid)
+{
+    const Profile profile = middle_of(solid);
+    const double t = solid.thickness, step = t / 4;
+    std::vector<Eigen::Vector2d> at;
+    for (double s = 0; s < profile.length(); s += step)
+        at.push_back(profile.at(s));
+    at.push_back(profile.at(profile.length()));
+    if (at.size() > 4000)
+        return false;
+    for (size_t i = 0; i < at.size(); ++i)
+        for (size_t j = i + size_t(2 * t / step); j < at.size(); ++j)
+            if ((at[i] - at[j]).norm() < 1.1 * t)
+                return false;
+    return true;
+}
+
+TopoDS_Shape made(const BentSolid& solid)
+{
+    const Profile profile = middle_of(solid);
+    BRepBuilderAPI_MakeWire wire;
+    const double half = solid.thickness / 2;
+    const auto add = [&](const Profile::Piece& piece, double left, bool back) {
+        const gp_Pnt from = beside(profile, piece, back ? piece.to : piece.from, left),
+                     to = beside(profile, piece, back ? piece.from : piece.to, left);
+        if (piece.curvature == 0)
+            wire.Add(BRepBuilderAPI_MakeEdge(from, to).Edge());
+        else {
+            const gp_Pnt middle = beside(profile, piece, (piece.from + piece.to) / 2, left);
+            wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(from, middle, to).Value()).Edge());
+        }
+    };
+    const auto& pieces = profile.pieces();
+    for (const auto& piece : pieces)
+        add(piece, half, false);
+    wire.Add(BRepBuilderAPI_MakeEdge(beside(profile, pieces.back(), pieces.back().to, half),
+                                     beside(profile, pieces.back(), pieces.back().to, -half))
+                 .Edge());
+    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
+        add(*piece, -half, true);
+    wire.Add(
+        BRepBuilderAPI_MakeEdge(beside(profile, pieces.front(), 0, -half), beside(profile, pieces.front(), 0, half))
+            .Edge());
+    TopoDS_Shape shape =
+        BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, solid.width, 0)).Shape();
+    if (solid.hole) {
+        const Profile::Piece& bend = pieces[1];
+        const double s = (bend.from + bend.to) / 2, h = heading(bend, s);
+        const gp_Pnt at = beside(profile, bend, s, 0);
+        // Broader than the bend, so that it is cut into both legs, where they are long enough.
+        const double radius =
+            std::min({0.3 * solid.width, (bend.to - bend.from) / 2 + 0.4 * std::min(solid.leg[0], solid.leg[1])});
+        const gp_Dir across(-std::sin(h), 0, std::cos(h));
+        const double reach = 1.5 * solid.thickness + radius;
+        const gp_Pnt from = at.Translated(gp_Vec(across) * -reach + gp_Vec(0, solid.width / 2, 0));
+        shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(from, across), radius, 2 * reach).Shape());
+    }
+    for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
+        return at.Current();
+    throw std::runtime_error("no solid was made");
+}
+
+double even_in_logarithm(Lots& lots, double low, double high) { return low * std::pow(high / low, lots.between(0, 1)); }
+
+BentSolid drawn(Lots& lots)
+{
+    static const char* const kinds[] = {"bracket", "Z", "channel", "hat", "hem", "knuckle"};
+    BentSolid solid;
+    solid.kind = kinds[lots.whole(0, 5)];
+    solid.thickness = even_in_logarithm(lots, 0.4, 6);
+    const double t = solid.thickness;
+    const auto radius = [&] { return t * even_in_logarithm(lots, 0.1, 20); };
+    const auto angle = [&](double low, double high) { return degree * lots.between(low, high); };
+    const auto leg = [&] { return t * even_in_logarithm(lots, 4, 40); };
+    const double way = lots.coin() ? 1 : -1;
+    const auto bends = [&](std::initializer_list<double> signs, double low, double high) {
+        for (const double sign : signs)
+            solid.bend.push_back({radius(), way * sign * angle(low, high)});
+    };
+    if (solid.kind == "bracket")
+        bends({1}, 1, 150);
+    else if (solid.kind == "Z")
+        bends({1, -1}, 20, 120);
+    else if (solid.kind == "channel")
+        bends({1, 1}, 45, 100);
+    else if (solid.kind == "hat")
+        bends({1, -1, -1, 1}, 45, 100);
+    else if (solid.kind == "hem") {
+        if (lots.coin())
+            bends({1}, 30, 90);
+        solid.bend.push_back({t * even_in_logarithm(lots, 0.1, 3), way * std::numbers::pi});
+    } else { // a knuckle: curled on one after the other
+        const int count = lots.whole(3, 8);
+        for (int b = 0; b < count; ++b)
+            solid.bend.push_back({radius(), way * angle(1, 180. / count + 25)});
+    }
+    for (size_t b = 0; b <= solid.bend.size(); ++b)
+        solid.leg.push_back(leg());
+    solid.width = t * even_in_logarithm(lots, 15, 60);
+    // Drilled after bending; through a sharper bend it would be a slit along the sheet.
+    solid.hole = lots.whole(0, 2) == 0 && std::abs(solid.bend[0].angle) < 80 * degree;
+    return solid;
+}
+
+} // namespace
+
+double BentSolid::developed(double k) const
+{
+    double length = 0;
+    for (const double each : leg)
+        length += each;
+    for (const SolidBend& each : bend)
+        length += std::abs(each.angle) * (each.inner_radius + k * thickness);
+    return length;
+}
+
+BentSolid random_bent_solid(std::uint64_t seed)
+{
+    Lots lots(seed);
+    for (;;)
+        if (BentSolid solid = drawn(lots); clear(solid))
+            return solid;
+}
+
+void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form)
+{
+    const OcctSession session;
+    const TopoDS_Shape shape = made(solid);
+    if (form == CadForm::brep) {
+        if (!BRepTools::Write(shape, file.c_str()))
+            throw std::runtime_error("not written: " + file.string());
+        return;
+    }
+    STEPControl_Writer writer;
+    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone || writer.Write(file.c_str()) != IFSelect_RetDone)
+        throw std::runtime_error("not written: " + file.string());
+}
+
+} // namespace spia::shapes

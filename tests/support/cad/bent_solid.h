@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Solids of bent sheet as a CAD system makes them, and their developed lengths in closed form. They need OpenCASCADE: a library of their
+/// own, spia_cad_support.
+namespace spia::shapes {
+
+struct SolidBend {
+    double inner_radius; ///< mm
+    double angle;        ///< radians, positive to the left of the section
+};
+
+/// A section of straight legs and bends between them, the same all along y.
+struct BentSolid {
+    std::string kind;            ///< bracket, Z, channel, hat, hem, knuckle
+    double thickness = 2;        ///< mm
+    double width = 30;           ///< mm, along the bends
+    std::vector<double> leg;     ///< mm, flat: one more than bends
+    std::vector<SolidBend> bend; ///< in their order
+    bool hole = false; ///< a round hole through the middle of the first bend, seen along the half of its angle
+
+    /// mm: legs, and arcs at K times the thickness from the inner side
+    double developed(double k) const;
+};
+
+/// One of a family drawn at random: 1 to 8 bends of 1 to 180 degrees, R/t from 0.1 to 20, no section that touches itself.
+BentSolid random_bent_solid(std::uint64_t seed);
+
+enum class CadForm { step, brep };
+void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form = CadForm::step);
+
+} // namespace spia::shapes

@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "engine/core/error.h"
+#include "engine/core/json_file.h"
+#include "engine/forming/material_library.h"
+#include "engine/mesh/outline.h"
+#include "engine/mesh/topology.h"
+#include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/report.h"
+#include "engine/pipeline/session.h"
+#include "engine/pipeline/shortcomings.h"
+#include "tests/support/cad/bent_solid.h"
+#include "tests/support/lots.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/sheet_solid.h"
+#include "tests/unit/exchange/scratch_folder.h"
+
+namespace spia {
+namespace {
+
+namespace fs = std::filesystem;
+using shapes::BentSolid;
+constexpr double pi = std::numbers::pi;
+
+BentSolid l_bracket() // that of the cases: legs of 40 and 25 mm outside
+{
+    BentSolid solid;
+    solid.kind = "bracket";
+    solid.leg = {40, 25};
+    solid.bend = {{3, pi / 2}};
+    return solid;
+}
+
+Session solved(const fs::path& file, const std::optional<KFactor>& k = {}, const ReadOptions& read = {})
+{
+    Session session;
+    session.file = file;
+    session.options.read = read;
+    session.options.k_factor = k;
+    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    session = run_stage(Stage::read, session);
+    session.options.flatten.thickness = session.part->thickness_mm.value_or(1);
+    return run_stage(Stage::solve, session);
+}
+
+/// Length across `along` and width along it of the outer outline, and how far its vertices are off that rectangle.
+struct Rectangle {
+    double length, width, off;
+};
+
+Rectangle rectangle(const Session& session, const Eigen::Vector2d& along)
+{
+    const Eigen::Matrix2Xd& X = session.blank->blank.position;
+    const auto loops = boundary_loops(session.part->mesh);
+    Eigen::Matrix2d axes;
+    axes << along[1], -along[0], along[0], along[1];
+    std::vector<int> outline = loops[size_t(outer_loop(loops, X))];
+    const Eigen::Matrix2Xd turned = axes * X(Eigen::all, outline);
+    const Eigen::Vector2d low = turned.rowwise().minCoeff(), high = turned.rowwise().maxCoeff();
+    double off = 0;
+    for (Eigen::Index i = 0; i < turned.cols(); ++i)
+        off = std::max(
+            off, std::min((turned.col(i) - low).cwiseAbs().minCoeff(), (turned.col(i) - high).cwiseAbs().minCoeff()));
+    return {high[0] - low[0], high[1] - low[1], off};
+}
+
+Rectangle rectangle(const Session& session)
+{
+    const auto& bends = session.bends->bends;
+    if (bends.empty() || bends[0].line.empty())
+        return {0, 0, 0};
+    return rectangle(session, (bends[0].line[0].to - bends[0].line[0].from).normalized());
+}
+
+class PartBends : public testing::Test {
+protected:
+    fs::path write(const BentSolid& solid, const std::string& name = "part.step")
+    {
+        shapes::write_bent_solid(folder_ / name, solid);
+        return folder_ / name;
+    }
+    ScratchFolder folder_;
+};
+
+} // namespace
+
+TEST_F(PartBends, LBracketHasTheLengthOfItsNeutralFibre)
+{
+    const fs::path file = write(l_bracket());
+    for (const double k : {0.5, 0.44, 0.33}) {
+        const Session session = solved(file, k == 0.5 ? std::nullopt : std::optional(constant_k(k)));
+        const double length = 40 + 25 + pi / 2 * (3 + k * 2);
+        EXPECT_NEAR(rectangle(session).length, length, 1e-6) << k;
+        EXPECT_NEAR(rectangle(session).width, 30, 1e-6) << k;
+        EXPECT_EQ(session.part->solid->thickness, 2) << "as CAD has it, to the last digit";
+        ASSERT_EQ(session.bends->bends.size(), 1u);
+        const SheetBend& bend = session.bends->bends[0];
+        EXPECT_NEAR(bend.inner_radius, 3, 1e-9);
+        EXPECT_NEAR(bend.angle, pi / 2, 1e-7);
+        EXPECT_EQ(bend.k, k);
+        EXPECT_NEAR(bend.allowance, pi / 2 * (3 + 2 * k), 1e-6);
+        EXPECT_NEAR(bend.deduction, 10 - bend.allowance, 1e-6);
+        EXPECT_TRUE(bend.stated);
+        EXPECT_TRUE(bend.laid);
+        ASSERT_EQ(bend.line.size(), 1u);
+        EXPECT_NEAR(bend.length, 30, 1e-6);
+        EXPECT_LT(session.blank->face.strain_equivalent.maxCoeff(), 1e-6) << "the neutral fibre is not strained";
+        EXPECT_LT(session.blank->volume_error, 1e-6);
+        const Json report = parse_json(report_json(session, {}, 0), "report");
+        EXPECT_EQ(report["blank"]["lengths_of"],
+                  k == 0.5 ? "middle surface, K 0.5" : fmt::format("neutral fibre, K {}", k));
+        EXPECT_EQ(report["bend_table"]["bends"].size(), 1u);
+        EXPECT_TRUE(shortcomings(session).empty());
+    }
+}
+
+TEST_F(PartBends, ASkinThatIsAskedForIsLaidWithItsOwnRadius)
+{
+    const fs::path file = write(l_bracket());
+    for (const auto& [skin, k, words] : {std::tuple(Skin::outer, 1., "outer skin"),
+                                         {Skin::inner, 0., "inner skin"},
+                                         {Skin::middle, 0.5, "middle surface, K 0.5"}}) {
+        ReadOptions read;
+        read.skin = skin;
+        const Session session = solved(file, {}, read);
+        EXPECT_NEAR(rectangle(session).length, 65 + pi / 2 * (3 + k * 2), 1e-6) << words;
+        EXPECT_EQ(session.bends->surface, words);
+        EXPECT_NEAR(session.bends->bends.at(0).inner_radius, 3, 1e-9) << words;
+        EXPECT_NEAR(session.bends->bends[0].k, k, 1e-12);
+        if (skin != Skin::middle) {
+            EXPECT_THROW(solved(file, constant_k(0.4), read), InputError);
+        }
+    }
+}
+
+TEST_F(PartBends, TheLineOfABendLiesInItsMiddleAndTellsUpFromDown)
+{
+    BentSolid z = l_bracket();
+    z.leg = {20, 30, 25};
+    z.bend = {{3, pi / 2}, {1, -pi / 3}};
+    const Session session = solved(write(z), constant_k(0.4));
+    ASSERT_EQ(session.bends->bends.size(), 2u);
+    EXPECT_NE(session.bends->bends[0].up, session.bends->bends[1].up);
+    const Rectangle all = rectangle(session);
+    EXPECT_NEAR(all.length, z.developed(0.4), 1e-6);
+    // Lines are as far apart as the leg and both halves of the strips.
+    const BlankSegment &a = session.bends->bends[0].line.at(0), &b = session.bends->bends[1].line.at(0);
+    const Eigen::Vector2d along = (a.to - a.from).normalized(), across(along[1], -along[0]);
+    const auto& bends = session.bends->bends;
+    EXPECT_NEAR(std::abs(across.dot(b.from - a.from)), 30 + (bends[0].allowance + bends[1].allowance) / 2, 1e-6);
+    EXPECT_NEAR(std::abs(across.dot(b.to - a.to)), 30 + (bends[0].allowance + bends[1].allowance) / 2, 1e-6);
+    // Seen on the blank, the sheet beyond a bend that goes up comes towards the eye: its faces turn to each other there.
+    const TriMesh& part = session.part->mesh;
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    for (const SheetBend& bend : bends) {
+        const Eigen::Vector3d to_eye = normal(Eigen::all, bend.faces).rowwise().sum().normalized();
+        double out = 0;
+        for (const int f : bend.faces)
+            for (const int v : part.triangle.col(f))
+                out += to_eye.dot(part.position.col(v) - bend.place);
+        EXPECT_EQ(bend.up, out > 0) << "places beside the middle of a hollow bend rise above its tangent plane";
+    }
+}
+
+TEST_F(PartBends, AFamilyOfBracketsChannelsHatsHemsAndKnucklesUnrollsToItsClosedForm)
+{
+    const fs::path file = folder_ / "part.step";
+    std::map<std::string, int> kinds;
+    int refused = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        const BentSolid solid = shapes::random_bent_solid(seed);
+        shapes::Lots lots(seed + 1000);
+        const double k = lots.between(0.3, 0.5);
+        SCOPED_TRACE(fmt::format("{}: {} with {} bends, t {}, K {}{}", seed, solid.kind, solid.bend.size(),
+                                 solid.thickness, k, solid.hole ? ", a hole" : ""));
+        ++kinds[solid.kind];
+        shapes::write_bent_solid(file, solid);
+        Session session;
+        try {
+            session = solved(file, constant_k(k));
+        } catch (const Error& error) {
+            ADD_FAILURE() << error.what();
+            ++refused;
+            continue;
+        }
+        EXPECT_NEAR(session.part->thickness_mm.value_or(0), solid.thickness, 1e-9 * solid.thickness);
+        const double length = solid.developed(k);
+        const Rectangle outline = rectangle(session);
+        EXPECT_NEAR(outline.length, length, 1e-4 * length);
+        EXPECT_NEAR(outline.width, solid.width, 1e-4 * solid.width);
+        EXPECT_LT(outline.off, 1e-4 * length);
+        const auto& bends = session.bends->bends;
+        EXPECT_EQ(bends.size(), solid.bend.size());
+        for (const shapes::SolidBend& made : solid.bend)
+            EXPECT_TRUE(std::any_of(bends.begin(), bends.end(),
+                                    [&](const SheetBend& bend) {
+                                        return std::abs(bend.inner_radius - made.inner_radius) <
+                                                   1e-3 * made.inner_radius &&
+                                               std::abs(bend.angle - std::abs(made.angle)) < 1e-3 && bend.laid;
+                                    }))
+                << "R " << made.inner_radius << ", " << made.angle * 180 / pi << " degrees";
+        for (const std::string& note : session.bends->notes)
+            ADD_FAILURE() << note;
+    }
+    EXPECT_EQ(kinds.size(), 6u) << "all kinds were drawn";
+}
+
+TEST_F(PartBends, ChordsDoNotShortenABend)
+{
+    const fs::path file = write(l_bracket());
+    for (const double angle : {0.05, 0.35, 1.2}) {
+        ReadOptions read;
+        read.cad.angle = angle;
+        read.cad.deflection = 2; // leaves the angle to decide
+        EXPECT_NEAR(rectangle(solved(file, {}, read)).length, 65 + 2 * pi, 1e-6) << angle;
+    }
+}
+
+TEST_F(PartBends, AMeshHasTheRadiusOfTheCircleThroughItsVertices)
+{
+    // The solid of the bracket as triangles, that no file says anything of.
+    const auto section = shapes::Profile({0, 0}, 0).straight(40).bend(5, -pi / 2).straight(25);
+    const shapes::BentSheet sheet = shapes::bent_sheet(section, 30, 2);
+    const fs::path file = folder_ / "bracket.obj";
+    shapes::write_mesh(file, shapes::thickened(sheet.mesh, -2 * sheet.normal));
+    ReadOptions read;
+    read.skin = Skin::middle;
+    const Session session = solved(file, constant_k(0.44), read);
+    ASSERT_EQ(session.bends->bends.size(), 1u);
+    const SheetBend& bend = session.bends->bends[0];
+    EXPECT_NEAR(bend.inner_radius, 3, 1e-4);
+    EXPECT_NEAR(bend.angle, pi / 2, 1e-4);
+    EXPECT_FALSE(bend.stated);
+    EXPECT_TRUE(bend.laid) << bend.why_not;
+    EXPECT_NEAR(rectangle(session).length, 65 + pi / 2 * (3 + 0.88), 1e-3);
+}
+
+TEST_F(PartBends, WhatIsNoBendOverACylinderKeepsItsLengthsWithAWord)
+{
+    const fs::path cone = fs::path(SPIA_SOURCE_DIR) / "../shared/data/cad/drawn_cone_skin.step";
+    if (!fs::exists(cone))
+        GTEST_SKIP() << "no " << cone;
+    ReadOptions read;
+    read.cad.keep_triangles = true;
+    const Session session = solved(cone, constant_k(0.4), read);
+    for (const SheetBend& bend : session.bends->bends)
+        EXPECT_FALSE(bend.laid);
+    EXPECT_EQ(session.bends->surface, "middle surface, K 0.5");
+    const auto said = shortcomings(session);
+    EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& text) {
+        return text.find("K factor has no effect") != std::string::npos;
+    }));
+}
+
+TEST_F(PartBends, CasesOfOneBracket)
+{
+    const fs::path folder = fs::path(SPIA_SOURCE_DIR) / "../shared/cases";
+    if (!fs::exists(folder / "05-lbracket.step"))
+        GTEST_SKIP() << "no " << folder;
+    for (const auto& [k, length] : {std::pair(0.5, 71.283), {0.44, 71.095}, {0.33, 70.749}})
+        EXPECT_NEAR(rectangle(solved(folder / "05-lbracket.step", constant_k(k))).length, length, 5e-4) << k;
+    const Session right = solved(folder / "02-degree-right.step");
+    EXPECT_EQ(right.part->solid->thickness, 2);
+}
+
+} // namespace spia
