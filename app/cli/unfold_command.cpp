@@ -412,7 +412,8 @@ int unfold(const UnfoldArguments& arguments)
     std::vector<std::filesystem::path> files;
     if (!arguments.folder.empty())
         files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,
-                                polished ? &polished->whole : nullptr, arguments.formats, dxf_options(arguments.dxf));
+                                polished ? &polished->whole : nullptr, arguments.formats, dxf_options(arguments.dxf),
+                                &fibre.table);
     files.insert(files.end(), kept.begin(), kept.end());
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);

@@ -37,8 +37,10 @@ Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
         return Claim::none;
     if (options.skin)
         return Claim::stated;
-    if (options.seam.mode == SeamOptions::Mode::given || part.deck) // a hollow body; shells have a thickness already
+    if (part.deck) // shells have a thickness already
         return Claim::none;
+    if (options.seam.mode == SeamOptions::Mode::given) // of a skin of a solid, else a hollow body's
+        return solid ? Claim::measured : Claim::none;
     if (*report.boundary_loops == 0)
         return solid || has_both_skins(part.mesh) ? Claim::stated : Claim::measured;
     return seems_thin_solid(part.mesh) ? Claim::stated : Claim::none;
@@ -359,7 +361,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
     const int all_faces = faces(part, [](size_t) { return true; });
     try {
         ThinSolid sheet = without_its_marks(part, normals, marked, marks, progress);
-        if (claim == Claim::measured && !decide(part, sheet)) {
+        if (claim == Claim::measured && !solid && !decide(part, sheet)) {
             if (marked)
                 put_back(part, *marked);
             return false;

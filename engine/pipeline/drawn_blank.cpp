@@ -3,6 +3,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
+#include <map>
 
 #include "engine/unfold/sheet_lines.h"
 
@@ -75,15 +77,67 @@ Eigen::Matrix2Xd flat_points(const SheetLine& line)
     return points;
 }
 
+/// The middle of its strip, and the tangent lines on both sides.
+DrawnBend drawn_bend(const SheetBend& bend, std::string name)
+{
+    DrawnBend drawn;
+    drawn.name = std::move(name);
+    drawn.angle = bend.angle;
+    drawn.inner_radius = bend.inner_radius;
+    drawn.k = bend.k;
+    drawn.up = bend.up;
+    for (const BlankSegment& segment : bend.line) {
+        const Eigen::Vector2d way = segment.to - segment.from;
+        if (!(way.norm() > 0))
+            continue;
+        const Eigen::Vector2d aside = Eigen::Vector2d(-way.y(), way.x()).normalized() * bend.allowance / 2;
+        Eigen::Matrix2Xd line(2, 2);
+        line << segment.from, segment.to;
+        drawn.middle.push_back(line);
+        if (bend.laid) // else the strip is not as broad as that
+            for (const double side : {1., -1.})
+                drawn.zone.push_back(line.colwise() + side * aside);
+    }
+    return drawn;
+}
+
+/// Per bend of the map the one of the table that has most of its faces, else -1; and which of the table are nobody's.
+std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vector<char>& taken)
+{
+    std::vector<int> result(map.bends.size(), -1);
+    taken.assign(table.bends.size(), 0);
+    for (size_t j = 0; j < table.bends.size(); ++j) {
+        std::map<int, int> faces_of; // label
+        for (const int f : table.bends[j].faces)
+            ++faces_of[map.label[f]];
+        const auto most = std::max_element(faces_of.begin(), faces_of.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+        if (most == faces_of.end() || most->first < int(map.regions.size()))
+            continue;
+        int& bend = result[size_t(most->first) - map.regions.size()];
+        if (bend >= 0)
+            continue; // two cylinders beside each other, which the map takes for one bend: the second is drawn by itself
+        bend = int(j);
+        taken[j] = 1;
+    }
+    return result;
+}
+
 } // namespace
 
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
-                         bool straight_only)
+                         bool straight_only, const BendTable* table)
 {
     BlankDrawing drawing{blank_outline(part.mesh, blank), {}, {}};
     const std::vector<SheetLine> lines = bend_lines(part.mesh, map, blank.position);
+    std::vector<char> taken;
+    const std::vector<int> known = table ? in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
+        if (known[k] >= 0 && !table->bends[size_t(known[k])].line.empty()) {
+            drawing.bends.push_back(drawn_bend(table->bends[size_t(known[k])], map.name(int(map.regions.size() + k))));
+            continue;
+        }
         DrawnBend drawn;
         drawn.name = map.name(int(map.regions.size() + k));
         drawn.angle = std::abs(bend.angle);
@@ -108,6 +162,9 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
         if (!drawn.middle.empty() || !drawn.zone.empty())
             drawing.bends.push_back(std::move(drawn));
     }
+    for (size_t j = 0; j < taken.size(); ++j)
+        if (!taken[j] && !table->bends[j].line.empty())
+            drawing.bends.push_back(drawn_bend(table->bends[j], fmt::format("bend {}", drawing.bends.size() + 1)));
     return drawing;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/exchange/blank_drawing.h"
 #include "engine/exchange/read_part.h"
+#include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"
 
 namespace spia {
@@ -11,7 +12,8 @@ namespace spia {
 /// @param map  of the part
 /// @param face of forming the blank into the part: the thickness of the flat sheet at a bend is told by it
 /// @param straight_only leave out bends with a line that is not straight, which no press brake makes: those of drawn parts
+/// @param table of the bends on this blank: what it has of a bend over a cylinder, radius, angle, K and lines, is drawn; may be null
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
-                         bool straight_only = false);
+                         bool straight_only = false, const BendTable* table = nullptr);
 
 } // namespace spia

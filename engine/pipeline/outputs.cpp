@@ -90,7 +90,8 @@ Tessellation tessellation_of(const MultiPatch& patches, const Progress& progress
 /// Also the straight bends of a bracket; what a drawn part has in their place is no matter for a press brake.
 BlankDrawing drawing_for_shop(const Session& session)
 {
-    return drawn_blank(*session.part, find_bends(session.part->mesh), session.blank->blank, session.blank->face, true);
+    return drawn_blank(*session.part, find_bends(session.part->mesh), session.blank->blank, session.blank->face, true,
+                       session.bends.get());
 }
 
 DxfOptions dxf_options(const OutputOptions& options)

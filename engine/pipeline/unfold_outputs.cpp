@@ -96,7 +96,8 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
                                                    const UnfoldRun& run, const FlattenResult* polished,
-                                                   const std::vector<std::string>& formats, const DxfOptions& dxf)
+                                                   const std::vector<std::string>& formats, const DxfOptions& dxf,
+                                                   const BendTable* table)
 {
     std::vector<std::filesystem::path> files;
     const auto wanted = [&](const char* format) {
@@ -122,7 +123,7 @@ std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& 
         return files;
     if (wanted("dxf")) {
         files.push_back(folder / (name + "-blank.dxf"));
-        write_dxf(files.back(), drawn_blank(part, map, *run.blank, run.states.back().face), dxf);
+        write_dxf(files.back(), drawn_blank(part, map, *run.blank, run.states.back().face, false, table), dxf);
     }
     add(write_deck_files(folder, name, formats, part, *run.blank, run.states.back().face));
     add(write_line_files(folder, name + "-blank", blank_lines(part.mesh, map, *run.blank), without(formats, "dxf")));

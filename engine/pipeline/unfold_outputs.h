@@ -5,6 +5,7 @@
 
 #include "engine/exchange/dxf_options.h"
 #include "engine/exchange/read_part.h"
+#include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"
 #include "engine/unfold/sheet_lines.h"
 #include "engine/unfold/unfold_script.h"
@@ -28,12 +29,13 @@ void remove_unfolding(const std::filesystem::path& folder, const std::string& na
 /// @param polished what the solver of the whole part makes of the blank (NAME-polished.dxf, .vtu); may be null
 /// @param formats some of all_unfold_formats(); "states" is not written here
 /// @param dxf     of the blank; trim lines are polylines in mm
+/// @param table   of the bends on the blank; may be null
 /// @returns the files, in the order written
 std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& folder, const std::string& name,
                                                    const PartFile& part, const BendMap& map, const UnfoldScript& steps,
                                                    const UnfoldRun& run, const FlattenResult* polished = nullptr,
                                                    const std::vector<std::string>& formats = unfold_formats(),
-                                                   const DxfOptions& dxf = {});
+                                                   const DxfOptions& dxf = {}, const BendTable* table = nullptr);
 
 /// Outline ("outline"), holes ("hole 1" ...) and bend lines of a blank, in the plane z = 0.
 std::vector<SheetLine> blank_lines(const TriMesh& part, const BendMap& map, const Blank& blank);

@@ -79,6 +79,32 @@ TEST(DrawnBlank, ABendHasItsAngleRadiusSideAndPlace)
     }
 }
 
+TEST(DrawnBlank, WhatTheTableOfBendsHasIsDrawn)
+{
+    const double radius = 5;
+    const Bent l =
+        bent(shapes::extruded(shapes::Profile({0, 0}, 0).straight(50).bend(radius, 1.2).straight(30), 40, 3000).mesh);
+    ASSERT_TRUE(l.run.blank) << l.run.failure;
+    SheetBend known;
+    known.inner_radius = 4.5;
+    known.angle = 1.2;
+    known.k = 0.4;
+    known.allowance = 6;
+    known.laid = true;
+    known.line = {{{33, 0}, {33, 40}}};
+    for (int f = 0; f < l.part.mesh.triangles(); ++f)
+        if (l.map.label[f] >= int(l.map.regions.size()))
+            known.faces.push_back(f);
+    const BendTable table{.thickness = 1, .surface = "neutral fibre, K 0.4", .bends = {known}};
+    const BlankDrawing drawing = drawn_blank(l.part, l.map, *l.run.blank, l.run.states.back().face, true, &table);
+    ASSERT_EQ(drawing.bends.size(), 1u) << "not a second time";
+    EXPECT_EQ(drawing.bends[0].inner_radius, 4.5);
+    EXPECT_EQ(drawing.bends[0].k, 0.4);
+    ASSERT_EQ(drawing.bends[0].zone.size(), 2u);
+    EXPECT_NEAR((drawing.bends[0].zone[0] - drawing.bends[0].zone[1]).norm(), 6 * std::sqrt(2.), 1e-9);
+    EXPECT_NEAR(drawing.bends[0].middle[0](0, 1), 33, 1e-12);
+}
+
 TEST(DrawnBlank, OfADrawnPartOnlyStraightBendsAreLeft)
 {
     const Bent cup = bent(shapes::round_cup({.triangles = 2000}));
