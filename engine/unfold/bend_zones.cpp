@@ -101,7 +101,7 @@ void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& z
     zone.turn.resize(kept);
     // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the cylinder, or on it beyond the border. Where
     // it ends is what corners on it say that it has in common with the sheet beside it; at a free edge any.
-    const double on = 4 * middle_off + 1e-6 * zone.radius;
+    const double on = 4 * middle_off + 1e-7 * zone.radius; // a corner that is 4e-4 rad beyond the border is farther off
     std::set<int> common;
     for (const int f : zone.face)
         for (int k = 0; k < 3; ++k)

@@ -265,9 +265,9 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.zone.face.front() < b.zone.face.front(); });
     for (Candidate& each : candidates) {
-        // The wall of a collar or a cup is no bend.
+        // The wall of a collar or a cup is no bend, nor is a place of drawn sheet that happens to be round in a mesh.
         constexpr double wall = 185 * degree;
-        if (!each.bend.laid && each.bend.angle > wall)
+        if (!each.bend.laid && (each.bend.angle > wall || !each.bend.stated))
             continue;
         if (!each.bend.laid && layers.mesh_at == 0)
             set_k(each.bend, middle, layers.thickness);
