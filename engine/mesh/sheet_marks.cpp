@@ -102,6 +102,35 @@ std::vector<char> candidates(const SurfacePieces& pieces, const std::vector<Piec
     return result;
 }
 
+/// The most at the feet of its walls. Where a wall goes up to the skin from there it is the way up, which chords of bends do not change.
+/// @param on_skin  per vertex
+double depth_of_mark(const TriMesh& mesh, const SheetMark& mark, const std::vector<char>& on_skin, Heights& height,
+                     double thickness)
+{
+    std::map<int, double> up;
+    double most = 0;
+    for (const std::vector<int>* faces : {&mark.wall, &mark.floor}) {
+        if (most > 0)
+            break; // the floor alone says less
+        for (const int f : *faces)
+            for (int k = 0; k < 3; ++k) {
+                const int v = mesh.triangle(k, f);
+                if (on_skin[size_t(v)])
+                    continue;
+                double& way = up.try_emplace(v, std::numeric_limits<double>::infinity()).first->second;
+                for (const int w : mesh.triangle.col(f))
+                    if (on_skin[size_t(w)])
+                        way = std::min(way, (mesh.position.col(v) - mesh.position.col(w)).norm());
+            }
+        for (const auto& [v, way] : up) {
+            const double off = std::abs(height(v) - thickness);
+            const bool straight = std::abs(way - off) < 0.25 * off + 4 * chords * thickness;
+            most = std::max(most, straight ? way : off);
+        }
+    }
+    return most;
+}
+
 void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
                    const std::vector<char>& main, std::vector<PieceSide>& side, double thickness,
                    std::vector<SheetMark>& marks)
@@ -165,7 +194,6 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
         SheetMark& mark = marks[size_t(found->second)];
         (side[piece(f)] == skin ? mark.floor : mark.wall).push_back(f);
         const double size = normal.col(f).norm();
-        mark.depth = std::max(mark.depth, off[piece(f)]);
         mark.area += size;
         mark.place += size * mesh.position(Eigen::all, mesh.triangle.col(f)).rowwise().mean();
         if (mark.face < 0 || size > normal.col(mark.face).norm())
@@ -173,6 +201,7 @@ void find_marks_on(PieceSide skin, const TriMesh& mesh, const Eigen::Matrix3Xd& 
     }
     for (const auto& [root, i] : number) {
         SheetMark& mark = marks[size_t(i)];
+        mark.depth = depth_of_mark(mesh, mark, on_skin, height, thickness);
         double above = 0;
         for (int p = 0; p < pieces.count(); ++p)
             if (level[size_t(p)] && together.root(p) == root) {

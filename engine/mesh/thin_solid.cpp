@@ -229,22 +229,18 @@ TriMesh only(const Solid& solid, PieceSide side)
     return mesh;
 }
 
-/// What a fourth of the distances are to single precision of a part a hundred times as large. @param sorted  at least one
+/// The least that an eighth of the distances are, to single precision of a part a hundred times as large: vertices that do not lie quite opposite
+/// are farther away. @param sorted  at least one
 std::optional<double> agreed(const std::vector<double>& sorted)
 {
     constexpr double equal = 1 + 1e-5;
-    size_t first = 0, most = 0;
     for (size_t i = 0, j = 0; i < sorted.size(); ++i) {
         while (j < sorted.size() && sorted[j] <= equal * sorted[i])
             ++j;
-        if (j - i > most) {
-            most = j - i;
-            first = i;
-        }
+        if (8 * (j - i) >= sorted.size())
+            return sorted[(i + j) / 2];
     }
-    if (4 * most < sorted.size())
-        return std::nullopt;
-    return sorted[first + most / 2];
+    return std::nullopt;
 }
 
 /// Vertices at which a skin turns: they lie on its surface, while those within a chord of a bend lie below it.

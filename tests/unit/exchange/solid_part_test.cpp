@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
+#include "engine/remesh/triangle_quality.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
@@ -196,6 +197,37 @@ INSTANTIATE_TEST_SUITE_P(Cad, RealSolid,
                          testing::Values(Known{"fan_bracket.step", 0.5, 6507.58, 6433.4, 5e-4, 31, 31, 17},
                                          Known{"drawn_cone.step", 1, 36584.63, 0, 1e-3, 26, 19, 3},
                                          Known{"battery_clip_3034.step", 0.4, 0, 0, 1e-3, 29, 29, 4}));
+
+TEST(RealSolidFile, MiddleOfADrawnPartIsAsEvenAsItsSkin)
+{
+    const fs::path file = fs::path(SPIA_SOURCE_DIR) / "../shared/data/cad/drawn_cone.step";
+    if (!fs::exists(file))
+        GTEST_SKIP() << "no " << file;
+    ReadOptions options;
+    options.seam.mode = SeamOptions::Mode::none;
+    options.cad.keep_triangles = true;
+    options.skin = Skin::outer;
+    const TriMesh outer = read_part(file, options).mesh;
+    options.skin = Skin::middle;
+    const TriMesh middle = read_part(file, options).mesh;
+    // Moved along the normals of its needles it had twice as much.
+    EXPECT_LT(total_curvature(middle), 1.1 * total_curvature(outer));
+}
+
+TEST(RealSolidFile, MiddleOfFineChordsHasTheAreaOfVolumeOverThickness)
+{
+    const fs::path file = fs::path(SPIA_SOURCE_DIR) / "../shared/data/cad/battery_clip_3034.step";
+    if (!fs::exists(file))
+        GTEST_SKIP() << "no " << file;
+    ReadOptions options;
+    options.skin = Skin::middle;
+    options.cad.angle = 0.05;
+    options.cad.deflection = 0.002;
+    options.cad.keep_triangles = true;
+    const PartFile part = read_part(file, options);
+    ASSERT_TRUE(part.solid);
+    EXPECT_NEAR(area(part.mesh) * part.solid->thickness, part.solid->volume, 2e-4 * part.solid->volume);
+}
 
 TEST(RealSolidFile, HeatSinkOfSeveralThicknessesIsRefused)
 {
