@@ -263,8 +263,14 @@ std::vector<char> turning_vertices(const Solid& solid)
 /// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on them, so the thickness is
 /// the distance of vertices that lie straight opposite to each other: of those where the skins turn, if there are enough.
 /// @param by_rays mm, and what is returned where too few vertices lie so
-double between_vertices(const Solid& solid, double by_rays)
+/// @param marks  do not count
+double between_vertices(const Solid& solid, double by_rays, const std::vector<SheetMark>& marks)
 {
+    std::vector<char> marked(size_t(solid.mesh.triangles()), 0);
+    for (const SheetMark& mark : marks)
+        for (const std::vector<int>* faces : {&mark.floor, &mark.wall})
+            for (const int f : *faces)
+                marked[size_t(f)] = 1;
     constexpr double exact = 1e-4, alike = 1e-3;
     constexpr double nearer = 0.02, farther = 0.1; // chords of 50 degrees are nearer to each other by that
     std::vector<double> distance, turning;
@@ -274,7 +280,7 @@ double between_vertices(const Solid& solid, double by_rays)
         const ClosestPointSearch opposite(only(solid, side == PieceSide::one ? PieceSide::other : PieceSide::one));
         std::vector<char> seen(size_t(solid.mesh.vertices()), 0);
         for (int f = 0; f < solid.mesh.triangles(); ++f)
-            for (int k = 0; k < 3 && solid.side(f) == side; ++k) {
+            for (int k = 0; k < 3 && solid.side(f) == side && !marked[size_t(f)]; ++k) {
                 const int v = solid.mesh.triangle(k, f);
                 if (std::exchange(seen[size_t(v)], char(1)))
                     continue;
@@ -460,7 +466,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     for (const Opposite& at : solid.places)
         from_skin_to_skin.push_back(at.hit >= 0 && solid.side(at.face) != PieceSide::rim &&
                                     solid.side(at.hit) != PieceSide::rim);
-    thickness = between_vertices(solid, main_distance(solid.places, from_skin_to_skin));
+    thickness = between_vertices(solid, main_distance(solid.places, from_skin_to_skin), marks);
     const std::vector<Local> local = local_thickness(solid, thickness, progress.part(0.7, 1));
     require_even(solid, local, thickness);
 
