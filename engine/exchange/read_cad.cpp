@@ -20,6 +20,7 @@
 #include "engine/exchange/cad_shape.h"
 #include "engine/exchange/cad_slivers.h"
 #include "engine/exchange/cad_surfaces.h"
+#include "engine/exchange/cad_swept.h"
 #include "engine/exchange/child_process.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/mesh/edge_uses.h"
@@ -114,7 +115,7 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     std::vector<TopoDS_Face> taken;
     for (const int number : numbers)
         taken.push_back(shape.face[size_t(number)]);
-    const std::vector<StatedSurface> surfaces = stated_surfaces(taken);
+    const std::vector<StatedSurface> surfaces = stated_surfaces(without_swept_cylinders(taken));
     result.surface.resize(shape.face.size());
     for (size_t f = 0; f < taken.size(); ++f)
         result.surface[size_t(numbers[f])] = surfaces[f];

@@ -99,7 +99,7 @@ std::vector<Action> every_action()
         set(TakeOpened{true});
         set(OpenProject{"a.spia"});
         set(ExportFiles{
-            "out", {"step", "dxf"}, {LengthUnit::inch, "door", {true, false, true, false, true}, {false, true}}});
+            "out", {"step", "dxf"}, {LengthUnit::inch, "door", {true, false, true, false, true}, {false, true}, {}}});
         set(WriteReport{
             "report.html",
             {"Door <1>", "two\nlines", {View::quads}, false, {true, false, true, false, true}, LengthUnit::inch}});
@@ -154,7 +154,8 @@ TEST(Script, OptionsOfFilesCarryTheirValuesAndKeepTheOthers)
 {
     const auto exported = std::get<ExportFiles>(action_from_json(json(
         R"({"do":"export","folder":"o","formats":["glb"],"options":{"unit":"inch","name":"d","glb":{"blank":false},"csv":{"outline":false}}})")));
-    EXPECT_EQ(exported.options, (OutputOptions{LengthUnit::inch, "d", {true, false, true, true, true}, {true, false}}));
+    EXPECT_EQ(exported.options,
+              (OutputOptions{LengthUnit::inch, "d", {true, false, true, true, true}, {true, false}, {}}));
     const auto report = std::get<WriteReport>(action_from_json(json(
         R"({"do":"write_report","file":"r","options":{"title":"t","remarks":"m","pictures":["quads"],"standard_look":false,"tables":{"solver":false}}})")));
     EXPECT_EQ(report.options, (ReportOptions{"t", "m", {View::quads}, false, {true, true, true, false, true}}));
