@@ -94,6 +94,7 @@ private:
             close_scope();
             scope_ = keyword["NAME"];
             system_ = Eigen::Affine3d::Identity();
+            system_points_.clear();
             if (keyword.name == "INSTANCE") {
                 ++instances_;
                 card_ = &AbaqusReader::placement;
@@ -126,6 +127,7 @@ private:
         if (!system.empty() && system != "R" && system != "C")
             lines_.fail("nodes in spherical coordinates are not read; write them in rectangular ones");
         cylindrical_ = system == "C";
+        place_system();
         card_ = &AbaqusReader::node;
     }
 
@@ -148,7 +150,7 @@ private:
         return x;
     }
 
-    /// That of the nodes that follow: its origin, a point on its first axis and one in the plane of the first and second; without
+    /// Points of that of the nodes that follow: its origin, a point on its first axis and one in the plane of the first and second; without
     /// the last its third axis stays that of the space, without both all do [Abaqus Keywords Reference, *SYSTEM].
     void system()
     {
@@ -157,6 +159,13 @@ private:
             system_points_.push_back(point(3));
         if (system_points_.size() > 3)
             lines_.fail("*SYSTEM has more than three points");
+    }
+
+    /// Of the points that were given.
+    void place_system()
+    {
+        if (system_points_.empty())
+            return;
         system_ = Eigen::Translation3d(system_points_[0]);
         if (system_points_.size() == 1)
             return;

@@ -46,18 +46,25 @@ double signed_area(const Eigen::Matrix2Xd& uv)
     return area;
 }
 
-/// A border that comes back to a place, where a hole is pinched to a point, as the borders of the holes on both sides of it.
-std::vector<std::vector<int>> simple_loops(const std::vector<int>& loop, const TriMesh& part)
-{
-    const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+struct Before {
+    bool operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
+    {
         return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-    };
-    std::map<Eigen::Vector3d, size_t, decltype(before)> open(before); // places of `rest` by their row
+    }
+};
+/// Places where borders of holes touch.
+using Pinches = std::set<Eigen::Vector3d, Before>;
+
+/// A border that comes back to a place, where a hole is pinched to a point, as the borders of the holes on both sides of it.
+std::vector<std::vector<int>> simple_loops(const std::vector<int>& loop, const TriMesh& part, Pinches& pinches)
+{
+    std::map<Eigen::Vector3d, size_t, Before> open; // places of `rest` by their row
     std::vector<int> rest;
     std::vector<std::vector<int>> result;
     for (const int v : loop) {
         const auto [found, is_new] = open.try_emplace(part.position.col(v), rest.size());
         if (!is_new) {
+            pinches.insert(part.position.col(v));
             const size_t from = found->second;
             result.emplace_back(rest.begin() + long(from), rest.end());
             for (size_t i = from + 1; i < rest.size(); ++i)
@@ -91,6 +98,22 @@ Border border_of(const std::vector<int>& loop, const TriMesh& part, const Surfac
     for (int i = 0; i < border.size(); ++i)
         border.corner.push_back(turning(border, i) > corner);
     return border;
+}
+
+/// Where a hole is pinched to a point the loops on both sides of it end this much before it, mm: CAD kernels take no face whose
+/// inner borders touch.
+constexpr double parted = 1e-3;
+
+void part_at_pinches(Border& border, const Pinches& pinches)
+{
+    for (int i = 0; i < border.size(); ++i) {
+        if (!pinches.contains(border.place.col(i)))
+            continue;
+        const int before = (i + border.size() - 1) % border.size(), after = border.next(i);
+        const Eigen::Vector3d inwards = (border.place.col(before) + border.place.col(after)) / 2 - border.place.col(i);
+        const Eigen::Vector2d way = (border.uv.col(before) + border.uv.col(after)) / 2 - border.uv.col(i);
+        border.uv.col(i) += std::min(parted / inwards.norm(), 0.5) * way;
+    }
 }
 
 /// Where curves begin: at the corners, or at two opposite vertices, for no curve is closed by itself.
@@ -257,10 +280,11 @@ TrimResult trim_holes(const TriMesh& part, int outer, const NurbsSurface& surfac
     if (!(options.tolerance > 0) || !(options.corner > 0))
         throw InputError("the tolerance of trimming curves and the angle of their corners must be above 0");
     TrimResult result;
+    Pinches pinches;
     std::vector<std::vector<int>> loops;
     for (const std::vector<int>& loop : boundary_loops(part))
         if (std::find(loop.begin(), loop.end(), outer) == loop.end())
-            for (std::vector<int>& simple : simple_loops(loop, part))
+            for (std::vector<int>& simple : simple_loops(loop, part, pinches))
                 loops.push_back(std::move(simple));
     if (loops.empty())
         return result;
@@ -268,7 +292,8 @@ TrimResult trim_holes(const TriMesh& part, int outer, const NurbsSurface& surfac
     std::vector<int> first_vertex;
     for (size_t k = 0; k < loops.size(); ++k) {
         progress.checkpoint(double(k) / double(loops.size()), "trimming the surface at the holes");
-        const Border border = border_of(loops[k], part, projection, options.corner);
+        Border border = border_of(loops[k], part, projection, options.corner);
+        part_at_pinches(border, pinches);
         const std::vector<int> start = starts(border);
         TrimLoop loop;
         for (size_t s = 0; s < start.size(); ++s) {

@@ -39,7 +39,8 @@ struct TrimResult {
 
 /// The holes of a part as curves in the parameters of a surface that covers them. The vertices of a hole's border are projected on
 /// the surface; between corners a least squares cubic goes through them within the tolerance, else straight lines in (u, v)
-/// from foot to foot. A border that is pinched to a point becomes a loop on either side of it. Loops that reach the border of the
+/// from foot to foot. A border that is pinched to a point becomes a loop on either side
+/// of it, 0.001 mm before it. Loops that reach the border of the
 /// surface, cross themselves or others are left out (exact test of 8 chords per span); they may touch.
 /// @param outer  a vertex of the part on the border of the surface: its loop is no hole
 /// @throws InputError  if an option is not positive

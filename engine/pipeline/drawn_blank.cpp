@@ -134,29 +134,32 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
     const std::vector<int> known = table ? in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
-        if (known[k] >= 0 && !table->bends[size_t(known[k])].line.empty()) {
-            drawing.bends.push_back(drawn_bend(table->bends[size_t(known[k])], map.name(int(map.regions.size() + k))));
-            continue;
-        }
+        const SheetBend* stated =
+            known[k] >= 0 && !table->bends[size_t(known[k])].line.empty() ? &table->bends[size_t(known[k])] : nullptr;
+        const std::string name = map.name(int(map.regions.size() + k));
         DrawnBend drawn;
-        drawn.name = map.name(int(map.regions.size() + k));
-        drawn.angle = std::abs(bend.angle);
-        const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the legs go down
-        drawn.up = !bulges;
-        drawn.k = depth_of(part, bulges);
-        drawn.inner_radius = bend.faces > 0 ? std::max(bend.radius - drawn.k * thickness_at(map, k, face), 0.) : 0;
-        for (const SheetLine& line : lines)
-            if (line.name == drawn.name)
-                drawn.middle.push_back(flat_points(line));
-            else if (line.name.starts_with(drawn.name + ","))
-                drawn.zone.push_back(flat_points(line));
-        const bool straight = straighten(bend, drawn.middle);
-        if (straight)
-            for (Eigen::Matrix2Xd& line : drawn.zone) {
-                std::vector<Eigen::Matrix2Xd> alone = {line};
-                if (straighten(bend, alone))
-                    line = alone.front();
-            }
+        if (stated)
+            drawn = drawn_bend(*stated, name);
+        else {
+            drawn.name = name;
+            drawn.angle = std::abs(bend.angle);
+            const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the legs go down
+            drawn.up = !bulges;
+            drawn.k = depth_of(part, bulges);
+            drawn.inner_radius = bend.faces > 0 ? std::max(bend.radius - drawn.k * thickness_at(map, k, face), 0.) : 0;
+            for (const SheetLine& line : lines)
+                if (line.name == name)
+                    drawn.middle.push_back(flat_points(line));
+        }
+        const bool straight = stated || straighten(bend, drawn.middle);
+        if (drawn.zone.empty())
+            for (const SheetLine& line : lines)
+                if (line.name.starts_with(name + ",")) {
+                    std::vector<Eigen::Matrix2Xd> alone = {flat_points(line)};
+                    if (straight)
+                        straighten(bend, alone);
+                    drawn.zone.push_back(alone.front());
+                }
         if (straight_only && (!straight || drawn.middle.empty()))
             continue;
         if (!drawn.middle.empty() || !drawn.zone.empty())

@@ -48,9 +48,15 @@ inline constexpr auto members_of<CsvTables> = std::tuple{
     member("fields", &CsvTables::fields), member("outline", &CsvTables::outline), member("faces", &CsvTables::faces)};
 
 template <>
+inline constexpr auto members_of<DxfOptions> =
+    std::tuple{member("unit", &DxfOptions::unit), member("version", &DxfOptions::version),
+               member("curves", &DxfOptions::curves), member("tolerance", &DxfOptions::tolerance, Between{1e-6, 1})};
+
+template <>
 inline constexpr auto members_of<OutputOptions> =
     std::tuple{member("unit", &OutputOptions::unit), member("name", &OutputOptions::name),
-               member("glb", &OutputOptions::glb), member("csv", &OutputOptions::csv)};
+               member("glb", &OutputOptions::glb), member("csv", &OutputOptions::csv),
+               member("dxf", &OutputOptions::dxf)};
 
 template <>
 inline constexpr auto members_of<ReportTables> =

@@ -107,6 +107,13 @@ inline constexpr std::array names_of<LengthUnit>{
     Names<LengthUnit>{LengthUnit::mm, "mm"}, Names<LengthUnit>{LengthUnit::cm, "cm"},
     Names<LengthUnit>{LengthUnit::m, "m"}, Names<LengthUnit>{LengthUnit::inch, "inch"}};
 template <>
+inline constexpr std::array names_of<DxfVersion>{Names<DxfVersion>{DxfVersion::r12, "r12"},
+                                                 Names<DxfVersion>{DxfVersion::r2000, "r2000"}};
+template <>
+inline constexpr std::array names_of<DxfCurves>{Names<DxfCurves>{DxfCurves::arcs, "arcs"},
+                                                Names<DxfCurves>{DxfCurves::polylines, "polylines"},
+                                                Names<DxfCurves>{DxfCurves::splines, "splines"}};
+template <>
 inline constexpr std::array names_of<SeamOptions::Mode>{
     Names<SeamOptions::Mode>{SeamOptions::Mode::automatic, "automatic"},
     Names<SeamOptions::Mode>{SeamOptions::Mode::none, "none"},

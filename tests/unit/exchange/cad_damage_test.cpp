@@ -30,7 +30,7 @@ struct CadDamageTest : testing::Test {
     }
     std::string box()
     {
-        write_box(file, 30, 20, 10);
+        write_box(file, 30, 30, 30); // no sheet
         return file_content(file);
     }
 
@@ -95,7 +95,7 @@ TEST_F(CadDamageTest, TheDegreeOfCreoIsTakenWithANote)
 
 TEST_F(CadDamageTest, AnUnitOfAnglesWithoutItsSizeCountsWhereThereAreAngles)
 {
-    EXPECT_NEAR(area(read(in_degrees(box(), "*", "$")).mesh), 2 * (600 + 300 + 200), 1e-9);
+    EXPECT_NEAR(area(read(in_degrees(box(), "*", "$")).mesh), 6 * 900, 1e-9);
     EXPECT_THAT(refusal(in_degrees(cone(), "*", "$")), HasSubstr("damaged"));
 }
 
@@ -114,7 +114,7 @@ TEST_F(CadDamageTest, AFaultInAColourIsPassedOver)
                                           "#90017 = COLOUR_RGB('',*,0.5,$);\n",
                                           face[1].str());
     const PartFile part = read(replaced(whole, "ENDSEC;\\s*END-ISO", style + "ENDSEC;\nEND-ISO"));
-    EXPECT_NEAR(area(part.mesh), 2 * (600 + 300 + 200), 1e-9);
+    EXPECT_NEAR(area(part.mesh), 6 * 900, 1e-9);
     EXPECT_TRUE(part.doctor.find(Fault::damaged_entity));
 }
 

@@ -218,8 +218,8 @@ TEST(AbaqusDeck, IsRefusedWithItsLineWhereItIsWrong)
     };
     expect("*NODE\n1,0,y,0\n", "line 2: 'y' is not a number");
     expect("*NODE, SYSTEM=S\n1,1,90,0\n", "line 1: nodes in spherical");
-    expect("*SYSTEM\n1,0,0,2,0,0\n3,0,0\n", "line 3: the points of *SYSTEM lie on a line");
-    expect("*SYSTEM\n1,0,0,1,0,5\n", "line 2: the points of *SYSTEM lie on a line");
+    expect("*SYSTEM\n1,0,0,2,0,0\n3,0,0\n*NODE\n", "line 4: the points of *SYSTEM lie on a line");
+    expect("*SYSTEM\n1,0,0,1,0,5\n*NODE\n", "line 3: the points of *SYSTEM lie on a line");
     expect("*ELEMENT\n1,1,2,3\n", "does not say which TYPE");
     expect(nodes + "*ELEMENT, TYPE=S4\n1,1,2,3\n*NODE\n", "element 1 of type S4 has 4 nodes, not 3");
     expect(nodes + "*ELEMENT, TYPE=S3\n1,1,2,3,4\n", "line 11: an element of type S3 has 3 nodes, not 4");

@@ -95,25 +95,6 @@ TEST(TrimmedFiles, OtherReadersFindTheHoles)
         EXPECT_NEAR(area_by_curves(folder / "cut.igs", curves_of), whole - cut, 2e-4 * whole) << curves_of;
 }
 
-TEST(TrimmedFiles, HolesMayTouchInAPoint)
-{
-    const ScratchFolder folder;
-    const std::vector<NurbsSurface> surface = {samples::curved_surface(80, true)};
-    write_step(folder / "whole.step", surface);
-    const double whole = read_back(folder / "whole.step").area;
-    const auto with = [&](std::initializer_list<Eigen::Vector2d> middles) {
-        std::vector<std::vector<TrimLoop>> holes(1);
-        for (const Eigen::Vector2d& middle : middles)
-            holes[0].push_back(polygon(4, middle, 0.125, 0.125));
-        write_step(folder / "cut.step", surface, "part", LengthUnit::mm, holes);
-        write_iges(folder / "cut.igs", surface, "part", LengthUnit::mm, holes);
-        const double area = read_back(folder / "cut.step").area;
-        EXPECT_NEAR(read_back(folder / "cut.igs").area, area, 1e-4 * whole);
-        return whole - area;
-    };
-    EXPECT_NEAR(with({{0.25, 0.5}, {0.5, 0.5}}), with({{0.25, 0.5}}) + with({{0.5, 0.5}}), 1e-4 * whole);
-}
-
 TEST(TrimmedFiles, WithoutHolesAreAsBefore)
 {
     const ScratchFolder folder;

@@ -167,9 +167,14 @@ TEST(Trim, AHolePinchedToAPointIsTrimmedOnBothSidesOfIt)
         const TrimResult trim = trim_holes(examination.mesh, 0, plane(60, 60));
         EXPECT_TRUE(trim.left_filled.empty());
         ASSERT_EQ(trim.loop.size(), middle ? 3u : 2u);
+        double apart = 1; // of corners of two loops
+        for (const PlaneCurve& a : trim.loop[0])
+            for (const PlaneCurve& b : trim.loop[1])
+                apart = std::min(apart, (a.control.col(0) - b.control.col(0)).norm() * 60);
+        EXPECT_NEAR(apart, 0.002, 1e-6) << "CAD kernels take no borders that touch";
         for (const TrimLoop& loop : trim.loop) {
             expect_closed(loop);
-            EXPECT_NEAR(area_of(loop, 60, 60), -100, 1e-6);
+            EXPECT_NEAR(area_of(loop, 60, 60), -100, 0.05);
         }
     }
 }

@@ -130,11 +130,10 @@ TEST_F(CornerChoice, FourVerticesOfTheOutlineBecomeTheCornersInTheirOrder)
     EXPECT_EQ(std::vector<int>(corner.begin(), corner.end()), chosen);
     EXPECT_FALSE(first_stale(document));
 
-    int inside = 0;
-    while (std::abs(plane.col(inside).norm()) > 0.5 * plane.col(chosen[0]).norm())
-        ++inside;
+    Eigen::Index inside = 0; // the vertex that is nearest to the middle
+    (plane.colwise() - Eigen::Vector2d(plane.rowwise().mean())).colwise().norm().minCoeff(&inside);
     const auto before = document.session.options.corners;
-    model.apply(SelectVertices{{chosen[0], chosen[1], chosen[2], inside}});
+    model.apply(SelectVertices{{chosen[0], chosen[1], chosen[2], int(inside)}});
     model.apply(UseVerticesAsCorners{});
     EXPECT_TRUE(says(Severity::error, fmt::format("Vertex {} is not on the outer outline",
                                                   document.session.part->source_vertex[size_t(inside)])));
