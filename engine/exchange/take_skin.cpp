@@ -327,6 +327,15 @@ SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, Skin& wanted, bool 
     }
 }
 
+/// A solid whose file says that it is one may still be a block.
+void doubt_block(PartFile& part, const ThinSolid& sheet)
+{
+    if (sheet_or_hollow(sheet) == ClosedSurface::perhaps_hollow)
+        doubt(part, fmt::format("the solid is {:.2g} times as thick as it is wide, which is more like a block than a "
+                                "sheet; it is taken as sheet {:.6g} mm thick",
+                                proportion(sheet), sheet.thickness));
+}
+
 void note_skin(PartFile& part)
 {
     const SolidOrigin& solid = *part.solid;
@@ -366,6 +375,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
                 put_back(part, *marked);
             return false;
         }
+        if (solid && !open && !options.skin)
+            doubt_block(part, sheet);
         const ThinSolidOptions units = faces_of(part, normals);
         if (part.cad && !part.cad->surface.empty())
             sheet.thickness = thickness_of(part, sheet);

@@ -11,6 +11,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 #include "tests/support/sheet_solid.h"
+#include "tests/unit/exchange/sample_solids.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -239,6 +240,19 @@ TEST(RealSolidFile, HeatSinkOfSeveralThicknessesIsRefused)
         FAIL() << "it has no single thickness";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("CAD face"), std::string::npos) << error.what();
+    }
+}
+
+TEST(SolidBlock, IsTakenWithADoubt)
+{
+    const ScratchFolder folder;
+    for (const auto& [height, doubted] : {std::pair(10., true), {2., false}}) {
+        write_box(folder / "block.step", 30, 20, height);
+        const PartFile part = examine_part(folder / "block.step");
+        ASSERT_TRUE(part.solid) << height;
+        EXPECT_EQ(part.thickness_mm, height);
+        EXPECT_EQ(part.doubts.size(), doubted ? 1u : 0u) << height;
+        EXPECT_TRUE(examine_part(folder / "block.step", {.skin = Skin::middle}).doubts.empty()) << "asked for";
     }
 }
 
