@@ -21,10 +21,10 @@
 #include <StepRepr_RepresentationRelationship.hxx>
 #include <StepShape_ShapeRepresentation.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
-#include <TColStd_HSequenceOfTransient.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <XSControl_WorkSession.hxx>
-#include <set>
+
+#include "engine/exchange/cad_holders.h"
 
 namespace spia {
 namespace {
@@ -84,21 +84,13 @@ bool needed(const Handle(Standard_Transient) & faulty, const XSControl_Reader& r
         return true;
     if (is_of_angles(*faulty) && !has_its_factor(*faulty) && has_angles(*read.Model()))
         return true;
-    std::set<const Standard_Transient*> seen = {faulty.get()};
-    std::vector<Handle(Standard_Transient)> open = {faulty};
-    while (!open.empty()) {
-        const Handle(TColStd_HSequenceOfTransient) holders = read.WS()->Sharings(open.back());
-        open.pop_back();
-        for (int i = 1; !holders.IsNull() && i <= holders->Length(); ++i) {
-            const Handle(Standard_Transient)& holder = holders->Value(i);
-            if (holder->IsKind(STANDARD_TYPE(StepRepr_RepresentationContext)) || !seen.insert(holder.get()).second)
-                continue;
-            if (makes_shapes(*holder) || is_of_lengths(*holder))
-                return true;
-            open.push_back(holder);
-        }
-    }
-    return false;
+    bool found = false;
+    climb_to_holders(faulty, read, [&](const Handle(Standard_Transient) & holder) {
+        const bool context = holder->IsKind(STANDARD_TYPE(StepRepr_RepresentationContext)); // all shapes have one
+        found = found || (!context && (makes_shapes(*holder) || is_of_lengths(*holder)));
+        return !found && !context;
+    });
+    return found;
 }
 
 } // namespace

@@ -6,7 +6,6 @@
 #include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_SolidModel.hxx>
-#include <TColStd_HSequenceOfTransient.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TransferBRep.hxx>
@@ -18,6 +17,8 @@
 #include <array>
 #include <map>
 #include <set>
+
+#include "engine/exchange/cad_holders.h"
 
 namespace spia {
 namespace {
@@ -72,23 +73,14 @@ std::vector<int> faces_beside(const Handle(Standard_Transient) & lost, const XSC
 {
     const Handle(Transfer_TransientProcess) process = read.WS()->TransferReader()->TransientProcess();
     std::set<int> faces;
-    std::set<const Standard_Transient*> seen = {lost.get()};
-    std::vector<Handle(Standard_Transient)> open = {lost};
-    while (!open.empty()) {
-        const Handle(TColStd_HSequenceOfTransient) holders = read.WS()->Sharings(open.back());
-        open.pop_back();
-        for (int i = 1; !holders.IsNull() && i <= holders->Length(); ++i) {
-            const Handle(Standard_Transient)& holder = holders->Value(i);
-            if (!seen.insert(holder.get()).second)
-                continue;
-            std::set<int> held;
-            if (const TopoDS_Shape shape = made_of(process, holder); !shape.IsNull())
-                numbers.add(shape, held);
-            if (held.empty())
-                open.push_back(holder);
-            faces.merge(held);
-        }
-    }
+    climb_to_holders(lost, read, [&](const Handle(Standard_Transient) & holder) {
+        std::set<int> held;
+        if (const TopoDS_Shape shape = made_of(process, holder); !shape.IsNull())
+            numbers.add(shape, held);
+        const bool none = held.empty();
+        faces.merge(held);
+        return none;
+    });
     return {faces.begin(), faces.end()};
 }
 

@@ -7,24 +7,12 @@
 #include <numeric>
 
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/face_neighbours.h"
 
 namespace spia {
 namespace {
 
 constexpr double radians = 3.14159265358979323846 / 180;
-
-/// Across the edge from corner k to the next one; -1: none.
-Eigen::Matrix3Xi neighbours(const TriMesh& mesh, const std::vector<EdgeUse>& uses)
-{
-    Eigen::Matrix3Xi neighbour = Eigen::Matrix3Xi::Constant(3, mesh.triangles(), -1);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end != begin + 2)
-            return;
-        neighbour(uses[begin].corner, uses[begin].face) = uses[begin + 1].face;
-        neighbour(uses[begin + 1].corner, uses[begin + 1].face) = uses[begin].face;
-    });
-    return neighbour;
-}
 
 /// From the largest triangle on, all that can be reached over triangles with nearly its normal.
 std::vector<int> grown_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour)
@@ -65,7 +53,7 @@ SurfacePieces surface_pieces(const TriMesh& mesh, const Eigen::Matrix3Xd& normal
     const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
     SurfacePieces result;
     if (unit.empty())
-        result.piece = grown_pieces(mesh, normal, neighbours(mesh, uses));
+        result.piece = grown_pieces(mesh, normal, face_neighbours(mesh.triangles(), uses));
     else {
         std::map<int, int> number;
         for (const int u : unit)

@@ -10,27 +10,13 @@
 #include <set>
 
 #include "engine/mesh/disjoint_sets.h"
-#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// Across each edge of a face; -1: none.
-Eigen::Matrix3Xi neighbours(const TriMesh& mesh)
-{
-    Eigen::Matrix3Xi result = Eigen::Matrix3Xi::Constant(3, mesh.triangles(), -1);
-    const std::vector<EdgeUse> uses = edge_uses(mesh.triangle);
-    for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end != begin + 2)
-            return;
-        result(uses[begin].corner, uses[begin].face) = uses[begin + 1].face;
-        result(uses[begin + 1].corner, uses[begin + 1].face) = uses[begin].face;
-    });
-    return result;
-}
 
 /// Unit vectors across the axis, right-handed with it.
 Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis)
@@ -246,7 +232,7 @@ void join_pieces(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, std::ve
 
 std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface)
 {
-    const Eigen::Matrix3Xi neighbour = neighbours(part);
+    const Eigen::Matrix3Xi neighbour = face_neighbours(part.triangles(), edge_uses(part.triangle));
     const Eigen::Matrix3Xd normal = area_vectors(part);
     DisjointSets together(size_t(part.triangles()));
     for (int f = 0; f < part.triangles(); ++f)
@@ -290,7 +276,7 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
 std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map)
 {
     constexpr double most_off = 2e-3; // of the radius: vertices of meshes are rounded
-    const Eigen::Matrix3Xi neighbour = neighbours(part);
+    const Eigen::Matrix3Xi neighbour = face_neighbours(part.triangles(), edge_uses(part.triangle));
     const Eigen::Matrix3Xd normal = area_vectors(part);
     std::vector<BendZone> zones;
     std::vector<char> taken(size_t(part.triangles()), 0);

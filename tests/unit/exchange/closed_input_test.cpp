@@ -13,6 +13,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/exchange/examined_mesh.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -140,23 +141,6 @@ std::vector<std::pair<std::string, TriMesh>> hollow_bodies(int around, int divis
     for (int i = 0; i <= 10; ++i)
         lens.emplace_back(i == 0 || i == 10 ? 0 : a * std::sin(pi / 10 * i), -0.3 * a * std::cos(pi / 10 * i));
     add("lens", shapes::turned(lens, around));
-    return result;
-}
-
-PartFile examined(const TriMesh& mesh, std::optional<Skin> skin = {})
-{
-    ReadOptions options;
-    options.skin = skin;
-    return examine_soup(shapes::soup_of(mesh), options);
-}
-
-std::string words_of(const PartFile& part)
-{
-    std::string result;
-    for (const std::string& note : part.notes)
-        result += note + "\n";
-    for (const Finding& finding : part.doctor.findings)
-        result += finding.text + "\n";
     return result;
 }
 

@@ -13,6 +13,7 @@
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
 #include "tests/support/sheet_solid.h"
+#include "tests/unit/exchange/examined_mesh.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -60,23 +61,6 @@ TriMesh marked(const BentSheet& sheet, const TriMesh& solid, const Where& where,
 Where box(double x0, double x1, double y0, double y1, double z0 = -1e9)
 {
     return [=](const Eigen::Vector3d& p) { return p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1 && p.z() > z0; };
-}
-
-PartFile examined(const TriMesh& mesh, Skin skin)
-{
-    ReadOptions options;
-    options.skin = skin;
-    return examine_soup(shapes::soup_of(mesh), options);
-}
-
-std::string words_of(const PartFile& part)
-{
-    std::string result;
-    for (const std::string& note : part.notes)
-        result += note + "\n";
-    for (const Finding& finding : part.doctor.findings)
-        result += finding.text + "\n";
-    return result;
 }
 
 /// The part with marks is the one without.

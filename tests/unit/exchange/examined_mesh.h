@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "engine/exchange/read_part.h"
+#include "tests/support/plane_faces.h"
+
+namespace spia {
+
+/// A closed mesh as if a file held it.
+inline PartFile examined(const TriMesh& mesh, std::optional<Skin> skin = {})
+{
+    ReadOptions options;
+    options.skin = skin;
+    return examine_soup(shapes::soup_of(mesh), options);
+}
+
+/// All that is said of a part, a line each.
+inline std::string words_of(const PartFile& part)
+{
+    std::string result;
+    for (const std::string& note : part.notes)
+        result += note + "\n";
+    for (const Finding& finding : part.doctor.findings)
+        result += finding.text + "\n";
+    return result;
+}
+
+} // namespace spia
