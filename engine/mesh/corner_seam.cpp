@@ -18,14 +18,12 @@ std::optional<CornerSeam> corner_seam(const TriMesh& part)
     constexpr size_t most = 64;
     const Eigen::VectorXd defect = angle_defects(part);
     CornerSeam seam;
-    double elsewhere = 0;
     for (int v = 0; v < part.vertices(); ++v)
         if (std::abs(defect[v]) > corner) {
             seam.corner.push_back(v);
             seam.defect = std::max(seam.defect, std::abs(defect[v]));
-        } else
-            elsewhere += std::abs(defect[v]);
-    if (seam.corner.empty() || seam.corner.size() > most || elsewhere > unrolls)
+        }
+    if (seam.corner.empty() || seam.corner.size() > most)
         return std::nullopt;
     const EdgeGraph graph = edge_graph(part);
     std::vector<int> rim;

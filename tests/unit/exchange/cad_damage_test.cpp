@@ -126,6 +126,22 @@ TEST_F(CadDamageTest, AFaultInAPointOrInTheUnitOfLengthsRefusesTheFile)
                 HasSubstr("damaged"));
 }
 
+TEST_F(CadDamageTest, AFaultInWhatAUnitOfLengthsRefersToRefusesTheFile)
+{
+    const auto in_doubles = [&](const std::string& exponents) {
+        return replaced(
+            box(), "(#\\d+) = \\( *LENGTH_UNIT\\(\\) *NAMED_UNIT\\(\\*\\) *SI_UNIT\\(\\.MILLI\\.,\\.METRE\\.\\) *\\);",
+            "#90000 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\n"
+            "#90001 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.),#90000);\n"
+            "#90002 = DIMENSIONAL_EXPONENTS(" +
+                exponents +
+                ",0.,0.,0.,0.,0.,0.);\n"
+                "$1 = ( CONVERSION_BASED_UNIT('DOUBLE',#90001) LENGTH_UNIT() NAMED_UNIT(#90002) );");
+    };
+    EXPECT_NEAR(area(read(in_doubles("1.")).mesh), 6 * 900 * 4, 1e-6);
+    EXPECT_THAT(refusal(in_doubles("'one'")), HasSubstr("damaged"));
+}
+
 TEST_F(CadDamageTest, ASolidWithSuchAUnitIsThatWithAWholeOne)
 {
     const fs::path cases = fs::path(SPIA_SOURCE_DIR) / "../shared/cases";

@@ -82,7 +82,8 @@ TEST(CornerSeam, WhatUnrollsOrIsCurvedAllOverHasNone)
     EXPECT_FALSE(corner_seam(shapes::perforated_channel().mesh));
     EXPECT_FALSE(corner_seam(shapes::dome({.triangles = 3000}).mesh));
     EXPECT_FALSE(corner_seam(shapes::round_cup()));
-    EXPECT_FALSE(corner_seam(shapes::noisy(shapes::lipped_box(), 0.5))) << "it would not unroll";
+    EXPECT_FALSE(corner_seam(shapes::noisy(shapes::lipped_box(), 0.5))) << "too many corners";
+    EXPECT_FALSE(corner_seam(shapes::noisy(shapes::lipped_box(), 0.03))) << "four corners, but it would not unroll";
 }
 
 } // namespace spia
