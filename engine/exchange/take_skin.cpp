@@ -27,6 +27,13 @@ enum class Claim {
     stated    ///< by the file, by the user, or it is so thin that nothing else can be meant
 };
 
+/// Shells of a section are sheet themselves; those that a mesher made of a solid's surface have none.
+bool shells_have_a_thickness(const DeckOrigin& deck)
+{
+    return std::any_of(deck.part_of.begin(), deck.part_of.end(),
+                       [&](int p) { return deck.parts[size_t(p)].thickness.has_value(); });
+}
+
 Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
 {
     const DoctorReport& report = part.doctor;
@@ -37,7 +44,7 @@ Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
         return Claim::none;
     if (options.skin)
         return Claim::stated;
-    if (part.deck) // shells have a thickness already
+    if (part.deck && shells_have_a_thickness(*part.deck))
         return Claim::none;
     if (options.seam.mode == SeamOptions::Mode::given) // of a skin of a solid, else a hollow body's
         return solid ? Claim::measured : Claim::none;

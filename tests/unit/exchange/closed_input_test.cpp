@@ -9,11 +9,12 @@
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/lots.h"
-#include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/examined_mesh.h"
+#include "tests/unit/exchange/sample_compressed.h"
+#include "tests/unit/exchange/sample_meshes.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -210,24 +211,117 @@ TEST(ClosedInput, SaysWhatItIsNotSureOf)
     EXPECT_TRUE(asked.doubts.empty());
 }
 
-class ClosedFile : public testing::TestWithParam<const char*> {
+/// A format and who writes it.
+struct Written {
+    const char* name; ///< of the test and, up to "_", after it the ending of the file
+    std::string (*content)(const TriMesh&);
+};
+
+std::ostream& operator<<(std::ostream& out, const Written& written) { return out << written.name; }
+
+std::string glb_of(const TriMesh& mesh)
+{
+    std::string bytes;
+    for (int v = 0; v < mesh.vertices(); ++v)
+        for (int k = 0; k < 3; ++k)
+            sample::append(bytes, float(mesh.position(k, v)));
+    for (int f = 0; f < mesh.triangles(); ++f)
+        for (int k = 0; k < 3; ++k)
+            sample::append(bytes, uint32_t(mesh.triangle(k, f)));
+    const int places = 12 * mesh.vertices(), corners = 12 * mesh.triangles();
+    return sample::glb(fmt::format(
+                           R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}},
+                         {{"bufferView":1,"componentType":5125,"count":{},"type":"SCALAR"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":{}}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],
+            "buffers":[{{"byteLength":{}}}]}})",
+                           mesh.vertices(), 3 * mesh.triangles(), places, places, corners, places + corners),
+                       bytes);
+}
+
+std::string gmsh_of(const TriMesh& mesh)
+{
+    std::string text = fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", mesh.vertices());
+    for (int v = 0; v < mesh.vertices(); ++v)
+        text += fmt::format("{} {} {} {}\n", v + 1, mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
+    text += fmt::format("$EndNodes\n$Elements\n{}\n", mesh.triangles());
+    for (int f = 0; f < mesh.triangles(); ++f)
+        text += fmt::format("{} 2 2 1 1 {} {} {}\n", f + 1, mesh.triangle(0, f) + 1, mesh.triangle(1, f) + 1,
+                            mesh.triangle(2, f) + 1);
+    return text + "$EndElements\n";
+}
+
+std::string abaqus_of(const TriMesh& mesh)
+{
+    std::string text = "*NODE\n";
+    for (int v = 0; v < mesh.vertices(); ++v)
+        text += fmt::format("{}, {}, {}, {}\n", v + 1, mesh.position(0, v), mesh.position(1, v), mesh.position(2, v));
+    text += "*ELEMENT, TYPE=S3, ELSET=SKIN\n";
+    for (int f = 0; f < mesh.triangles(); ++f)
+        text += fmt::format("{}, {}, {}, {}\n", f + 1, mesh.triangle(0, f) + 1, mesh.triangle(1, f) + 1,
+                            mesh.triangle(2, f) + 1);
+    return text;
+}
+
+class ClosedFile : public testing::TestWithParam<Written> {
 protected:
+    PartFile read(const TriMesh& mesh)
+    {
+        const std::string name = GetParam().name;
+        const std::filesystem::path file = folder_ / ("part." + name.substr(0, name.find('_')));
+        put(file, GetParam().content(mesh));
+        ReadOptions options;
+        options.unit = LengthUnit::mm;
+        return read_part(file, options);
+    }
+
+private:
     ScratchFolder folder_;
 };
 
-TEST_P(ClosedFile, OfEveryFormatIsMeasured)
+TEST_P(ClosedFile, OfSheetHasItsThicknessAndAHollowBodyHasNone)
 {
-    const TriMesh mesh = shapes::extruded(shapes::sheet_section({flat(22), bend(3, pi / 2), flat(37)}, 2, 6), {}, 30);
-    const std::filesystem::path file = folder_ / (std::string("bracket.") + GetParam());
-    shapes::write_mesh(file, mesh);
-    ReadOptions options;
-    options.unit = LengthUnit::mm;
-    const PartFile part = read_part(file, options);
-    ASSERT_TRUE(part.solid) << words_of(part);
-    EXPECT_NEAR(part.solid->thickness, 2, 2e-5) << "single precision";
+    for (const double t : {0.8, 2., 7.}) {
+        SCOPED_TRACE(t);
+        const PartFile part =
+            read(shapes::extruded(shapes::sheet_section({flat(22), bend(3, pi / 2), flat(37)}, t, 6), {}, 30));
+        ASSERT_TRUE(part.solid) << words_of(part);
+        EXPECT_NEAR(part.solid->thickness, t, 2e-5) << "single precision";
+        EXPECT_EQ(part.doctor.boundary_loops, 1) << "one surface of it, not both";
+    }
+    const PartFile body = read(shapes::extruded({{0, 0}, {30, 0}, {30, 40}, {0, 40}}, {}, 50));
+    EXPECT_FALSE(body.solid) << words_of(body);
+    EXPECT_FALSE(body.seam.empty()) << "it is cut open";
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ClosedFile, testing::Values("stl", "obj"));
+INSTANTIATE_TEST_SUITE_P(
+    Formats, ClosedFile,
+    testing::Values(Written{"stl_text", sample::stl_text}, Written{"stl_binary", sample::stl_binary},
+                    Written{"obj", sample::obj_text}, Written{"off", sample::off_text},
+                    Written{"ply_text", sample::ply_text},
+                    Written{"ply_little", [](const TriMesh& m) { return sample::ply_binary(m, false); }},
+                    Written{"ply_big", [](const TriMesh& m) { return sample::ply_binary(m, true); }},
+                    Written{"glb_plain", glb_of},
+                    Written{"glb_meshopt", [](const TriMesh& m) { return sample::glb_by_meshopt(m); }},
+                    Written{"glb_draco", [](const TriMesh& m) { return sample::glb_by_draco(m); }},
+                    Written{"msh", gmsh_of}, Written{"inp", abaqus_of}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+TEST(ClosedDeck, OfShellsWithAThicknessIsAHollowBody)
+{
+    const ScratchFolder folder;
+    const TriMesh mesh = shapes::extruded({{0, 0}, {60, 0}, {60, 40}, {0, 40}}, {}, 2);
+    const std::string deck = abaqus_of(mesh);
+    put(folder / "plate.inp", deck);
+    put(folder / "box.inp", deck + "*MATERIAL, NAME=STEEL\n*SHELL SECTION, ELSET=SKIN, MATERIAL=STEEL\n0.7\n");
+    const PartFile plate = read_part(folder / "plate.inp"), box = read_part(folder / "box.inp");
+    ASSERT_TRUE(plate.solid);
+    EXPECT_NEAR(plate.solid->thickness, 2, 1e-12);
+    EXPECT_FALSE(box.solid) << words_of(box);
+    EXPECT_EQ(box.thickness_mm, 0.7);
+    EXPECT_FALSE(box.seam.empty());
+}
 
 // ../shared/cases, K2.
 TEST(SharedCases, SheetsWithoutACadSolidHaveTheirThickness)
