@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/exchange/blank_outline.h"
+#include "engine/exchange/outline_curves.h"
 
 namespace spia {
 
@@ -21,8 +22,10 @@ struct DrawnBend {
 /// All that is drawn of a blank, mm.
 struct BlankDrawing {
     std::vector<OutlineLoop> loops; ///< the outline, then the holes: blank_outline()
-    std::vector<DrawnBend> bends;
-    std::vector<Eigen::Matrix2Xd> marks; ///< what is scribed: lines of two points or more
+    std::vector<DrawnBend> bends = {};
+    std::vector<Eigen::Matrix2Xd> marks =
+        {}; ///< what is scribed: lines of two points or more; a closed one ends where it begins
+    std::vector<std::vector<StatedPiece>> stated = {}; ///< per loop what a CAD file says of it; empty: nothing of any
 };
 
 } // namespace spia

@@ -10,18 +10,26 @@
 
 namespace spia {
 
-std::vector<OutlineLoop> blank_outline(const TriMesh& part, const Blank& blank)
+std::vector<std::vector<int>> outline_vertices(const TriMesh& part, const Blank& blank)
 {
     require_blank_of(part, blank);
-    std::vector<OutlineLoop> loops;
-    for (const std::vector<int>& loop : boundary_loops(part))
-        loops.push_back(blank.position(Eigen::all, loop));
+    std::vector<std::vector<int>> loops = boundary_loops(part);
     if (loops.empty())
         throw InputError("the part has no boundary, so its blank has no outline");
-    const auto outer = std::max_element(loops.begin(), loops.end(), [](const OutlineLoop& a, const OutlineLoop& b) {
-        return std::abs(signed_area(a)) < std::abs(signed_area(b));
-    });
+    const auto size = [&](const std::vector<int>& loop) {
+        return std::abs(signed_area(blank.position(Eigen::all, loop)));
+    };
+    const auto outer =
+        std::max_element(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return size(a) < size(b); });
     std::rotate(loops.begin(), outer, outer + 1);
+    return loops;
+}
+
+std::vector<OutlineLoop> blank_outline(const TriMesh& part, const Blank& blank)
+{
+    std::vector<OutlineLoop> loops;
+    for (const std::vector<int>& loop : outline_vertices(part, blank))
+        loops.push_back(blank.position(Eigen::all, loop));
     return loops;
 }
 

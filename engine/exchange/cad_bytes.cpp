@@ -106,6 +106,8 @@ template <class Way, class Content> void all_members(Way& way, Content& cad)
     way.row(cad.doubled);
     way.row(cad.overlapping);
     way.row(cad.surface);
+    way.row(cad.curves.curve);
+    way.row(cad.curves.chord);
 }
 
 } // namespace

@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/exchange/cad_curves.h"
 #include "engine/exchange/cad_sewing.h"
 #include "engine/exchange/occt_progress.h"
 #include "engine/mesh/disjoint_sets.h"
@@ -84,6 +85,17 @@ public:
     }
     int node(size_t face, int number) { return same_.root(first_[face] + number - 1); } ///< number: from 1
     int nodes() const { return first_.back(); }
+
+    /// Calls visit(edge, its nodes in their order) for every edge that has any.
+    template <class Visit> void for_each_edge(const Visit& visit)
+    {
+        for (size_t e = 0; e < on_edge_.size(); ++e) {
+            std::vector<int> nodes = on_edge_[e];
+            for (int& node : nodes)
+                node = same_.root(node);
+            visit(TopoDS::Edge(edge_.FindKey(int(e) + 1)), nodes);
+        }
+    }
 
 private:
     std::vector<int> first_; ///< #faces + 1
@@ -162,6 +174,23 @@ std::vector<Eigen::Vector3f> node_normals(const TopoDS_Face& face, const Handle(
     return normal;
 }
 
+/// @param vertex  per node that of the soup, -1: none
+StatedCurves curves_of(SharedNodes& shared, const std::vector<int>& vertex)
+{
+    StatedCurves curves;
+    shared.for_each_edge([&](const TopoDS_Edge& edge, const std::vector<int>& nodes) {
+        const StatedCurve curve = stated_curve(edge);
+        if (curve.kind == StatedCurve::Kind::other)
+            return;
+        for (size_t k = 0; k + 1 < nodes.size(); ++k)
+            if (const int a = vertex[size_t(nodes[k])], b = vertex[size_t(nodes[k + 1])]; a >= 0 && b >= 0 && a != b)
+                curves.chord.push_back({std::min(a, b), std::max(a, b), int(curves.curve.size())});
+        curves.curve.push_back(curve);
+    });
+    std::sort(curves.chord.begin(), curves.chord.end());
+    return curves;
+}
+
 } // namespace
 
 FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, double angle, const Progress& progress)
@@ -198,6 +227,7 @@ FaceTriangles mesh_faces(std::span<const TopoDS_Face> faces, double deflection, 
                 {normal[size_t(node[0] - 1)], normal[size_t(node[1] - 1)], normal[size_t(node[2] - 1)]});
         }
     }
+    result.curves = curves_of(shared, vertex);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/core/progress.h"
 #include "engine/exchange/cad_options.h"
 #include "engine/mesh/soup.h"
+#include "engine/mesh/stated_curve.h"
 
 namespace spia {
 
@@ -15,6 +16,7 @@ struct FaceTriangles {
     std::vector<int> face;                              ///< per triangle: index of its face
     std::vector<std::array<Eigen::Vector3f, 3>> normal; ///< per triangle at its corners: of its face, to the side from
                                                         ///< which the triangle is counter-clockwise; zero at poles
+    StatedCurves curves;                                ///< of the edges of the faces; vertices of the soup
 };
 
 /// Triangulates faces and joins the triangles along the edges that faces share, by which point of the edge they have: no

@@ -44,18 +44,60 @@ public:
     std::optional<Circle> circle(const ArcLimits& limits) const
     {
         const Circle found = circle_through(loop_);
+        return is_circle(found, limits) ? std::optional(found) : std::nullopt;
+    }
+
+    /// Whether the points go once around it.
+    bool is_circle(const Circle& found, const ArcLimits& limits) const
+    {
         if (!(found.radius > 0) || !std::isfinite(found.radius))
-            return std::nullopt;
+            return false;
         double turned = 0;
         for (int k = 0; k < count_; ++k) {
             const Eigen::Vector2d a = at(k) - found.centre, b = at(k + 1) - found.centre;
             const double angle = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
             if (std::abs(a.norm() - found.radius) > limits.tolerance || std::abs(angle) > limits.chord ||
                 angle * turned < 0 || angle == 0)
-                return std::nullopt;
+                return false;
             turned += angle;
         }
-        return std::abs(std::abs(turned) - 2 * pi) < degree ? std::optional(found) : std::nullopt;
+        return std::abs(std::abs(turned) - 2 * pi) < degree;
+    }
+
+    void take_stated(const StatedPiece& stated)
+    {
+        OutlinePiece piece{stated.kind, stated.first, stated.edges};
+        double turn = 0;
+        for (int k = 0; k < stated.edges; ++k) {
+            const Eigen::Vector2d a = at(stated.first + k) - stated.centre,
+                                  b = at(stated.first + k + 1) - stated.centre;
+            turn += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+            taken_[size_t((stated.first + k) % count_)] = 1;
+        }
+        if (piece.kind == OutlinePiece::Kind::arc)
+            piece.bulge = std::tan(turn / 4);
+        found_.push_back(piece);
+    }
+
+    /// Lines that go on from one another become one, wherever in the loop.
+    /// @param pieces  all of them, in order
+    std::vector<OutlinePiece> joined(std::vector<OutlinePiece> pieces, double exact) const
+    {
+        std::vector<OutlinePiece> result;
+        const auto goes_on = [&](const OutlinePiece& a, const OutlinePiece& b) {
+            return a.kind == OutlinePiece::Kind::line && b.kind == a.kind && a.edges + b.edges < count_ &&
+                   line(a.first, a.edges + b.edges, exact);
+        };
+        for (const OutlinePiece& piece : pieces)
+            if (!result.empty() && goes_on(result.back(), piece))
+                result.back().edges += piece.edges;
+            else
+                result.push_back(piece);
+        if (result.size() > 2 && goes_on(result.back(), result.front())) {
+            result.back().edges += result.front().edges;
+            result.erase(result.begin());
+        }
+        return result;
     }
 
     /// Takes the runs of edges on an arc or a line that are not yet taken, each as long as it can be.
@@ -248,18 +290,31 @@ Eigen::Vector2d arc_centre(const Eigen::Vector2d& a, const Eigen::Vector2d& b, d
     return (a + b) / 2 + left * (1 - bulge * bulge) / (4 * bulge);
 }
 
-OutlineCurves find_curves(const OutlineLoop& loop, double exact, double tolerance)
+OutlineCurves find_curves(const OutlineLoop& loop, double exact, double tolerance, std::span<const StatedPiece> stated)
 {
     const ArcLimits sharp{exact, 35 * degree, 3}, loose{tolerance, 20 * degree, 5};
     OutlineCurves curves;
     Finder finder(loop);
-    for (const ArcLimits& limits : {sharp, loose})
-        if (const auto circle = finder.circle(limits)) {
-            curves.circle = true;
-            curves.centre = circle->centre;
-            curves.radius = circle->radius;
-            return curves;
-        }
+    const auto as_circle = [&](const Eigen::Vector2d& centre, double radius) {
+        curves.circle = true;
+        curves.centre = centre;
+        curves.radius = radius;
+        return curves;
+    };
+    int known = 0;
+    for (const StatedPiece& piece : stated)
+        known += piece.edges;
+    for (const StatedPiece& piece : stated) // all around, or of a hole that is round beyond what is stated, too
+        if (piece.kind == OutlinePiece::Kind::arc &&
+            (piece.edges == loop.cols() ||
+             (known < loop.cols() && finder.is_circle({piece.centre, piece.radius}, loose))))
+            return as_circle(piece.centre, piece.radius);
+    if (stated.empty())
+        for (const ArcLimits& limits : {sharp, loose})
+            if (const auto circle = finder.circle(limits))
+                return as_circle(circle->centre, circle->radius);
+    for (const StatedPiece& piece : stated)
+        finder.take_stated(piece);
     const ArcLimits* later = tolerance > exact ? &loose : nullptr;
     finder.take_arcs(sharp, later);
     finder.take_lines(exact, later);
@@ -267,7 +322,7 @@ OutlineCurves find_curves(const OutlineLoop& loop, double exact, double toleranc
         finder.take_arcs(loose);
         finder.take_lines(tolerance);
     }
-    curves.pieces = finder.pieces();
+    curves.pieces = stated.empty() ? finder.pieces() : finder.joined(finder.pieces(), exact);
     return curves;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "engine/exchange/blank_outline.h"
@@ -19,6 +20,15 @@ struct OutlinePiece {
     double bulge = 0; ///< of an arc: tangent of a quarter of its angle, positive counter-clockwise, as DXF counts
 };
 
+/// What a CAD file says of a run of edges of an outline.
+struct StatedPiece {
+    OutlinePiece::Kind kind;                          ///< line or arc
+    int first;                                        ///< point of the loop
+    int edges;                                        ///< all of the loop: a circle
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, of an arc; both ends are as far from it as the radius
+    double radius = 0;
+};
+
 /// What a closed polygon stands for.
 struct OutlineCurves {
     bool circle = false; ///< all of it is one; there are no pieces then
@@ -32,8 +42,11 @@ struct OutlineCurves {
 /// circle at most (20 where it is not exact): a polygon with eight corners is one, a circle of STL files has twelve chords or
 /// more. An arc has three chords or more (five where it is not exact), all of which turn the same way.
 /// The ends of pieces are points of the outline, so that the pieces join.
+/// What is stated comes first and is taken as it is, however many chords it has; lines are joined to those that go on from them.
 /// @param exact, tolerance  mm, largest distance of a point from its curve
-OutlineCurves find_curves(const OutlineLoop& loop, double exact, double tolerance);
+/// @param stated  no edge in two of them
+OutlineCurves find_curves(const OutlineLoop& loop, double exact, double tolerance,
+                          std::span<const StatedPiece> stated = {});
 
 /// Centre of the arc from a to b; its radius is the distance from either. @param bulge not 0
 Eigen::Vector2d arc_centre(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double bulge);

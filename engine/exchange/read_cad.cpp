@@ -138,6 +138,7 @@ CadContent content_of(CadShape& shape, const CadOptions& options, std::span<cons
     progress.checkpoint(0.95, "looking for overlapping faces");
     result.soup = std::move(mesh.soup);
     result.normal = std::move(mesh.normal);
+    result.curves = std::move(mesh.curves);
     std::vector<char> meshed(taken.size(), 0);
     for (const auto& [face, on] : sewn.doubles) {
         meshed[size_t(face)] = 1; // by the other

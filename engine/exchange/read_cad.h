@@ -13,6 +13,7 @@
 #include "engine/exchange/cad_tree.h"
 #include "engine/exchange/length_unit.h"
 #include "engine/mesh/soup.h"
+#include "engine/mesh/stated_curve.h"
 #include "engine/mesh/stated_surface.h"
 
 namespace spia {
@@ -58,6 +59,7 @@ struct CadContent {
     bool unmeshed_left_out = false;          ///< as was asked for
     std::vector<std::array<int, 2>> doubled; ///< faces that were left out, each with the one on which it lies
     std::vector<StatedSurface> surface;      ///< per face of the file: what it lies on; of faces not taken another kind
+    StatedCurves curves;                     ///< lines and circles of the edges of what was taken; vertices of the soup
     std::vector<int> overlapping; ///< faces at edges of three or more triangles, once points at one place are one
 };
 

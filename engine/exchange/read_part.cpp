@@ -261,6 +261,8 @@ PartFile examine_file(const fs::path& path, const ReadOptions& options, const Pr
         part.unit = options.unit.value_or(LengthUnit::mm);
         const CornerNormals normals(cad.soup, cad.normal);
         fill(part, cad.soup, options, true, cad.solid, &normals, progress.part(0.8, 1));
+        part.cad->curves = cad.curves;
+        part.cad->curves.renumber(part.same_as);
         report_cad(cad, part);
         return part;
     }

@@ -14,6 +14,7 @@
 #include "engine/mesh/cut.h"
 #include "engine/mesh/doctor.h"
 #include "engine/mesh/skin.h"
+#include "engine/mesh/stated_curve.h"
 #include "engine/mesh/stated_surface.h"
 #include "engine/mesh/tri_mesh.h"
 
@@ -61,6 +62,8 @@ struct CadOrigin {
     bool unit_stated = false;    ///< by the file; a unit given for it is refused
     CadTree tree = {};           ///< what the file holds
     std::vector<StatedSurface> surface = {}; ///< per CAD face of the file: the plane or cylinder it lies on
+    StatedCurves curves =
+        {}; ///< lines and circles of the edges; vertices are those of the file, also once it is remeshed
 };
 
 /// What a part that is one surface of a solid of sheet comes from.
@@ -72,6 +75,8 @@ struct SolidOrigin {
     double volume = 0;                               ///< mm3
     int faces = 0, outer_faces = 0, inner_faces = 0; ///< CAD faces, else faces of the file; all and of the skins
     bool open = false;                               ///< faces are missing
+    std::vector<Eigen::Matrix3Xd> marks =
+        {}; ///< outlines of marks that were passed over, mm, on the surface that was taken; a closed one ends where it begins
 };
 
 /// What a file holds, and what was done to it.

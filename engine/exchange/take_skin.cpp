@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/sheet_or_hollow.h"
 #include "engine/mesh/topology.h"
 
@@ -200,15 +201,16 @@ Finding finding_of(const std::vector<SheetMark>& marks, double thickness, const 
 }
 
 /// Measures the solid; its shallow marks are taken out of the part before.
-/// @param marked, found  set to the part as it was, and what was done to it, if it had marks
+/// @param marked, found, outlines  set to the part as it was, what was done to it, and of the marks, if it had any
 /// @throws NotASheet
 ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::optional<AsMarked>& marked,
-                            std::optional<Finding>& found, const Progress& progress)
+                            std::optional<Finding>& found, std::vector<MarkOutline>& outlines, const Progress& progress)
 {
     ThinSolid sheet = thin_solid(part.mesh, faces_of(part, normals), progress);
     if (sheet.marks.empty())
         return sheet;
     PlainSolid plain = without_marks(part.mesh, sheet);
+    outlines = mark_outlines(part.mesh, sheet, plain);
     found = finding_of(sheet.marks, sheet.thickness, part, sheet.side);
     std::vector<int> vertex, face;
     for (const int v : plain.source_vertex)
@@ -374,9 +376,10 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
     }
     std::optional<AsMarked> marked;
     std::optional<Finding> marks;
+    std::vector<MarkOutline> outlines;
     const int all_faces = faces(part, [](size_t) { return true; });
     try {
-        ThinSolid sheet = without_its_marks(part, normals, marked, marks, progress);
+        ThinSolid sheet = without_its_marks(part, normals, marked, marks, outlines, progress);
         if (claim == Claim::measured && !solid && !decide(part, sheet)) {
             if (marked)
                 put_back(part, *marked);
@@ -403,6 +406,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
                       faces(part, on(SheetSide::outer)),
                       faces(part, on(SheetSide::inner)),
                       open};
+        for (const MarkOutline& outline : outlines)
+            part.solid->marks.push_back(on_surface(outline, wanted, sheet.thickness));
         part.thickness_mm = sheet.thickness;
         replace_mesh(part, skin);
         note_skin(part);

@@ -168,12 +168,14 @@ void draw_points(Entities& draw, const char* layer, const OutlineLoop& loop, con
             draw.spline(layer, spline);
 }
 
-void draw_loop(Entities& draw, const char* layer, const OutlineLoop& loop, double size, const DxfOptions& options)
+void draw_loop(Entities& draw, const char* layer, const OutlineLoop& loop, std::span<const StatedPiece> stated,
+               double size, const DxfOptions& options)
 {
     constexpr double exact = 1e-6; // of the blank: places of CAD files and their blanks are as good
     if (options.curves == DxfCurves::polylines)
         return draw.polyline(layer, through(loop), true);
-    const OutlineCurves curves = find_curves(loop, std::min(exact * size, options.tolerance), options.tolerance);
+    const OutlineCurves curves =
+        find_curves(loop, std::min(exact * size, options.tolerance), options.tolerance, stated);
     if (curves.circle)
         return draw.circle(layer, curves.centre, curves.radius);
     const bool bare = std::any_of(curves.pieces.begin(), curves.pieces.end(),
@@ -256,6 +258,12 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double size, const DxfOpti
             draw.polyline("BEND_ZONE", through(line), false);
 }
 
+void draw_mark(Entities& draw, const Eigen::Matrix2Xd& mark)
+{
+    const bool closed = mark.cols() > 3 && mark.col(0) == mark.rightCols<1>();
+    draw.polyline("MARKS", through(closed ? mark.leftCols(mark.cols() - 1) : mark), closed);
+}
+
 void require_drawn(std::span<const Eigen::Matrix2Xd> lines, const std::string& what)
 {
     for (const Eigen::Matrix2Xd& line : lines)
@@ -267,6 +275,9 @@ void require_drawing(const BlankDrawing& drawing, const DxfOptions& options)
 {
     require_outline(drawing.loops);
     require_drawn(drawing.marks, "the marks");
+    if (!drawing.stated.empty() && drawing.stated.size() != drawing.loops.size())
+        throw InputError(fmt::format("there are {} loops of an outline, but curves for {}", drawing.loops.size(),
+                                     drawing.stated.size()));
     for (const DrawnBend& bend : drawing.bends) {
         require_drawn(bend.middle, bend.name);
         require_drawn(bend.zone, bend.name);
@@ -330,11 +341,12 @@ void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, c
     DxfText entities(options.version);
     Entities draw(entities, mm);
     for (size_t i = 0; i < loops.size(); ++i)
-        draw_loop(draw, i == 0 ? "OUTLINE" : "HOLES", loops[i], size, options);
+        draw_loop(draw, i == 0 ? "OUTLINE" : "HOLES", loops[i],
+                  drawing.stated.empty() ? std::span<const StatedPiece>() : drawing.stated[i], size, options);
     for (const DrawnBend& bend : drawing.bends)
         draw_bend(draw, bend, size, options);
     for (const Eigen::Matrix2Xd& mark : drawing.marks)
-        draw.polyline("MARKS", through(mark), false);
+        draw_mark(draw, mark);
     DxfText dxf(options.version);
     begin_dxf(dxf, {low / mm, high / mm, options.unit, layers_of(drawing), draw.next_handle()});
     dxf.append(entities);

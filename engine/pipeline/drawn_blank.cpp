@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 #include <map>
 
+#include "engine/pipeline/blank_marks.h"
+#include "engine/pipeline/stated_outline.h"
 #include "engine/unfold/sheet_lines.h"
 
 namespace spia {
@@ -128,7 +130,8 @@ std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vecto
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
                          bool straight_only, const BendTable* table)
 {
-    BlankDrawing drawing{blank_outline(part.mesh, blank), {}, {}};
+    BlankDrawing drawing = stated_outline(part, blank);
+    drawing.marks = marks_on_blank(part, blank);
     const std::vector<SheetLine> lines = bend_lines(part.mesh, map, blank.position);
     std::vector<char> taken;
     const std::vector<int> known = table ? in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);

@@ -4,6 +4,7 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
@@ -11,8 +12,11 @@
 #include <GC_MakeArcOfCircle.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Ax3.hxx>
+#include <gp_Circ.hxx>
 #include <numbers>
 #include <stdexcept>
 
@@ -63,6 +67,69 @@ bool clear(const BentSolid& solid)
     return true;
 }
 
+/// The outline of a cutout in its own plane, counter-clockwise.
+TopoDS_Wire outline_of(const Cutout& cutout, const gp_Ax2& frame)
+{
+    BRepBuilderAPI_MakeWire wire;
+    gp_Trsf to;
+    to.SetTransformation(gp_Ax3(frame), gp_Ax3());
+    const auto at = [&](double x, double y) { return gp_Pnt(x, y, 0).Transformed(to); };
+    const double r = cutout.radius, x = cutout.length / 2 - r, y = cutout.width / 2 - r;
+    if (x == 0 && y == 0) {
+        const gp_Circ circle(frame, r);
+        const int edges = cutout.halves ? 2 : 1;
+        for (int k = 0; k < edges; ++k)
+            wire.Add(BRepBuilderAPI_MakeEdge(circle, 2 * std::numbers::pi * k / edges,
+                                             2 * std::numbers::pi * (k + 1) / edges)
+                         .Edge());
+        return wire.Wire();
+    }
+    const double sign[4][2] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    for (int k = 0; k < 4; ++k) {
+        const double cx = sign[k][0] * x, cy = sign[k][1] * y, nx = sign[(k + 1) % 4][0] * x,
+                     ny = sign[(k + 1) % 4][1] * y, from = (k - 1) * std::numbers::pi / 2;
+        const auto on_arc = [&](double px, double py, double angle) {
+            return at(px + r * std::cos(angle), py + r * std::sin(angle));
+        };
+        const gp_Pnt a = on_arc(cx, cy, from), b = on_arc(cx, cy, from + std::numbers::pi / 2),
+                     c = on_arc(nx, ny, from + std::numbers::pi / 2);
+        if (r > 0)
+            wire.Add(
+                BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, on_arc(cx, cy, from + std::numbers::pi / 4), b).Value())
+                    .Edge());
+        if (b.Distance(c) > 0)
+            wire.Add(BRepBuilderAPI_MakeEdge(b, c).Edge());
+    }
+    return wire.Wire();
+}
+
+/// What is taken away.
+TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const Cutout& cutout)
+{
+    const Profile::Piece& leg = profile.pieces()[2 * size_t(cutout.leg)];
+    const double s = leg.from + cutout.centre.x(), h = heading(leg, s), t = solid.thickness;
+    const double bottom = cutout.depth > 0 ? t / 2 - cutout.depth : -t;
+    const gp_Vec along(std::cos(h), 0, std::sin(h)), out(-std::sin(h), 0, std::cos(h)), y(0, 1, 0);
+    const gp_Vec turned = along * std::cos(cutout.turn) + y * std::sin(cutout.turn);
+    const gp_Pnt from = beside(profile, leg, s, bottom).Translated(y * cutout.centre.y());
+    const gp_Ax2 frame(from, gp_Dir(along.Crossed(y)), gp_Dir(turned));
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline_of(cutout, frame), true).Face(),
+                                 out * (2 * t - bottom))
+        .Shape();
+}
+
+gp_Trsf pose(std::uint64_t lot)
+{
+    Lots lots(lot);
+    const auto any = [&] { return lots.between(-1, 1); };
+    gp_Trsf turn, move;
+    const double x = any(), y = any(), z = any();
+    turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(x, y, z)), 3 * any());
+    const double a = any(), b = any(), c = any();
+    move.SetTranslation(gp_Vec(a, b, c) * 200);
+    return move * turn;
+}
+
 TopoDS_Shape made(const BentSolid& solid)
 {
     const Profile profile = middle_of(solid);
@@ -103,6 +170,10 @@ TopoDS_Shape made(const BentSolid& solid)
         const gp_Pnt from = at.Translated(gp_Vec(across) * -reach + gp_Vec(0, solid.width / 2, 0));
         shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(from, across), radius, 2 * reach).Shape());
     }
+    for (const Cutout& cutout : solid.cutout)
+        shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cutout)).Shape();
+    if (solid.pose)
+        shape = BRepBuilderAPI_Transform(shape, pose(solid.pose), true).Shape();
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
         return at.Current();
     throw std::runtime_error("no solid was made");

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,6 +14,16 @@ struct SolidBend {
     double angle;        ///< radians, positive to the left of the section
 };
 
+/// A rectangle with rounded corners that is cut through a leg, or into its left side. Slots and circles are some of them.
+struct Cutout {
+    int leg = 0;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, from where the leg begins along it, and along y
+    double length = 10, width = 10, radius = 5;       ///< mm; the radius half the width at most
+    double turn = 0;                                  ///< radians, of its length against the leg
+    double depth = 0;                                 ///< mm, of an engraving; 0: all through
+    bool halves = false;                              ///< a circle in two edges
+};
+
 /// A section of straight legs and bends between them, the same all along y.
 struct BentSolid {
     std::string kind;            ///< bracket, Z, channel, hat, hem, knuckle
@@ -21,6 +32,9 @@ struct BentSolid {
     std::vector<double> leg;     ///< mm, flat: one more than bends
     std::vector<SolidBend> bend; ///< in their order
     bool hole = false; ///< a round hole through the middle of the first bend, seen along the half of its angle
+
+    std::vector<Cutout> cutout = {};
+    std::uint64_t pose = 0; ///< turned and moved by this lot; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;

@@ -199,6 +199,44 @@ TEST(Marks, TextOfFewLongTrianglesIsPassedOver)
     EXPECT_TRUE(part.doctor.find(Fault::mark));
 }
 
+TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
+{
+    const double height[] = {
+        3, 1.5, 0}; // of the plate's skins; the text is on the upper one, which is the outer or the inner one
+    for (const int divisions : {0, 2})
+        for (const Skin skin : {Skin::outer, Skin::middle, Skin::inner}) {
+            const PartFile part = examined(shapes::divided(plate_with_text(0.3), divisions), skin);
+            ASSERT_TRUE(part.solid) << words_of(part);
+            std::vector<double> areas;
+            for (const Eigen::Matrix3Xd& mark : part.solid->marks) {
+                ASSERT_EQ(mark.col(0), mark.rightCols<1>()) << "closed";
+                const double z = skin == Skin::middle ? height[1] : part.mesh.position(2, 0);
+                EXPECT_LT((mark.row(2).array() - z).abs().maxCoeff(), 1e-12);
+                double area = 0;
+                for (Eigen::Index k = 0; k + 1 < mark.cols(); ++k)
+                    area += (mark(0, k) * mark(1, k + 1) - mark(1, k) * mark(0, k + 1)) / 2;
+                areas.push_back(std::abs(area));
+            }
+            std::sort(areas.begin(), areas.end());
+            ASSERT_EQ(areas.size(), 4u) << "L, T, O and its island";
+            const double expected[] = {40, 44, 14 * 25 * std::sin(2 * pi / 28), 16 * 49 * std::sin(2 * pi / 32)};
+            for (size_t k = 0; k < 4; ++k)
+                EXPECT_NEAR(areas[k], expected[k], 1e-9) << name(skin);
+        }
+    // A groove from the rim ends there, and runs around a bend.
+    const BentSheet sheet = step_sheet();
+    const PartFile part = examined(marked(sheet, solid_of(sheet), box(10, 16, -1, 30), 0.2), Skin::outer);
+    ASSERT_TRUE(part.solid);
+    ASSERT_EQ(part.solid->marks.size(), 1u);
+    const Eigen::Matrix3Xd& mark = part.solid->marks[0];
+    EXPECT_EQ(mark(1, 0), 0);
+    EXPECT_EQ(mark(1, mark.cols() - 1), 0);
+    double length = 0;
+    for (Eigen::Index k = 0; k + 1 < mark.cols(); ++k)
+        length += (mark.col(k + 1) - mark.col(k)).norm();
+    EXPECT_NEAR(length, 6 + 2 * 30, 2 * 2) << "to the nearest cells";
+}
+
 TEST(Marks, DeeperOnesAreRefusedWithTheirDepth)
 {
     const BentSheet sheet = step_sheet();

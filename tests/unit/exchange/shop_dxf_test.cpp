@@ -97,6 +97,42 @@ TEST(OutlineCurves, ACircleOfTheFileIsFoundExactly)
         EXPECT_FALSE(find_curves(circle(12, corners), exact, within).circle) << "a nut is none";
 }
 
+TEST(OutlineCurves, WhatIsStatedIsTakenHoweverFewChordsItHas)
+{
+    // A slot with two chords to each end, which nothing but the file could tell from corners; one side in three pieces.
+    const double r = 5, l = 20;
+    Points points;
+    add_arc(points, {l, 0}, r, -pi / 2, pi, 2);
+    points.insert(points.end(), {{l, r}, {l / 2, r}, {l / 3, r}});
+    add_arc(points, {0, 0}, r, pi / 2, pi, 2);
+    points.emplace_back(0, -r);
+    const OutlineLoop slot = loop_of(points);
+    const int count = int(points.size());
+    ASSERT_EQ(count_of(find_curves(slot, exact, within), Kind::arc), 0);
+    for (int begun = 0; begun < count; ++begun) {
+        OutlineLoop turned(2, count);
+        for (int k = 0; k < count; ++k)
+            turned.col(k) = slot.col((k + begun) % count);
+        const auto at = [&](int k) { return (k + count - begun) % count; };
+        const std::vector<StatedPiece> stated = {{Kind::arc, at(0), 2, {l, 0}, r},
+                                                 {Kind::line, at(2), 1},
+                                                 {Kind::line, at(4), 1},
+                                                 {Kind::arc, at(5), 2, {0, 0}, r}};
+        const OutlineCurves curves = find_curves(turned, exact, within, stated);
+        EXPECT_EQ(count_of(curves, Kind::arc), 2);
+        EXPECT_EQ(count_of(curves, Kind::line), 2) << "the pieces of a side are one line";
+        EXPECT_EQ(int(curves.pieces.size()), 4);
+        for (const OutlinePiece& piece : curves.pieces)
+            if (piece.kind == Kind::arc) {
+                EXPECT_NEAR(piece.bulge, 1, 1e-15);
+            }
+    }
+    const OutlineCurves whole =
+        find_curves(circle(12, 3), exact, within, std::vector<StatedPiece>{{Kind::arc, 1, 3, {7, -3}, 12}});
+    EXPECT_TRUE(whole.circle);
+    EXPECT_EQ(whole.radius, 12);
+}
+
 TEST(OutlineCurves, AnEllipseIsNoCircleUnlessTheToleranceSaysSo)
 {
     OutlineLoop ellipse = circle(12, 90);
