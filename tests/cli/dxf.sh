@@ -26,7 +26,9 @@ expect 2 "dxf-tolerance is a distance" "$spia" run "$parts/dome.obj" --dxf-toler
 if [ -d "$cases" ]; then
     draw plate "$cases/11-plate.step"
     draw bracket "$cases/05-lbracket.step"
+    draw mark "$cases/01-mark-0.2.step"
     grep -qx CIRCLE "$out/plate-run-r12-arcs.dxf" || fail "the hole of the plate is no circle"
+    [ "$("$python" "$(dirname "$0")/dxf_marks.py" "$out/mark-run-r2000-arcs.dxf")" = "1 closed, 72.0000 mm2" ] || fail "not the mark of 12 x 6 mm"
     [ "$(grep -cE '^BEND_(UP|DOWN)$' "$out/bracket-run-r2000-arcs.dxf")" = 3 ] || fail "not one line and its text, and their layer"
 else
     echo "without $cases"
