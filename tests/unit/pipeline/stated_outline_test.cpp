@@ -17,6 +17,8 @@
 #include "engine/unfold/bends.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/lots.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {
@@ -312,6 +314,44 @@ TEST_F(StatedOutline, MarksAreOutlinesInTheBlank)
         EXPECT_EQ(marks[0].point.cols(), 4);
         ASSERT_EQ(all.arcs.size(), 1u);
         EXPECT_NEAR((marks[0].point.rowwise().mean() - all.arcs[0].centre).norm(), std::hypot(35., 4.), 1e-5 * 35);
+    }
+}
+
+TEST_F(StatedOutline, AMarkAcrossABendHasTheLengthOfTheSheetThere)
+{
+    constexpr double t = 2, depth = 0.2;
+    const shapes::BentSheet sheet = shapes::bent_sheet(
+        shapes::Profile({0, 0}, 0).straight(30).bend(6, -pi / 2).straight(20), 60, 2); // the second leg goes down
+    const int faces = sheet.mesh.triangles(), vertices = sheet.mesh.vertices();
+    for (const bool inner : {false, true}) {
+        std::vector<char> chosen(2 * size_t(faces), 0);
+        for (int f = 0; f < faces; ++f) {
+            const auto middle = [&](int g) {
+                return Eigen::Vector3d(sheet.mesh.position(Eigen::all, sheet.mesh.triangle.col(g)).rowwise().mean());
+            };
+            const Eigen::Vector3d p = (middle(f) + middle(f ^ 1)) / 2; // of the cell
+            chosen[size_t(f + (inner ? faces : 0))] = p.x() > 22 && p.z() > -16 && p.y() > 16 && p.y() < 30;
+        }
+        Eigen::Matrix3Xd way(3, 2 * vertices);
+        way << -depth * sheet.normal, depth * sheet.normal;
+        shapes::write_mesh(folder_ / "part.obj",
+                           shapes::stepped(shapes::thickened(sheet.mesh, -t * sheet.normal), faces, chosen, way));
+        const Session session = blank_of(folder_ / "part.obj", {});
+        ASSERT_TRUE(session.part->solid);
+        const Drawn all = drawn(session);
+        const auto mark = std::find_if(all.loops.begin(), all.loops.end(),
+                                       [](const DrawnLoop& loop) { return loop.layer == "MARKS"; });
+        ASSERT_NE(mark, all.loops.end());
+        const Eigen::Vector2d size = mark->point.rowwise().maxCoeff() - mark->point.rowwise().minCoeff();
+        const auto outline = std::find_if(all.loops.begin(), all.loops.end(),
+                                          [](const DrawnLoop& loop) { return loop.layer == "OUTLINE"; });
+        const Eigen::Vector2d blank = outline->point.rowwise().maxCoeff() - outline->point.rowwise().minCoeff();
+        // All of the bend, and of the legs 8 and 10 mm. A mark on the hollow side keeps the bend of a mesh from being laid as an arc.
+        const double length = blank.minCoeff() - 22 - 10;
+        EXPECT_NEAR(length, 8 + pi / 2 * 5 + 10, inner ? 0.05 : 1e-4);
+        EXPECT_NEAR(size.maxCoeff(), length, 1e-3) << inner;
+        EXPECT_NEAR(size.minCoeff(), 14, 1e-3);
+        EXPECT_NEAR(std::abs(signed_area(mark->point)), length * 14, 1e-3 * length * 14);
     }
 }
 
