@@ -111,9 +111,8 @@ private:
         return best;
     }
 
-    /// The loop with its stated stretches as they were before remeshing, between them as it is now. None: nothing is stated of it, or it does
-    /// not follow one of the first mesh.
-    std::optional<Border> as_before(const std::vector<int>& loop) const
+    /// The loop of the first mesh that one follows.
+    const std::vector<int>* loop_before(const std::vector<int>& loop) const
     {
         const std::vector<int>* before = nullptr;
         double least = std::numeric_limits<double>::infinity();
@@ -122,15 +121,30 @@ private:
                 least = off;
                 before = &other;
             }
-        if (!before)
-            return std::nullopt;
-        const size_t edges = before->size();
+        return before;
+    }
+
+    /// Per edge of a loop of the first mesh what is stated of it.
+    std::vector<std::pair<const FlatZone*, int>> stated_along(const std::vector<int>& before) const
+    {
         std::vector<std::pair<const FlatZone*, int>> known;
-        for (size_t k = 0; k < edges; ++k) {
-            const int a = (*before)[k], b = (*before)[(k + 1) % edges];
+        for (size_t k = 0; k < before.size(); ++k) {
+            const int a = before[k], b = before[(k + 1) % before.size()];
             const Eigen::Vector3d middle = (before_.position.col(a) + before_.position.col(b)) / 2;
             known.push_back(stated(a, b, search_->nearest(middle).face));
         }
+        return known;
+    }
+
+    /// The loop with its stated stretches as they were before remeshing, between them as it is now. None: nothing is stated of it, or it does
+    /// not follow one of the first mesh.
+    std::optional<Border> as_before(const std::vector<int>& loop) const
+    {
+        const std::vector<int>* before = loop_before(loop);
+        if (!before)
+            return std::nullopt;
+        const size_t edges = before->size();
+        const auto known = stated_along(*before);
         if (std::none_of(known.begin(), known.end(), [](const auto& k) { return k.first; }))
             return std::nullopt;
 
@@ -145,9 +159,8 @@ private:
         std::vector<double> s;
         for (const int v : loop) {
             s.push_back(along(*before, part_.mesh.position.col(v)).s);
-            const auto edge = size_t(s.back()) % edges;
             const Eigen::Vector2d at = blank_.position.col(v);
-            if (!known[edge].first && !near(points, at))
+            if (!known[size_t(s.back()) % edges].first && !near(points, at))
                 points.push_back({s.back() < double(edges) ? s.back() : s.back() - double(edges), at});
         }
         if (!runs_once_around(s))
