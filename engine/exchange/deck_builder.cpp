@@ -8,6 +8,7 @@
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/node_numbers.h"
 #include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text_lines.h"
 
 namespace spia {
 namespace {
@@ -34,6 +35,15 @@ void require_one_place(std::span<const std::int64_t> id, const Eigen::Vector3d* 
             throw InputError(fmt::format("node {} is given twice: at {}, {}, {} and at {}, {}, {}", id[i],
                                          place[other].x(), place[other].y(), place[other].z(), place[i].x(),
                                          place[i].y(), place[i].z()));
+}
+
+/// Moves can carry places that were read beyond what a coordinate may be. @throws InputError
+void require_usable(std::span<const std::int64_t> id, std::span<const Eigen::Vector3d> place)
+{
+    for (size_t v = 0; v < id.size(); ++v)
+        if (!(place[v].cwiseAbs().maxCoeff() <= largest_coordinate))
+            throw InputError(fmt::format("node {} is moved to {}, {}, {}, which are no usable numbers", id[v],
+                                         place[v].x(), place[v].y(), place[v].z()));
 }
 
 /// Ids beyond what any solver takes would leave no room for those of what is added to the deck.
@@ -68,10 +78,86 @@ void DeckBuilder::move_all_nodes(const Eigen::Affine3d& move)
         x = move * x;
 }
 
-std::optional<Eigen::Vector3d> DeckBuilder::node(std::int64_t id) const
+void DeckBuilder::move_range(const DeckRange& range, const Eigen::Affine3d& move)
 {
-    const auto found = std::find(deck_.node.begin(), deck_.node.end(), id);
-    return found == deck_.node.end() ? std::nullopt : std::optional(deck_.position[size_t(found - deck_.node.begin())]);
+    for (size_t v = range.first_node; v < range.end_node; ++v)
+        deck_.position[v] = move * deck_.position[v];
+}
+
+std::optional<size_t> DeckBuilder::number_of_node(std::int64_t id)
+{
+    return node_index_.find(id, nodes(), [&](size_t v) { return deck_.node[v]; });
+}
+
+std::optional<Eigen::Vector3d> DeckBuilder::node(std::int64_t id)
+{
+    const auto found = number_of_node(id);
+    return found ? std::optional(deck_.position[*found]) : std::nullopt;
+}
+
+void DeckBuilder::put_node(std::int64_t id, const Eigen::Vector3d& position)
+{
+    if (const auto found = number_of_node(id))
+        deck_.position[*found] = position;
+    else
+        add_node(id, position);
+}
+
+void DeckBuilder::require_room(const DeckLines& lines, std::string_view keyword, std::uint64_t count,
+                               std::uint64_t most)
+{
+    if (count > most || made_ + count > most)
+        lines.fail(fmt::format("{} makes {} nodes or shells; the keywords of a deck may make {} in all", keyword, count,
+                               most));
+    made_ += count;
+}
+
+std::optional<size_t> DeckBuilder::number_of_shell(std::int64_t id)
+{
+    return shell_index_.find(id, shells(), [&](size_t e) { return shell_[e].id; });
+}
+
+void DeckBuilder::copy(const DeckRange& range, const Eigen::Affine3d& move, const std::function<int(int)>& part_of)
+{
+    const std::int64_t shift = std::int64_t(nodes()) - std::int64_t(range.first_node);
+    for (size_t v = range.first_node; v < range.end_node; ++v)
+        add_node(deck_.node[v], move * deck_.position[v]);
+    for (size_t e = range.first_shell; e < range.end_shell; ++e) {
+        Shell shell = shell_[e];
+        const DeckPart& original = at(shell.part);
+        const std::int64_t element = original.broken_element, node = original.missing_node;
+        shell.part = part_of(shell.part);
+        if (shell.corner[0] >= 0)
+            for (size_t k = 0; k < (shell.triangle ? 3 : 4); ++k)
+                shell.corner[k] += shift;
+        else if (DeckPart& part = at(shell.part); part.broken++ == 0) {
+            part.broken_element = element;
+            part.missing_node = node;
+        }
+        if (shell_.size() >= size_t(most_elements))
+            throw InputError(fmt::format("there are more than {} shell elements", most_elements));
+        shell_.push_back(shell);
+        if (!thickness_.empty())
+            thickness_.push_back(thickness_[e]);
+    }
+    begin_scope();
+}
+
+void DeckBuilder::drop_shells(const DeckRange& range)
+{
+    for (size_t e = range.first_shell; e < range.end_shell; ++e) {
+        if (shell_[e].corner[0] < 0)
+            --at(shell_[e].part).broken;
+        shell_[e].corner[0] = -1;
+    }
+}
+
+void DeckBuilder::begin_scope()
+{
+    first_node_ = deck_.node.size();
+    first_shell_ = shell_.size();
+    node_index_.start_at(first_node_);
+    shell_index_.start_at(first_shell_);
 }
 
 std::vector<std::int64_t> DeckBuilder::nodes_of(int part) const
@@ -145,13 +231,17 @@ void DeckBuilder::close_scope()
         }
         shell.corner[0] = -1;
     }
-    first_node_ = deck_.node.size();
-    first_shell_ = shell_.size();
+    begin_scope();
 }
 
 void DeckBuilder::add_set(std::string name, std::vector<int> shells)
 {
     deck_.sets.push_back({std::move(name), std::move(shells)});
+}
+
+void DeckBuilder::drop_empty_sets()
+{
+    std::erase_if(deck_.sets, [](const DeckSet& set) { return set.elements.empty(); });
 }
 
 /// Names beyond any real deck's are counted together.
@@ -254,6 +344,7 @@ Deck DeckBuilder::finish(std::string format, const DeckLines& lines)
     deck_.notes.insert(deck_.notes.begin(), lines.notes.begin(), lines.notes.end());
     deck_.doubts.insert(deck_.doubts.begin(), lines.doubts.begin(), lines.doubts.end());
     close_scope();
+    require_usable(deck_.node, deck_.position);
     deck_.format = std::move(format);
     drop_absurd_thicknesses();
     thickness_from_elements();

@@ -6,8 +6,8 @@ namespace spia {
 
 DynaPlacement DynaPlacement::of_inner(const DynaPlacement& inner) const
 {
-    return {node + inner.node,       element + inner.element, part + inner.part,  material + inner.material,
-            section + inner.section, length * inner.length,   place * inner.place};
+    return {node + inner.node,       element + inner.element, part + inner.part,     material + inner.material,
+            section + inner.section, set + inner.set,         length * inner.length, place * inner.place};
 }
 
 std::string_view DynaValues::meant(std::string_view field)

@@ -15,7 +15,7 @@ namespace spia {
 
 /// What *INCLUDE_TRANSFORM does to what a file holds: added to its ids, applied to its lengths.
 struct DynaPlacement {
-    std::int64_t node = 0, element = 0, part = 0, material = 0, section = 0;
+    std::int64_t node = 0, element = 0, part = 0, material = 0, section = 0, set = 0;
     double length = 1;                                   ///< factor, of coordinates and thicknesses
     Eigen::Affine3d place = Eigen::Affine3d::Identity(); ///< of coordinates, with the factor in it
 

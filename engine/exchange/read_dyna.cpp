@@ -6,6 +6,7 @@
 #include "engine/exchange/deck_builder.h"
 #include "engine/exchange/deck_number.h"
 #include "engine/exchange/dyna_card.h"
+#include "engine/exchange/dyna_node_moves.h"
 #include "engine/exchange/dyna_parts.h"
 #include "engine/exchange/dyna_transforms.h"
 #include "engine/exchange/dyna_values.h"
@@ -18,7 +19,9 @@ namespace {
 
 class DynaReader {
 public:
-    explicit DynaReader(DeckLines& lines) : lines_(lines), values_(lines), parts_(values_, deck_), transforms_(values_)
+    explicit DynaReader(DeckLines& lines)
+        : lines_(lines), values_(lines), parts_(values_, deck_), transforms_(values_),
+          moves_(values_, deck_, transforms_)
     {
     }
 
@@ -139,6 +142,10 @@ private:
             return &DynaReader::parameter;
         if (keyword.is("PARAMETER_EXPRESSION"))
             return &DynaReader::expression;
+        if (keyword.name == "NODE_TRANSFORM")
+            return &DynaReader::node_transform;
+        if (moves_.begin_set(keyword))
+            return &DynaReader::node_set;
         if (makes_geometry(keyword)) {
             deck_.count_unread_geometry("*" + keyword.name);
             return nullptr;
@@ -238,7 +245,8 @@ private:
             inner_ = {.node = values_.whole_or_zero(0),
                       .element = values_.whole_or_zero(1),
                       .part = values_.whole_or_zero(2),
-                      .material = values_.whole_or_zero(3)};
+                      .material = values_.whole_or_zero(3),
+                      .set = values_.whole_or_zero(4)};
         else if (card == 3)
             inner_.section = values_.whole_or_zero(0);
         else if (card == 4) {
@@ -262,6 +270,8 @@ private:
         }
     }
     void transformation(std::string_view line) { transforms_.card(line); }
+    void node_set(std::string_view line) { moves_.set_card(line); }
+    void node_transform(std::string_view line) { moves_.move_card(line); }
 
     void folder(std::string_view line)
     {
@@ -285,6 +295,7 @@ private:
     Deck finish()
     {
         require_whole_shell();
+        moves_.apply();
         parts_.finish();
         if (const std::string names = values_.parameters.undefined(); !names.empty())
             deck_.note("thicknesses are missing because parameters are not defined: " + names);
@@ -313,6 +324,7 @@ private:
     DeckBuilder deck_;
     DynaParts parts_;
     DynaTransforms transforms_;
+    DynaNodeMoves moves_;
     std::vector<File> file_ = {File()}; // those that are open
     DynaFormat child_format_ = DynaFormat::standard;
     DynaPlacement child_placement_, inner_;

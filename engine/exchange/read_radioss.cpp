@@ -6,6 +6,7 @@
 #include "engine/exchange/deck_builder.h"
 #include "engine/exchange/deck_fields.h"
 #include "engine/exchange/deck_number.h"
+#include "engine/exchange/radioss_submodels.h"
 #include "engine/exchange/radioss_transforms.h"
 #include "engine/exchange/read_deck.h"
 
@@ -15,7 +16,10 @@ namespace {
 
 class RadiossReader {
 public:
-    explicit RadiossReader(DeckLines& lines) : lines_(lines), transforms_(lines, deck_) {}
+    explicit RadiossReader(DeckLines& lines)
+        : lines_(lines), submodels_(lines, deck_), transforms_(lines, deck_, submodels_)
+    {
+    }
 
     Deck read()
     {
@@ -32,6 +36,7 @@ public:
                 ++count_;
             }
         }
+        submodels_.finish();
         transforms_.apply();
         for (const auto& [part, property] : property_of_)
             if (const auto found = thickness_.find(property); found != thickness_.end() && found->second != 0)
@@ -50,7 +55,7 @@ private:
     {
         card_ = nullptr;
         count_ = 0;
-        std::array<std::string_view, 4> word;
+        std::array<std::string_view, 5> word;
         size_t words = 0;
         for (std::string_view rest = trimmed(line).substr(1); words < word.size() && !rest.empty(); ++words) {
             const size_t slash = rest.find('/');
@@ -65,13 +70,13 @@ private:
                 lines_.fail("nodes in a unit system of their own are not read");
             card_ = &RadiossReader::node;
         } else if (name == "SHELL" || name == "SH3N") {
-            part_ = deck_.part(lines_.whole(word[1]));
+            part_ = deck_.part(shifted(lines_.whole(word[1]), &RadiossOffsets::part));
             card_ = name == "SHELL" ? &RadiossReader::shell : &RadiossReader::triangle;
         } else if (name == "PART") {
-            part_ = deck_.part(lines_.whole(word[1]));
+            part_ = deck_.part(shifted(lines_.whole(word[1]), &RadiossOffsets::part));
             card_ = &RadiossReader::part;
         } else if (name == "PROP" && is_shell_property(upper_case(word[1]))) {
-            id_ = lines_.whole(word[2]);
+            id_ = shifted(lines_.whole(word[2]), &RadiossOffsets::property);
             card_ = &RadiossReader::property;
             if (!word[3].empty() && lines_.whole(word[3]) != 0) {
                 deck_.note(fmt::format(
@@ -79,7 +84,7 @@ private:
                 card_ = nullptr;
             }
         } else if (name == "MAT" && words > 2) {
-            id_ = lines_.whole(word[2]);
+            id_ = shifted(lines_.whole(word[2]), &RadiossOffsets::material);
             material_[id_] = upper_case(word[1]);
             card_ = &RadiossReader::material;
         } else if (name == "END")
@@ -95,8 +100,15 @@ private:
                 card_ = &RadiossReader::transform;
             else
                 deck_.count_unread_geometry("/TRANSFORM/" + upper_case(word[1]));
-        } else if (name == "/SUBMODEL" || name == "SUBMODEL")
-            deck_.count_unread_geometry(name == "SUBMODEL" ? "/SUBMODEL" : "//SUBMODEL");
+        } else if (name == "/SUBMODEL") {
+            if (!word[4].empty()) // "V41"
+                require_version(deck_whole(word[4].substr(1)).value_or(0));
+            submodels_.begin(lines_.whole(word[2]), !word[3].empty() && lines_.whole(word[3]) != 0);
+            card_ = &RadiossReader::submodel;
+        } else if (name == "/ENDSUB")
+            submodels_.end();
+        else if (name == "SUBMODEL")
+            deck_.count_unread_geometry("/SUBMODEL");
         else if (name != "TITLE")
             deck_.count_skipped("/" + name);
     }
@@ -122,23 +134,46 @@ private:
             fields_.cut_columns(line, widths);
     }
 
+    void require_version(std::int64_t version) const
+    {
+        constexpr std::int64_t narrow_cards = 44; // and before: columns of eight
+        if (version > 0 && version < narrow_cards)
+            lines_.fail(fmt::format("cards of version {} are not read", version));
+    }
+
     void begin(std::string_view line)
     {
         if (count_ == 1) {
             fields_.cut_words(line);
-            constexpr std::int64_t narrow_cards = 44; // and before: columns of eight
-            if (const std::int64_t version = lines_.whole_or_zero(fields_[0]); version > 0 && version < narrow_cards)
-                lines_.fail(fmt::format("cards of version {} are not read", version));
+            require_version(lines_.whole_or_zero(fields_[0]));
         } else if (count_ == 2) {
             cut(line, std::array{20, 20, 20});
             const std::string_view named = trimmed(fields_[1]);
             for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::m, LengthUnit::inch})
                 if (same_letters(named, name(unit)) || (unit == LengthUnit::inch && same_letters(named, "in")))
-                    return deck_.set_unit(unit);
-            if (!named.empty())
+                    return set_unit(unit);
+            if (named.empty())
+                return;
+            if (submodels_.is_inside())
+                submodels_.set_unit({});
+            else
                 deck_.note(
                     fmt::format("its length unit \"{}\" is not known: it is read as mm unless one is given", named));
         }
+    }
+
+    /// Of the deck, or of the submodel that the block stands in.
+    void set_unit(LengthUnit unit)
+    {
+        if (submodels_.is_inside())
+            return submodels_.set_unit(unit);
+        submodels_.set_unit_of_deck(unit);
+        deck_.set_unit(unit);
+    }
+
+    std::int64_t shifted(std::int64_t id, std::int64_t RadiossOffsets::*offset) const
+    {
+        return submodels_.shifted(id, offset);
     }
 
     void node(std::string_view line)
@@ -150,7 +185,7 @@ private:
         for (int k = 0; k < 3; ++k)
             if (const std::string_view field = fields_[size_t(1 + k)]; !field.empty())
                 x[k] = lines_.coordinate(field);
-        deck_.add_node(lines_.whole(fields_[0]), x);
+        deck_.add_node(shifted(lines_.whole(fields_[0]), &RadiossOffsets::node), submodels_.length() * x);
     }
 
     void shell(std::string_view line)
@@ -171,8 +206,9 @@ private:
     {
         std::array<std::int64_t, 4> corner = {};
         for (size_t k = 0; k < corners; ++k)
-            corner[k] = lines_.whole(fields_[1 + k]);
-        deck_.add_shell(part_, lines_.whole(fields_[0]), corner, thickness.empty() ? 0 : lines_.number(thickness));
+            corner[k] = shifted(lines_.whole(fields_[1 + k]), &RadiossOffsets::node);
+        deck_.add_shell(part_, shifted(lines_.whole(fields_[0]), &RadiossOffsets::element), corner,
+                        thickness.empty() ? 0 : submodels_.length() * lines_.number(thickness));
     }
 
     void part(std::string_view line)
@@ -182,8 +218,8 @@ private:
         if (count_ != 1)
             return;
         cut(line, std::array{10, 10, 10});
-        property_of_[part_] = lines_.whole_or_zero(fields_[0]);
-        deck_.at(part_).material_id = lines_.whole_or_zero(fields_[1]);
+        property_of_[part_] = shifted(lines_.whole_or_zero(fields_[0]), &RadiossOffsets::property);
+        deck_.at(part_).material_id = shifted(lines_.whole_or_zero(fields_[1]), &RadiossOffsets::material);
     }
 
     void property(std::string_view line)
@@ -193,7 +229,7 @@ private:
             return;
         cut(line, std::array{10, 10, 20}); // layers, a flag, thickness
         if (!fields_[2].empty())
-            thickness_[id_] = lines_.number(fields_[2]);
+            thickness_[id_] = submodels_.length() * lines_.number(fields_[2]);
     }
 
     void material(std::string_view line)
@@ -202,6 +238,7 @@ private:
             material_[id_] = trimmed(line);
     }
 
+    void submodel(std::string_view line) { submodels_.card(line, count_); }
     void group(std::string_view line) { transforms_.group(line, count_); }
     void transform(std::string_view line) { transforms_.transform(line, count_); }
 
@@ -209,6 +246,7 @@ private:
 
     DeckLines& lines_;
     DeckBuilder deck_;
+    RadiossSubmodels submodels_;
     RadiossTransforms transforms_;
     DeckFields fields_;
     Card card_ = nullptr;

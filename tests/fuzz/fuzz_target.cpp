@@ -294,6 +294,23 @@ const std::vector<std::string> deck_words = {"*",
                                              "/TRANSFORM/ROT/1\n",
                                              "/GRNOD/PART/5\n",
                                              "*NGEN, NSET=A\n",
+                                             "*NGEN, LINE=C\n1,2,1,,0,0,0,0,0,1\n",
+                                             "*NFILL, BIAS=2, TWO STEP\nA,B,4,10\n",
+                                             "*NCOPY, CHANGE NUMBER=9, OLD SET=A, NEW SET=B, POLE\n1\n",
+                                             "*NCOPY, CHANGE NUMBER=9, OLD SET=A, REFLECT=MIRROR\n",
+                                             "*ELGEN, ELSET=A\n1,3,1,1,2,10,10,2,100,100\n",
+                                             "*ELCOPY, OLD SET=A, NEW SET=A, ELEMENT SHIFT=9, SHIFT NODES=9, REFLECT\n",
+                                             "*NSET, NSET=A, UNSORTED\n",
+                                             "*NSET, NSET=B, GENERATE\n1,999999999,1\n",
+                                             "*SYSTEM\n1,1,1,2,1,1\n",
+                                             "*END INSTANCE\n",
+                                             "999999999",
+                                             "*NODE_TRANSFORM\n7,3,1\n",
+                                             "*SET_NODE_LIST_GENERATE\n3\n1,9000000000000000000\n",
+                                             "*SET_NODE_GENERAL\n3\nPART,1\nDNODE,2\n",
+                                             "*SET_NODE_ADD\n3\n3,4\n",
+                                             "//SUBMODEL/4\nx\n       100\n",
+                                             "//ENDSUB\n",
                                              "*INSTANCE, NAME=A, PART=B\n1,2,3\n",
                                              "$NOD\n",
                                              "$ELM\n",
@@ -322,7 +339,21 @@ const char* const ply_strip =
 const char* const moved_k =
     "*KEYWORD\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n*ELEMENT_SHELL\n1,1,1,2,3\n*DEFINE_TRANSFORMATION\n7\n"
     "TRANSL,1,2,3\nSCALE,1,2,1\nMIRROR,0,0,0,1,0,0\nROTATE,0,0,1,0,0,0,90\nROTATE,1,2,30\nPOINT,1,5,6,7\n"
-    "POS6P,1,2,3,1,2,3\n*INCLUDE_TRANSFORM\nhalf.k\n1000,1000,0\n0\n,,2\n7\n*END\n";
+    "POS6P,1,2,3,1,2,3\n*SET_NODE_LIST\n3\n1,2\n*SET_NODE_GENERAL\n4\nPART,1\nDNODE,3\n*SET_NODE_ADD\n5\n3,4\n"
+    "*NODE_TRANSFORM\n7,3\n7,4,1\n7,5\n*INCLUDE_TRANSFORM\nhalf.k\n1000,1000,0\n0\n,,2\n7\n*END\n";
+
+const char* const made_inp =
+    "*NODE, NSET=ENDS\n1,0,0\n5,4,0\n*NODE, SYSTEM=S\n41,9,0,60\n45,9,30,60\n*NGEN, NSET=LOW\n1,5\n"
+    "*NGEN, NSET=HIGH, LINE=C\n41,45,1,,0,0,0\n*NFILL, BIAS=2, NSET=ALL\nLOW,HIGH,4,10\n*ELEMENT, TYPE=S4, ELSET=SKIN\n"
+    "1,1,2,12,11\n*ELGEN, ELSET=SKIN\n1,4,1,1,4,10,10\n*NCOPY, CHANGE NUMBER=100, OLD SET=ALL, REFLECT=MIRROR\n"
+    "0,0,0,1,0,0\n0,0,1\n*ELCOPY, OLD SET=SKIN, NEW SET=COPY, ELEMENT SHIFT=100, SHIFT NODES=100, REFLECT\n"
+    "*NSET, NSET=SOME, GENERATE\n1,45,2\n*NCOPY, CHANGE NUMBER=200, OLD SET=SOME, SHIFT, MULTIPLE=2\n1,2,3\n"
+    "0,0,0,0,0,1,30\n";
+
+const char* const placed_inp =
+    "*PART, NAME=P\n*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT, TYPE=S3, ELSET=SKIN\n1,1,2,3\n*SHELL SECTION, ELSET=SKIN\n"
+    "1.\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*INSTANCE, NAME=J, PART=P\n1,2,3\n"
+    "0,0,0,0,0,1,30\n*END INSTANCE\n*INSTANCE, NAME=K, PART=Q\n4,5,6\n*NODE\n1,0,0\n*END INSTANCE\n*END ASSEMBLY\n";
 
 const char* const moved_bdf =
     "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCORD1R,1,1,2,3,2,2,3,1\n"
@@ -336,7 +367,14 @@ const char* const moved_rad =
     "/PART/1\nsheet\n         1         1\n/GRNOD/PART/5\nall\n         1\n/GRNOD/NODE/6\nsome\n         1         2\n"
     "/TRANSFORM/TRA/1\nby\n         5                   1                   2                   3\n"
     "/TRANSFORM/ROT/2\nturn\n         6                   0                   0                   0\n"
-    "                            1                   0                   0                  90\n/END\n";
+    "                            1                   0                   0                  90\n"
+    "//SUBMODEL/4\nsub\n         0       100       100\n/BEGIN\nrun\n      2022         0\n"
+    "                  Mg                  cm                   s\n/NODE\n"
+    "         1                   0                   0                   0\n"
+    "         2                   1                   0                   0\n"
+    "         3                   0                   1                   0\n/SH3N/1\n         1         1         2         3\n"
+    "//SUBMODEL/5\nin it\n        10\n//ENDSUB\n//ENDSUB\n/TRANSFORM/TRA/3\nby\n"
+    "                            1                   2                   3         0         0         4\n/END\n";
 
 /// Three nodes and a triangle, of version 2.2.
 std::string binary_msh()
@@ -438,7 +476,7 @@ std::vector<FuzzTarget> make_targets()
          read_gltf_content},
         {"k", with(decks({".k", ".key", ".dyn"}), moved_k), words, read_k},
         {"bdf", with(decks({".bdf", ".nas", ".dat"}), moved_bdf), words, read_bdf},
-        {"inp", decks({".inp"}), words, read_inp},
+        {"inp", with(with(decks({".inp"}), made_inp), placed_inp), words, read_inp},
         {"msh", with(decks({".msh"}), binary_msh()), words, read_msh},
         {"rad", with(decks({".rad"}), moved_rad), words, read_rad},
         {"dxf",

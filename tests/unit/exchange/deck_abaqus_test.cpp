@@ -18,15 +18,17 @@ const DeckPart& part(const Deck& deck, int element) { return deck.parts[size_t(d
 
 TEST(AbaqusDeck, EveryTypeOfShellGivesItsCorners)
 {
-    for (const char* type : {"S3", "S3R", "STRI3", "M3D3", "DS3", "S3RS"}) {
+    for (const char* type :
+         {"S3", "S3R", "STRI3", "M3D3", "DS3", "S3RS", "CPS3", "CPE3H", "cpeg3", "DC2D3", "AC2D3", "SFM3D3"}) {
         const Deck deck = read(nodes + "*Element, type=" + type + "\n 9, 1, 2, 3\n");
         EXPECT_EQ(deck.corner.at(0), (std::array<int, 4>{0, 1, 2, -1})) << type;
     }
-    for (const char* type : {"S4", "S4R", "s4r", "S4R5", "S4RSW", "M3D4R", "SFM3D4"}) {
+    for (const char* type : {"S4", "S4R", "s4r", "S4R5", "S4RSW", "M3D4R", "SFM3D4", "CPS4", "CPS4R", "CPE4I", "CPE4RT",
+                             "CPEG4", "DC2D4", "DCC2D4", "AC2D4R", "DS4"}) {
         const Deck deck = read(nodes + "*Element, type=" + type + "\n 9, 1, 2, 3, 4\n");
         EXPECT_EQ(deck.corner.at(0), (std::array<int, 4>{0, 1, 2, 3})) << type;
     }
-    for (const char* type : {"STRI65", "S6"}) {
+    for (const char* type : {"STRI65", "S6", "CPS6M", "CPE6", "M3D6", "DC2D6"}) {
         const Deck deck = read(nodes + "*Element, type=" + type + "\n 9, 1, 2, 3,\n 5, 6, 8\n");
         EXPECT_EQ(deck.corner.at(0), (std::array<int, 4>{0, 1, 2, -1})) << type;
         EXPECT_TRUE(has_note(deck, "1 shells have nodes on their edges"));
@@ -116,16 +118,22 @@ TEST(AbaqusDeck, ASetOfWhichASectionTookAPartIsStillWhole)
     EXPECT_EQ(choose_parts(deck, std::vector<std::string>{"Two"}).element, (std::vector<int>{1, 2}));
 }
 
-TEST(AbaqusDeck, AnInstanceThatIsOnlyTurnedIsTold)
+TEST(AbaqusDeck, AMeshThatStandsInItsInstanceIsMoved)
 {
-    const auto placed = [](const std::string& lines) {
-        return read("*Assembly, name=A\n*Instance, name=I, part=P\n" + lines + nodes +
-                    "*ELEMENT, TYPE=S3, ELSET=Skin\n1,1,2,3\n*End Instance\n*End Assembly\n");
+    const auto third = [](const std::string& lines) {
+        const Deck deck = read("*Assembly, name=A\n*Instance, name=I, part=P\n" + lines + nodes +
+                               "*ELEMENT, TYPE=S3, ELSET=Skin\n1,1,2,3\n*End Instance\n*End Assembly\n");
+        EXPECT_TRUE(deck.doubts.empty());
+        return deck.position.at(2);
     };
-    EXPECT_FALSE(has_note(placed(""), "moved or turned"));
-    EXPECT_FALSE(has_note(placed("0.,0.,0.\n"), "moved or turned"));
-    EXPECT_TRUE(has_note(placed("0.,0.,0.\n0.,0.,0.,0.,0.,1.,90.\n"), "1 instances are moved or turned"));
-    EXPECT_TRUE(has_note(placed("0.,0.,1.\n0.,0.,0.,0.,0.,1.,90.\n"), "1 instances are moved or turned"));
+    const auto expect = [](const Eigen::Vector3d& x, const Eigen::Vector3d& expected) {
+        EXPECT_LT((x - expected).norm(), 1e-12) << x.transpose();
+    };
+    expect(third(""), {1, 1, 0});
+    expect(third("0.,0.,0.\n"), {1, 1, 0});
+    expect(third("0.,0.,0.\n0.,0.,0.,0.,0.,1.,90.\n"), {-1, 1, 0});
+    expect(third("0.,0.,1.\n0.,0.,0.,0.,0.,1.,90.\n"), {-1, 1, 1});
+    expect(third("1.,0.,0.\n0.,0.,0.,0.,0.,1.,90.\n"), {-1, 2, 0}); // moved, then turned
 }
 
 TEST(AbaqusDeck, SetsOfAnInstanceAreTold)
@@ -159,7 +167,7 @@ TEST(AbaqusDeck, PartsHaveNumbersAndSetsOfTheirOwn)
     EXPECT_EQ(part(deck, 1).name, "Right.Skin");
     EXPECT_EQ(part(deck, 1).thickness, 2);
     EXPECT_EQ(part(deck, 1).material, "B");
-    EXPECT_TRUE(has_note(deck, "1 instances are moved"));
+    EXPECT_EQ(deck.position[size_t(deck.corner[0][0])], Eigen::Vector3d(0, 0, 7));
     const auto sets_called = [&](const std::string& name) {
         return std::count_if(deck.sets.begin(), deck.sets.end(), [&](const DeckSet& set) { return set.name == name; });
     };
@@ -217,7 +225,7 @@ TEST(AbaqusDeck, IsRefusedWithItsLineWhereItIsWrong)
         EXPECT_NE(refusal("a.inp", text).find(words), std::string::npos) << words << "\nin: " << refusal("a.inp", text);
     };
     expect("*NODE\n1,0,y,0\n", "line 2: 'y' is not a number");
-    expect("*NODE, SYSTEM=S\n1,1,90,0\n", "line 1: nodes in spherical");
+    expect("*NODE, SYSTEM=Q\n1,1,90,0\n", "line 1: the coordinates SYSTEM=Q are not known");
     expect("*SYSTEM\n1,0,0,2,0,0\n3,0,0\n*NODE\n", "line 4: the points of *SYSTEM lie on a line");
     expect("*SYSTEM\n1,0,0,1,0,5\n*NODE\n", "line 3: the points of *SYSTEM lie on a line");
     expect("*ELEMENT\n1,1,2,3\n", "does not say which TYPE");

@@ -127,8 +127,7 @@ TEST_F(MovedDecks, WhatIsNotReadIsADoubtWithItsKeyword)
                                   include_transform("copy.k") + "*END\n"),
                 HasSubstr("copy.k is not moved"));
     const std::string inp = "*NODE\n1, 0., 0., 0.\n2, 10., 0., 0.\n3, 0., 10., 0.\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n";
-    EXPECT_THAT(doubts("a.inp", inp + "*ELCOPY, OLD SET=A, NEW SET=B, ELEMENT SHIFT=10, SHIFT NODES=10\n"),
-                HasSubstr("*ELCOPY"));
+    EXPECT_THAT(doubts("a.inp", inp + "*NMAP, NSET=A\n0,0,0\n"), HasSubstr("*NMAP"));
     EXPECT_EQ(doubts("b.inp", inp), "");
 }
 
@@ -158,6 +157,29 @@ TEST_F(MovedDecks, RadiossMovesGroupsOfNodes)
                     .isApprox(Eigen::Vector3d(20, 10, 0)));
     EXPECT_FALSE(deck("/TRANSFORM/MATRIX/1\nany\n" + line(5, 1, 0, 0)).doubts.empty());
     EXPECT_FALSE(deck("//SUBMODEL/4\nother\n").doubts.empty());
+}
+
+TEST_F(MovedDecks, AHalfThatIsCopiedOverItsEdgeIsWhole)
+{
+    const std::string half = "*NODE, NSET=Half\n1, 0., 0., 0.\n2, 10., 0., 0.\n3, 0., 10., 0.\n4, 10., 10., 0.\n"
+                             "*ELEMENT, TYPE=S4, ELSET=Half\n1, 1, 2, 4, 3\n";
+    const PartFile copied =
+        examine_part(put("copied.inp", half + "*NCOPY, CHANGE NUMBER=10, OLD SET=Half, REFLECT=MIRROR\n"
+                                              "10., 0., 0., 10., 1., 0.\n10., 0., 1.\n"
+                                              "*ELCOPY, OLD SET=Half, ELEMENT SHIFT=10, SHIFT "
+                                              "NODES=10, REFLECT\n"),
+                     {});
+    const PartFile twice =
+        examine_part(put("twice.inp", "*PART, NAME=P\n" + half +
+                                          "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
+                                          "*INSTANCE, NAME=J, PART=P\n10., 0., 0.\n*END INSTANCE\n*END ASSEMBLY\n"),
+                     {});
+    for (const PartFile* part : {&copied, &twice}) {
+        EXPECT_TRUE(part->doubts.empty());
+        EXPECT_EQ(part->doctor.components, 1) << "the common edge is joined";
+        EXPECT_NEAR(area(part->mesh), 200, 1e-9);
+        EXPECT_TRUE(size(*part).isApprox(Eigen::Vector3d(20, 10, 0)));
+    }
 }
 
 TEST_F(MovedDecks, TheCasesOfUsersAreWhole)
