@@ -113,6 +113,21 @@ std::string place_in_words(const Eigen::Vector3d& p)
     return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x(), p.y(), p.z());
 }
 
+/// Faces of the part that look against those around them, as where its surface folds back within a tight bend: new faces are not to do so.
+std::vector<char> folded_faces(const TriMesh& part, const Eigen::Matrix3Xd& normal)
+{
+    Eigen::Matrix3Xd around = Eigen::Matrix3Xd::Zero(3, part.vertices());
+    for (int f = 0; f < part.triangles(); ++f)
+        for (const int v : part.triangle.col(f))
+            around.col(v) += normal.col(f);
+    std::vector<char> folded(size_t(part.triangles()), 0);
+    for (int f = 0; f < part.triangles(); ++f) {
+        const Eigen::Vector3d others = around(Eigen::all, part.triangle.col(f)).rowwise().sum() - 3 * normal.col(f);
+        folded[size_t(f)] = others.dot(normal.col(f)) < 0;
+    }
+    return folded;
+}
+
 /// Measures both ways; the sizes become shorter where a mesh is too far from the other one.
 Fault fault_of(RemeshResult& result, const TriMesh& part, const ClosestPointSearch& search, const Eigen::VectorXd& size,
                const Progress& progress)
@@ -141,11 +156,12 @@ Fault fault_of(RemeshResult& result, const TriMesh& part, const ClosestPointSear
         for (const int v : part.triangle.col(face))
             shorter[v] = std::min(shorter[v], share * size[v]);
     };
+    const std::vector<char> folded = folded_faces(part, normal);
     int turned = -1;
     for (int f = 0; f < result.mesh.triangles(); ++f) {
         const int near = result.nearest_face[size_t(f)];
-        const bool over =
-            !is_thin(part, near, no_height * result.tolerance) && new_normal.col(f).dot(normal.col(near)) < 0;
+        const bool over = !folded[size_t(near)] && !is_thin(part, near, no_height * result.tolerance) &&
+                          new_normal.col(f).dot(normal.col(near)) < 0;
         if (over && turned < 0)
             turned = f;
         if (over || to_part.of_face[f] > result.tolerance)
