@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/mesh/mark_outlines.h"
+#include "engine/mesh/round_border.h"
 #include "engine/mesh/sheet_or_hollow.h"
 #include "engine/mesh/topology.h"
 
@@ -254,12 +255,13 @@ bool decide(PartFile& part, const ThinSolid& sheet)
     return closed != ClosedSurface::perhaps_hollow;
 }
 
-double thickness_of(const PartFile& part, const ThinSolid& sheet)
+/// Per triangle of the solid.
+std::vector<StatedSurface> surfaces_of(const PartFile& part)
 {
     std::vector<StatedSurface> surface;
     for (int f = 0; f < part.mesh.triangles(); ++f)
         surface.push_back(surface_of(part, f));
-    return stated_thickness(part.mesh, sheet, surface);
+    return surface;
 }
 
 /// Vertices of a middle surface that lie on one CAD cylinder, exactly onto the middle one. Along faces across the thickness that are slanted
@@ -315,8 +317,10 @@ SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, Skin& wanted, bool 
 {
     try {
         SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
-        if (wanted == Skin::middle && units.normal_at)
+        if (wanted == Skin::middle && part.cad && !part.cad->surface.empty()) {
             onto_cylinders(part, sheet, skin);
+            round_border(skin, part.mesh, sheet, surfaces_of(part));
+        }
         if (skin.straightened > 0)
             part.notes.push_back(fmt::format(
                 "{} not halfway along an edge that crosses the sheet askew but straight below the outer skin, up to "
@@ -389,7 +393,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             doubt_block(part, sheet);
         const ThinSolidOptions units = faces_of(part, normals);
         if (part.cad && !part.cad->surface.empty())
-            sheet.thickness = thickness_of(part, sheet);
+            sheet.thickness = stated_thickness(part.mesh, sheet, surfaces_of(part));
         Skin wanted = options.skin.value_or(Skin::middle);
         const SkinMesh skin = wanted_skin(part, sheet, wanted, options.skin.has_value(), units);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
