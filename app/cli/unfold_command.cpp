@@ -32,6 +32,7 @@
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/upright.h"
 
 namespace spia::cli {
 namespace {
@@ -143,6 +144,11 @@ std::optional<PolishedBlank> polished_blank(const PartFile& part, const UnfoldRu
     try {
         PolishedBlank polished = polish(part.mesh, run, options, display.progress());
         display.done(polished.whole.report.seconds);
+        // It lies on the blank of the steps, whose rolling direction is along x, area by area: its own edges may be turned a little.
+        Eigen::Matrix2Xd& flat = polished.whole.blank.position;
+        flat =
+            upright(part.mesh, flat,
+                    options.process.rolling ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt);
         return polished;
     } catch (const SolveError& error) {
         findings.push_back(fmt::format("the blank of the steps could not be polished: {}", error.what()));

@@ -8,6 +8,7 @@
 #include "engine/forming/flips.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/rolling.h"
+#include "engine/forming/seen_along.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/blank_chart.h"
@@ -89,9 +90,9 @@ void require_no_tools(const ProcessConditions& process)
 }
 
 /// As the blank of steps lies: straight on the sheet, whatever way the part lay. All that follows is told in these axes.
-void lay_straight(const TriMesh& part, const FlattenOptions& options, FlattenResult& flat)
+/// @param rolling  in the axes in which the blank lies
+void lay_straight(const TriMesh& part, const std::optional<Eigen::Vector2d>& rolling, FlattenResult& flat)
 {
-    const auto rolling = rolling_in(options.process, blank_plane(flat.stamping.direction));
     const Eigen::Matrix2d turn = upright_turn(part, flat.blank.position, rolling);
     Eigen::Matrix2Xd position = turn * flat.blank.position;
     position.colwise() -= Eigen::Vector2d(position.rowwise().minCoeff());
@@ -103,6 +104,12 @@ void lay_straight(const TriMesh& part, const FlattenOptions& options, FlattenRes
     flat.blank.position = std::move(position);
     flat.report.resultant.head<2>() = turn * flat.report.resultant.head<2>();
     flat.overlap = overlap(part, flat.blank.position);
+}
+
+/// Where the rolling direction lies on the blank of steps, and on what was laid onto it.
+std::optional<Eigen::Vector2d> rolling_on_steps(const ProcessConditions& process)
+{
+    return process.rolling ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
 }
 
 /// Steps know nothing of the neutral fibre. Where they only bend the sheet, the blank is solved again with its lengths.
@@ -119,27 +126,53 @@ void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralF
     StampingDirection stamping = std::move(flat.stamping);
     flat = relaid_blank(part, flat.blank.position, fibre.laid, options, progress);
     flat.stamping = std::move(stamping);
-    lay_straight(part, options, flat);
+    lay_straight(part, rolling_on_steps(options.process), flat);
     if (flat.report.whole())
         flat.report = std::move(of_steps);
+}
+
+/// Who looks on sees every shape straight, as the result will lie.
+/// @param part   outlives the options
+/// @param start  of the solve, if it has one: the blank of steps
+FlattenOptions watched_straight(const TriMesh& part, FlattenOptions options, const Blank* start)
+{
+    if (!options.watch)
+        return options;
+    options.watch = [&part, watch = options.watch, process = options.process, chosen = options.direction,
+                     lain = start ? std::optional(start->position) : std::nullopt,
+                     straight = std::make_shared<std::optional<LiveUpright>>()](const Eigen::Matrix2Xd& X,
+                                                                                const NewtonStep& step) {
+        if (!*straight) { // only now the part is known to be sound
+            const auto plane = blank_plane((chosen ? seen_along(part, *chosen) : stamping_direction(part)).direction);
+            straight->emplace(part, lain ? *lain : Eigen::Matrix2Xd(plane.transpose() * part.position),
+                              rolling_in(process, plane));
+        }
+        watch((**straight)(X), step);
+    };
+    return options;
 }
 
 void solve(Session& session, const Progress& progress)
 {
     const TriMesh& part = session.part->mesh;
-    const FlattenOptions& options = session.options.flatten;
+    const auto& steps = session.options.steps;
+    const FlattenOptions options =
+        watched_straight(part, session.options.flatten, steps && steps->run->blank ? &*steps->run->blank : nullptr);
     progress.checkpoint(0, "looking for bends");
     NeutralFibre fibre = part_bends(*session.part, options.thickness, session.options.k_factor);
     FlattenResult flat;
-    if (const auto& steps = session.options.steps) {
+    if (steps) {
         require_no_tools(options.process);
         progress.checkpoint(0, "taking the blank of the steps");
-        flat = steps->polish ? polish(part, *steps->run, options, progress).whole
-                             : stepped_blank(part, *steps->run, options);
+        if (steps->polish) {
+            flat = polish(part, *steps->run, options, progress).whole;
+            lay_straight(part, rolling_on_steps(options.process), flat);
+        } else
+            flat = stepped_blank(part, *steps->run, options);
         lay_steps_anew(part, options, fibre, flat, progress);
     } else {
         flat = flatten_laid(part, fibre.laid, nullptr, options, progress);
-        lay_straight(part, options, flat);
+        lay_straight(part, rolling_in(options.process, blank_plane(flat.stamping.direction)), flat);
     }
     place_on_blank(fibre, part, flat.blank);
     session.blank = std::make_shared<FlattenResult>(std::move(flat));

@@ -202,15 +202,16 @@ ShapeKey key_of(const TriMesh& part, const Eigen::Matrix2Xd& flat)
     return key;
 }
 
-} // namespace
+/// One way round.
+struct Way {
+    Eigen::Matrix2d turn;
+    ShapeKey key;
+};
 
-Eigen::Matrix2d upright_turn(const TriMesh& part, const Eigen::Matrix2Xd& flat,
-                             const std::optional<Eigen::Vector2d>& rolling)
+/// The ways round from which the rule chooses.
+std::vector<Way> ways_round(const TriMesh& part, const Eigen::Matrix2Xd& flat, const Eigen::Matrix2Xd& rim,
+                            const std::optional<Eigen::Vector2d>& rolling)
 {
-    const auto loops = boundary_loops(part);
-    if (loops.empty())
-        return Eigen::Matrix2d::Identity();
-    const Eigen::Matrix2Xd rim = flat(Eigen::all, loops[size_t(outer_loop(loops, flat))]);
     const Eigen::Matrix2Xd hull = convex_hull(rim); // far fewer places, most often
     std::vector<Eigen::Matrix2d> straight;
     if (rolling)
@@ -222,33 +223,102 @@ Eigen::Matrix2d upright_turn(const TriMesh& part, const Eigen::Matrix2Xd& flat,
         for (const double angle : smallest_boxes(directions, hull))
             straight.push_back(turn_onto_x(angle));
     }
-    constexpr double alike = 1e-6; // what a solver leaves of a symmetry is less
     const Eigen::Matrix2d by_quarter = (Eigen::Matrix2d() << 0, 1, -1, 0).finished();
-    struct Way {
-        Eigen::Matrix2d turn;
-        ShapeKey key;
-        double near; ///< to how it came
-    };
     std::vector<Way> ways;
-    const Eigen::Matrix2Xd centred = flat.colwise() - flat.rowwise().mean();
     for (Eigen::Matrix2d turn : straight)
         for (int k = 0; k < 4; ++k, turn = by_quarter * turn)
             if (!rolling || k % 2 == 0)
-                ways.push_back({turn, key_of(part, turn * flat), (turn * centred).cwiseProduct(centred).sum()});
+                ways.push_back({turn, key_of(part, turn * flat)});
+    return ways;
+}
+
+/// How near two turns are, up to a factor the cosine of what lies between them.
+double likeness(const Eigen::Matrix2d& a, const Eigen::Matrix2d& b) { return a.cwiseProduct(b).sum(); }
+
+/// The way that the rule takes. @param moment  of where the shape came to lie with itself as it is: of symmetric ways the one
+/// nearest to that is taken
+Way chosen_way(std::vector<Way> ways, const Eigen::Matrix2d& moment)
+{
+    constexpr double alike = 1e-6; // what a solver leaves of a symmetry is less
     for (size_t k = 0; k < ShapeKey{}.size() && ways.size() > 1; ++k) {
         double most = -std::numeric_limits<double>::infinity();
         for (const Way& way : ways)
             most = std::max(most, way.key[k]);
         std::erase_if(ways, [&](const Way& way) { return way.key[k] < most - alike; });
     }
-    return std::max_element(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.near < b.near; })->turn;
+    return *std::max_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
+        return likeness(a.turn, moment) < likeness(b.turn, moment);
+    });
+}
+
+/// Whether the rule takes one way rather than another by so little that it may well change while a solve converges.
+bool hardly_before(const Way& taken, const Way& other)
+{
+    constexpr double little = 0.01; // of keys that are about 1 or less
+    for (size_t k = 0; k < taken.key.size(); ++k)
+        if (std::abs(taken.key[k] - other.key[k]) > little)
+            return taken.key[k] < other.key[k];
+    return true;
+}
+
+Eigen::Matrix2Xd rim_of(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& flat)
+{
+    return flat(Eigen::all, loops[size_t(outer_loop(loops, flat))]);
+}
+
+Eigen::Matrix2Xd from_corner(Eigen::Matrix2Xd flat)
+{
+    const Eigen::Vector2d low = flat.rowwise().minCoeff();
+    return flat.colwise() - low;
+}
+
+} // namespace
+
+Eigen::Matrix2d upright_turn(const TriMesh& part, const Eigen::Matrix2Xd& flat,
+                             const std::optional<Eigen::Vector2d>& rolling)
+{
+    const auto loops = boundary_loops(part);
+    if (loops.empty())
+        return Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2Xd centred = flat.colwise() - flat.rowwise().mean();
+    return chosen_way(ways_round(part, flat, rim_of(loops, flat), rolling), centred * centred.transpose()).turn;
 }
 
 Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat,
                          const std::optional<Eigen::Vector2d>& rolling)
 {
-    const Eigen::Matrix2Xd turned = upright_turn(part, flat, rolling) * flat;
-    return turned.colwise() - turned.rowwise().minCoeff();
+    return from_corner(upright_turn(part, flat, rolling) * flat);
+}
+
+LiveUpright::LiveUpright(const TriMesh& part, Eigen::Matrix2Xd seen, const std::optional<Eigen::Vector2d>& rolling)
+    : part_(part), seen_(std::move(seen)), rolling_(rolling), loops_(boundary_loops(part))
+{
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    for (int f = 0; f < part.triangles(); ++f)
+        for (const int v : part.triangle.col(f))
+            mass[v] += normal.col(f).norm();
+    mass /= mass.sum();
+    const Eigen::Vector2d middle = seen_ * mass;
+    seen_ = (seen_.colwise() - middle) * mass.asDiagonal();
+}
+
+Eigen::Matrix2Xd LiveUpright::operator()(const Eigen::Matrix2Xd& flat)
+{
+    if (loops_.empty())
+        return flat;
+    const std::vector<Way> ways = ways_round(part_, flat, rim_of(loops_, flat), rolling_);
+    // The turn that brings the shape nearest to where it is seen is the rotation in this moment. [Kabsch 1976 in the plane]
+    Way way = chosen_way(ways, seen_ * flat.transpose());
+    if (turn_) {
+        const Way& nearest = *std::max_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
+            return likeness(a.turn, *turn_) < likeness(b.turn, *turn_);
+        });
+        if (hardly_before(way, nearest))
+            way = nearest;
+    }
+    turn_ = way.turn;
+    return from_corner(way.turn * flat);
 }
 
 } // namespace spia

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "engine/mesh/tri_mesh.h"
 
@@ -22,5 +23,26 @@ Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat,
 /// The turn of it alone.
 Eigen::Matrix2d upright_turn(const TriMesh& part, const Eigen::Matrix2Xd& flat,
                              const std::optional<Eigen::Vector2d>& rolling = {});
+
+/// Lays the shapes that a solve goes through straight, one after the other, so that the last one lies as upright() lays the result.
+/// Where the rule hardly tells two ways round apart it stays with that of the shape before: a nearly symmetric blank does not
+/// turn over and back while it converges.
+class LiveUpright {
+public:
+    /// @param part  must outlive it
+    /// @param seen  2 by #V, mm, in the axes of the shapes: where the result is brought before it is laid straight, which decides for a
+    ///              symmetric one; the part seen along the stamping direction
+    /// @param rolling  as for upright()
+    LiveUpright(const TriMesh& part, Eigen::Matrix2Xd seen, const std::optional<Eigen::Vector2d>& rolling);
+
+    Eigen::Matrix2Xd operator()(const Eigen::Matrix2Xd& flat);
+
+private:
+    const TriMesh& part_;
+    Eigen::Matrix2Xd seen_; ///< about its middle, each vertex times its area
+    std::optional<Eigen::Vector2d> rolling_;
+    std::vector<std::vector<int>> loops_; ///< of the part's boundary
+    std::optional<Eigen::Matrix2d> turn_; ///< of the shape before
+};
 
 } // namespace spia

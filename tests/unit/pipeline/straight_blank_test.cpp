@@ -38,7 +38,62 @@ TriMesh channel()
         .mesh;
 }
 
+/// The turn, radians, that lies between two places of the same vertices. [Kabsch 1976 in the plane]
+double turn_between(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
+{
+    const Eigen::Matrix2Xd from = a.colwise() - a.rowwise().mean(), to = b.colwise() - b.rowwise().mean();
+    const Eigen::Matrix2d moment = to * from.transpose();
+    return std::abs(std::atan2(moment(1, 0) - moment(0, 1), moment(0, 0) + moment(1, 1)));
+}
+
+/// What is seen of a solve: each shape in its turn, the result last.
+std::vector<Eigen::Matrix2Xd> pictures_of(Session session)
+{
+    std::vector<Eigen::Matrix2Xd> seen;
+    session.options.flatten.watch = [&](const Eigen::Matrix2Xd& X, const NewtonStep&) { seen.push_back(X); };
+    session = run_stage(Stage::solve, run_stage(Stage::read, session));
+    seen.push_back(session.blank->blank.position);
+    return seen;
+}
+
 } // namespace
+
+TEST(StraightBlank, IsSeenStraightFromTheFirstShapeOn)
+{
+    constexpr double jump =
+        5 * pi / 180; // what an eye takes for one; shapes themselves turn by less from one to the next
+    for (const char* part : {"dome", "fender", "inner-panel", "lipped-channel", "perforated-channel", "square-cup"}) {
+        Session session;
+        session.file = std::string(SPIA_SOURCE_DIR "/assets/parts/") + part + ".obj";
+        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+        const auto seen = pictures_of(session);
+        ASSERT_GT(seen.size(), 3u) << part;
+        for (size_t k = 1; k < seen.size(); ++k)
+            EXPECT_LT(turn_between(seen[k - 1], seen[k]), jump) << part << ", shape " << k << " of " << seen.size();
+        for (const Eigen::Matrix2Xd& each : seen)
+            EXPECT_NEAR(each.minCoeff(), 0, 1e-9) << part << ": it begins at the corner of the sheet";
+    }
+}
+
+TEST(StraightBlank, IsSeenStraightHoweverThePartLies)
+{
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    const ScratchFolder folder;
+    for (int trial = 0; trial < 5; ++trial) {
+        TriMesh part = channel();
+        const Eigen::Quaterniond any(normal(random), normal(random), normal(random), normal(random));
+        part.position = any.normalized().toRotationMatrix() * part.position;
+        shapes::write_mesh(folder / "part.obj", part);
+        Session session;
+        session.file = folder / "part.obj";
+        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+        const auto seen = pictures_of(session);
+        for (const Eigen::Matrix2Xd& each : seen)
+            EXPECT_LT(std::min(turn_between(each, seen.back()), pi - turn_between(each, seen.back())), 0.01)
+                << trial << ": a half turn of this rectangle is none that is seen";
+    }
+}
 
 TEST(StraightBlank, InOneStepAsInSeveralHoweverThePartLies)
 {
