@@ -79,6 +79,8 @@ void print_summary(const Session& session)
     say("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
         100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
         flat.face.strain_equivalent.maxCoeff());
+    if (session.corner_cut)
+        say("corners   {}\n", in_words(*session.corner_cut));
     if (flat.skins)
         say("skins     major strain up to {:.3f} outside, {:.3f} inside\n", flat.skins->outer.strain_major.maxCoeff(),
             flat.skins->inner.strain_major.maxCoeff());

@@ -90,6 +90,16 @@ Json seam_json(const PartFile& part)
     return part.seam.empty() ? Json(nullptr) : Json{{"length_mm", part.seam_length}, {"paths", part.seam}};
 }
 
+Json strain_json(const StrainFigures& strain) { return {{"most", strain.most}, {"mean", strain.mean}}; }
+
+/// Equivalent strains with the corners cut and joined.
+Json corner_cut_json(const CornerCut& cut)
+{
+    return {{"strain_before", cut.before ? strain_json(*cut.before) : Json(nullptr)},
+            {"strain_after", strain_json(cut.after)},
+            {"why_not", cut.before ? Json(nullptr) : Json(cut.why_not)}};
+}
+
 Json quality_json(const TriangleQuality& quality)
 {
     constexpr double degrees = 180 / std::numbers::pi;
@@ -373,6 +383,8 @@ std::string report_json(const Session& session, const std::vector<std::filesyste
             json["blank"]["lengths_of"] = session.bends->surface;
             json["bend_table"] = bend_table_json(*session.bends);
         }
+        if (session.corner_cut)
+            json["corner_cut"] = corner_cut_json(*session.corner_cut);
         json["result"] = result_json(*session.blank);
         if (session.blank->skins)
             json["skins"] = skins_json(*session.blank->skins);

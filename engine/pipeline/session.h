@@ -18,6 +18,7 @@
 #include "engine/nurbs/fit.h"
 #include "engine/nurbs/interpolate.h"
 #include "engine/nurbs/trim.h"
+#include "engine/pipeline/corner_cut.h"
 #include "engine/unfold/bend_table.h"
 #include "engine/unfold/k_factor.h"
 #include "engine/unfold/unfold_script.h"
@@ -93,8 +94,9 @@ struct Session {
 
     std::shared_ptr<const PartFile> part;
     std::shared_ptr<const FlattenResult> blank;
-    std::shared_ptr<const BendTable> bends;     ///< of the part and on the blank; made together with it
-    std::shared_ptr<const LimitsResult> limits; ///< of the blank; made together with it
+    std::shared_ptr<const BendTable> bends;      ///< of the part and on the blank; made together with it
+    std::shared_ptr<const CornerCut> corner_cut; ///< what cutting the corners is worth; null: they were not cut
+    std::shared_ptr<const LimitsResult> limits;  ///< of the blank; made together with it
     std::shared_ptr<const GridStage> grid;
     std::shared_ptr<const LiftResult> lifted;
     std::shared_ptr<const SurfaceStage> surface;

@@ -152,12 +152,15 @@ FlattenOptions watched_straight(const TriMesh& part, FlattenOptions options, con
     return options;
 }
 
-void solve(Session& session, const Progress& progress)
+void solve(Session& session, const Progress& whole)
 {
     const TriMesh& part = session.part->mesh;
     const auto& steps = session.options.steps;
     const FlattenOptions options =
         watched_straight(part, session.options.flatten, steps && steps->run->blank ? &*steps->run->blank : nullptr);
+    const bool twice =
+        session.options.read.seam.mode == SeamOptions::Mode::corners && !session.part->seam.empty() && !steps;
+    const Progress progress = whole.part(0, twice ? 0.5 : 1);
     progress.checkpoint(0, "looking for bends");
     NeutralFibre fibre = part_bends(*session.part, options.thickness, session.options.k_factor);
     FlattenResult flat;
@@ -175,6 +178,10 @@ void solve(Session& session, const Progress& progress)
         lay_straight(part, rolling_in(options.process, blank_plane(flat.stamping.direction)), flat);
     }
     place_on_blank(fibre, part, flat.blank);
+    if (twice) {
+        whole.checkpoint(0.5, "unfolding with the corners joined, to compare");
+        session.corner_cut = corner_cut(*session.part, flat, session.options.flatten, whole.part(0.5, 1));
+    }
     session.blank = std::make_shared<FlattenResult>(std::move(flat));
     session.bends = std::make_shared<BendTable>(std::move(fibre.table));
 }
@@ -437,6 +444,7 @@ Session run_stage(Stage stage, Session session, const Progress& progress)
     if (stage <= Stage::solve) {
         session.blank = nullptr;
         session.bends = nullptr;
+        session.corner_cut = nullptr;
         session.limits = nullptr;
     }
     if (stage <= Stage::read)
