@@ -65,7 +65,8 @@ struct ReadAgain {
     std::string unit;
     Reading reading;
 };
-/// "set_seam": mode ("automatic", "none", "given", "corners": where a few cuts let it unroll), path [[vertex of the file, ...], ...]; reads the part again.
+/// "set_seam": mode ("automatic", "none", "given", "corners": where a few cuts let it unroll), path [[vertex of the file, ...], ...]; reads the part again,
+/// and with "corners" unfolds it with and without the cuts, to tell what they are worth.
 struct SetSeam {
     SeamOptions seam;
 };
@@ -106,6 +107,11 @@ struct SetSkins {
 struct SetDirection {
     std::optional<Eigen::Vector3d> direction;
 }; ///< "set_direction"; not given: automatic
+/// "set_k_factor": where the neutral fibre of the bends lies, as `--k-factor` of the command line has it: a number, "din6935" or the
+/// file of a table; empty: 0.5, and meshes of no solid keep their triangles. A blank that is there is made anew at once.
+struct SetKFactor {
+    std::string k_factor = {};
+};
 struct SetCorner {
     int corner = 0;
     int vertex = 0;
@@ -457,13 +463,13 @@ struct Quit {};            ///< "quit"
 using Action =
     std::variant<ListFile, CloseList, OpenPart, SetUnit, SetReading, ReadAgain, SetSeam, SetRemeshing, RunTo, CancelJob,
                  SetMaterial, FitMaterial, SaveMaterial, RemoveMaterial, SetThickness, SetSkins, SetDirection,
-                 SetCorner, ProposeCorners, SetGrid, SetFit, SetPatches, AddCut, RemoveCut, SetLattice, PickHandle,
-                 SelectHandles, MoveHandles, ResetHandles, OpenDeformation, SaveDeformation, SetLimits, ProposeSteps,
-                 RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane, SetCarrying,
-                 RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices, PickVertex,
-                 UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection, MakeRegion,
-                 ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine, PinVertices,
-                 SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
+                 SetKFactor, SetCorner, ProposeCorners, SetGrid, SetFit, SetPatches, AddCut, RemoveCut, SetLattice,
+                 PickHandle, SelectHandles, MoveHandles, ResetHandles, OpenDeformation, SaveDeformation, SetLimits,
+                 ProposeSteps, RunSteps, UseBlankOfSteps, OpenSteps, SaveSteps, AddStep, ChangeStep, SetTargetPlane,
+                 SetCarrying, RemoveStep, MoveStep, ShowStep, SelectFaces, PickAt, PickArea, PickBrush, SelectVertices,
+                 PickVertex, UseVerticesAsCorners, GrowSelection, ShrinkSelection, InvertSelection, ClearSelection,
+                 MakeRegion, ChangeRegion, RemoveRegion, SetContact, SetOwnSheet, AddLine, ChangeLine, RemoveLine,
+                 PinVertices, SetProcess, SelectRegion, AddProbe, RemoveProbe, ClearProbes, DrawSection, ClearSection,
                  AddMeasurement, RemoveMeasurement, ClearMeasurements, SetDisplay, SetViewSettings, SetPreferences,
                  FitView, LookFrom, LookFromSide, FlyTo, HideSpot, FlyToVertex, ShowFault, HideFault, ShowRefused,
                  CloseRefused, KeepReference, DropReference, Undo, Redo, OpenProject, TakeOpened, DropOpened,

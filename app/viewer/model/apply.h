@@ -42,8 +42,8 @@ struct ViewerModel::Apply {
     void operator()(const ListFile& action);
     void operator()(const CloseList&);
     void operator()(const OpenPart& action);
-    /// Reads the part anew with other options; undo brings the old ones back.
-    template <class Edit> void read_again(std::string name, const Edit& edit);
+    /// Reads the part anew with other options, and runs the chain from there up to a stage; undo brings the old ones back.
+    template <class Edit> void read_again(std::string name, const Edit& edit, Stage to = Stage::read);
     void operator()(const SetUnit& action);
     void operator()(const SetReading& action);
     void operator()(const ReadAgain& action);
@@ -58,6 +58,7 @@ struct ViewerModel::Apply {
     void operator()(const SetThickness& action);
     void operator()(const SetSkins& action);
     void operator()(const SetDirection& action);
+    void operator()(const SetKFactor& action);
     /// Numbers in the file, chosen or proposed.
     std::array<int, 4> corners_now() const;
     void require_one_patch() const; ///< @throws InputError if there are patches

@@ -5,10 +5,11 @@
 
 #include "app/viewer/model/chain.h"
 #include "engine/exchange/vertex_numbers.h"
+#include "engine/pipeline/part_bends.h"
 
 namespace spia::viewer {
 
-template <class Edit> void ViewerModel::Apply::read_again(std::string name, const Edit& edit)
+template <class Edit> void ViewerModel::Apply::read_again(std::string name, const Edit& edit, Stage to)
 {
     if (session.file.empty())
         throw InputError("Open a part first.");
@@ -19,7 +20,7 @@ template <class Edit> void ViewerModel::Apply::read_again(std::string name, cons
     (*this)(DismissMessages{}); // of the part as it was read before
     edit(session.options.read);
     model.opening_ = true;
-    run_of_change(Stage::read, "Reading the part again", unsaved);
+    run_of_change(to, "Reading the part again", unsaved);
 }
 
 void ViewerModel::Apply::run_of_change(Stage to, const std::string& title, bool unsaved)
@@ -66,7 +67,10 @@ void ViewerModel::Apply::operator()(const SetSeam& action)
         throw InputError("A seam that is given needs a path, any other has none.");
     if (session.options.read.seam == action.seam)
         return;
-    read_again("Change seam", [&](ReadOptions& read) { read.seam = action.seam; });
+    // What cutting the corners is worth is told in strain.
+    read_again(
+        "Change seam", [&](ReadOptions& read) { read.seam = action.seam; },
+        action.seam.mode == SeamOptions::Mode::corners ? Stage::solve : Stage::read);
 }
 
 void ViewerModel::Apply::operator()(const SetRemeshing& action)
@@ -96,8 +100,9 @@ void ViewerModel::Apply::operator()(const RunTo& action)
             Severity::hint,
             session.options.steps
                 ? "Everything is up to date, with the blank of the steps. Unfold (F6) unfolds the part in one step instead."
-            : fixed ? "Everything is up to date. Fixed regions stay where they are in Step by step only: propose steps there."
-                    : "Everything is up to date.");
+            : fixed
+                ? "Everything is up to date. Fixed regions stay where they are in Step by step only: propose steps there."
+                : "Everything is up to date.");
         return;
     }
     part();
@@ -153,6 +158,24 @@ void ViewerModel::Apply::operator()(const SetDirection& action)
         throw InputError("The stamping direction needs a length above 0.");
     change("Change stamping direction");
     session.options.flatten.direction = action.direction;
+}
+
+void ViewerModel::Apply::operator()(const SetKFactor& action)
+{
+    std::optional<KFactor> k;
+    if (!action.k_factor.empty())
+        k = spia::k_factor(action.k_factor);
+    if (k == session.options.k_factor)
+        return;
+    if (k && session.part && session.part->solid && session.part->solid->skin != Skin::middle)
+        throw InputError(
+            "A K factor moves the middle surface of bends to their neutral fibre, and the lengths are those of "
+            "a skin: choose \"middle\" as \"Skin\" in the step Part first.");
+    const bool unsaved = state.unsaved;
+    change("Change the K factor", true);
+    session.options.k_factor = std::move(k);
+    if (session.blank)
+        run_of_change(session.surface ? Stage::fit : Stage::solve, "Unfolding with this K factor", unsaved);
 }
 
 std::array<int, 4> ViewerModel::Apply::corners_now() const

@@ -47,6 +47,7 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
     case Stage::solve:
         made_with.flatten = options.flatten;
         made_with.steps = options.steps;
+        made_with.k_factor = options.k_factor;
         made_with.limits = options.limits;
         break;
     case Stage::grid:
@@ -66,7 +67,7 @@ void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
 bool blank_holds(const Document& document)
 {
     const SessionOptions &wanted = document.session.options, &made = document.made_with;
-    if (wanted.steps != made.steps)
+    if (wanted.steps != made.steps || wanted.k_factor != made.k_factor)
         return false;
     return made.steps ? holds(document, *made.steps) && wanted.flatten.skins == made.flatten.skins
                       : same(wanted.flatten, made.flatten);

@@ -3,11 +3,13 @@
 #include <charconv>
 #include <fmt/core.h>
 
+#include "app/viewer/model/k_choice.h"
 #include "app/viewer/model/members.h"
 #include "engine/core/error.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
 #include "engine/forming/material_library.h"
+#include "engine/pipeline/part_bends.h"
 
 namespace fs = std::filesystem;
 
@@ -39,6 +41,8 @@ struct StoredProject {
     SheetSource material_from = SheetSource::chosen, thickness_from = SheetSource::chosen; ///< as older files mean it
     bool skins = false;
     std::optional<Eigen::Vector3d> direction;
+    std::string k_factor; ///< empty: none, or a table
+    std::optional<StoredPath> k_table;
     GridOptions grid;
     bool natural_ends = false; ///< how older files have the ends
     std::optional<FitChoice> fit;
@@ -171,6 +175,8 @@ inline constexpr auto members_of<StoredProject> =
                member("thickness_from", &StoredProject::thickness_from),
                member("skins", &StoredProject::skins),
                member("direction", &StoredProject::direction),
+               member("k_factor", &StoredProject::k_factor),
+               member("k_table", &StoredProject::k_table),
                member("grid", &StoredProject::grid),
                member("natural_ends", &StoredProject::natural_ends),
                member("fit", &StoredProject::fit),
@@ -283,6 +289,17 @@ void require_section(const StoredProject& stored, const Place& place)
         place.member("section").fail("must have two places and a depth that is not along their line");
 }
 
+std::optional<KFactor> stored_k(const StoredProject& stored, const fs::path& file, const fs::path& folder)
+{
+    if (!stored.k_table && stored.k_factor.empty())
+        return std::nullopt;
+    try {
+        return k_factor(stored.k_table ? found_path(*stored.k_table, folder).string() : stored.k_factor);
+    } catch (const Error& error) {
+        throw InputError(fmt::format("{}: its K factor cannot be read: {}", file.string(), error.what()));
+    }
+}
+
 Document document_of(const StoredProject& stored, const fs::path& file, const fs::path& folder,
                      const fs::path& materials)
 {
@@ -304,6 +321,7 @@ Document document_of(const StoredProject& stored, const fs::path& file, const fs
     document.thickness_from = stored.thickness_from;
     session.options.flatten.skins = stored.skins;
     session.options.flatten.direction = stored.direction;
+    session.options.k_factor = stored_k(stored, file, folder);
     session.options.grid = stored.grid;
     set_fit(session.options, stored.fit.value_or(FitChoice{.ends = stored.natural_ends ? CurveEnds::natural
                                                                                        : CurveEnds::averaged_knots}));
@@ -350,6 +368,10 @@ void save_project(const fs::path& file, const Document& document, const ViewSett
     stored.thickness_from = document.thickness_from;
     stored.skins = session.options.flatten.skins;
     stored.direction = session.options.flatten.direction;
+    if (const auto& k = session.options.k_factor; k_source(k) == KSource::table)
+        stored.k_table = stored_path(k->name, folder);
+    else
+        stored.k_factor = k_text(k);
     stored.grid = session.options.grid;
     stored.natural_ends = session.options.interpolate.ends == CurveEnds::natural;
     stored.fit = fit_choice(session.options);

@@ -17,6 +17,7 @@
 /// | `part.keep_largest`, `part.parts`, `part.skin`, `part.sewing_mm`, `part.deflection_mm`, `part.leave_out_bad_faces`, `part.keep_triangles`, `part.seam`, `part.remesh` | as in the script actions set_reading, set_seam and set_remeshing |
 /// | `material`, `material_file` | a built-in grade; or null or a file, given like that of the part |
 /// | `thickness`, `skins`, `direction`, `grid`, `natural_ends`, `parameters` | the other options of the chain; mm |
+/// | `k_factor`, `k_table` | as in the script action set_k_factor; a table given like the file of the part |
 /// | `fit` | as in the script action set_fit; without it `natural_ends` says the ends |
 /// | `ran` | the last stage that had been run, or null |
 /// | `steps_ran` | whether steps of unfolding had been run |

@@ -90,6 +90,7 @@ constexpr std::tuple forms{
     form<SetThickness>("set_thickness", required("thickness", &SetThickness::thickness, Between{1e-6, 1e6})),
     form<SetSkins>("set_skins", required("skins", &SetSkins::skins)),
     form<SetDirection>("set_direction", member("direction", &SetDirection::direction, has_a_direction)),
+    form<SetKFactor>("set_k_factor", member("k_factor", &SetKFactor::k_factor)),
     form<SetCorner>("set_corner", required("corner", &SetCorner::corner, Between{0, 3}),
                     required("vertex", &SetCorner::vertex, any_index), member("dragging", &SetCorner::dragging)),
     form<ProposeCorners>("propose_corners"),

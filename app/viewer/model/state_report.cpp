@@ -69,6 +69,7 @@ Json options_json(const Document& document)
             {"skins", options.flatten.skins},
             {"seam", written(options.read.seam)},
             {"direction", written(options.flatten.direction)},
+            {"k_factor", options.k_factor ? Json(options.k_factor->name) : Json(nullptr)},
             {"corners", written(options.corners)},
             {"grid", written(options.grid)},
             {"fit", written(fit_choice(options))},

@@ -164,6 +164,7 @@ void follow_chosen_file(Frame& frame)
         frame.actions.push(SetLimits{choice});
         break;
     }
+    case FileDialog::Purpose::open_k_table: frame.actions.push(SetKFactor{path->string()}); break;
     case FileDialog::Purpose::open_steps: frame.actions.push(OpenSteps{*path}); break;
     case FileDialog::Purpose::save_steps: frame.actions.push(SaveSteps{*path}); break;
     case FileDialog::Purpose::save_animation:

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 namespace spia::viewer {
 namespace {
 
+constexpr double least_dxf_tolerance = 1e-6, most_dxf_tolerance = 1; // mm, as in scripts
+
 ExportChoices::Planned planned_files(const Session& session, const ExportChoices& choices)
 {
     ExportChoices::Planned planned;
@@ -150,6 +152,57 @@ void solver_formats(const Frame& frame, std::vector<std::string>& formats)
     }
 }
 
+/// The next choice of the DXF file: all are as wide as the longest label lets them.
+void dxf_item()
+{
+    const float label = ImGui::CalcTextSize("Within, inch").x + ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::SetNextItemWidth(std::max(1.f, ImGui::GetContentRegionAvail().x - label));
+}
+
+/// A choice of a few.
+template <class T, size_t n>
+bool choice(const char* label, T& value, const std::array<std::pair<T, const char*>, n>& each, const char* help)
+{
+    const auto now = std::find_if(each.begin(), each.end(), [&](const auto& entry) { return entry.first == value; });
+    bool changed = false;
+    dxf_item();
+    if (ImGui::BeginCombo(label, now->second)) {
+        for (const auto& [entry, text] : each)
+            if (ImGui::Selectable(text, entry == value)) {
+                changed = entry != value;
+                value = entry;
+            }
+        ImGui::EndCombo();
+    } else
+        tooltip(help);
+    return changed;
+}
+
+/// What the outline is drawn as, and for which programs.
+void dxf_choices(Frame& frame, DxfOptions& dxf)
+{
+    if (choice(
+            "Curves", dxf.curves,
+            std::array{std::pair{DxfCurves::arcs, "arcs, else polylines"},
+                       std::pair{DxfCurves::splines, "arcs, else splines"},
+                       std::pair{DxfCurves::polylines, "polylines only"}},
+            "Circles, arcs and lines where they are found; the rest as polylines or splines through the places of the mesh") &&
+        dxf.curves == DxfCurves::splines)
+        dxf.version = DxfVersion::r2000;
+    if (choice("Version", dxf.version,
+               std::array{std::pair{DxfVersion::r2000, "R2000"}, std::pair{DxfVersion::r12, "R12"}},
+               "R12 (AC1009) is what the oldest controls read; it has no splines. R2000 is AC1015.") &&
+        dxf.version == DxfVersion::r12 && dxf.curves == DxfCurves::splines)
+        dxf.curves = DxfCurves::arcs;
+    ImGui::BeginDisabled(dxf.curves == DxfCurves::polylines);
+    dxf_item();
+    double within = dxf.tolerance;
+    if (length_input(frame, "Within", within, {.mm = "%.4g", .inch = "%.5g"}))
+        dxf.tolerance = std::clamp(within, least_dxf_tolerance, most_dxf_tolerance);
+    tooltip("How far a place of the outline may be from the curve that is drawn there");
+    ImGui::EndDisabled();
+}
+
 void formats_column(Frame& frame, ExportChoices& choices)
 {
     auto& formats = choices.formats;
@@ -173,7 +226,11 @@ void formats_column(Frame& frame, ExportChoices& choices)
         ImGui::Unindent(indent);
     }
     format_box(formats, "vtu", "VTU  all results, for ParaView");
-    format_box(formats, "dxf", "DXF  outline of the blank");
+    if (format_box(formats, "dxf", "DXF  outline of the blank")) {
+        ImGui::Indent(indent);
+        dxf_choices(frame, choices.options.dxf);
+        ImGui::Unindent(indent);
+    }
     if (format_box(formats, "csv", "CSV  tables")) {
         ImGui::Indent(indent);
         boxes(frame, std::array{std::pair{"Results per vertex", &csv.fields}, std::pair{"Outline", &csv.outline},

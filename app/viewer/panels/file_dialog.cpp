@@ -37,6 +37,8 @@ const Wording& wording(FileDialog::Purpose purpose)
     static const Wording test{"Choose a tensile test", "Choose", {".csv", ".txt", ".tsv", ".dat"}, false, false};
     static const Wording grade{"Save the material", "Save", {".json"}, true, false};
     static const Wording limits{"Choose a forming limit curve", "Choose", {".csv", ".txt"}, false, false};
+    static const Wording k_table{
+        "Choose a table of K factors", "Choose", {".csv", ".txt", ".tsv", ".dat"}, false, false};
     static const Wording save{"Save the project", "Save", {".spia"}, true, false};
     static const Wording folder{"Choose a folder", "Choose this folder", {}, false, true};
     static const Wording report{"Save the report", "Save", {".html"}, true, false};
@@ -51,6 +53,7 @@ const Wording& wording(FileDialog::Purpose purpose)
     case P::open_tensile_test: return test;
     case P::save_material: return grade;
     case P::open_limit_curve: return limits;
+    case P::open_k_table: return k_table;
     case P::save_project: return save;
     case P::export_folder: return folder;
     case P::save_report: return report;

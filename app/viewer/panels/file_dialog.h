@@ -24,6 +24,7 @@ public:
         open_tensile_test,
         save_material,
         open_limit_curve,
+        open_k_table,
         open_steps,
         save_steps
     };

@@ -4,6 +4,7 @@
 #include "app/viewer/model/grades.h"
 #include "app/viewer/model/number_text.h"
 #include "app/viewer/model/viewer_words.h"
+#include "app/viewer/panels/bend_rows.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/fit_editor.h"
 #include "app/viewer/panels/lights.h"
@@ -27,6 +28,13 @@ void seam_rows(Frame& frame, const PartFile& part)
 {
     figure(frame, "Seam length", length_text(part.seam_length, frame.lengths()));
     tooltip("To cut elsewhere, draw a seam with the tool Line");
+    if (const auto& cut = frame.state.document.session.corner_cut) {
+        const auto strain = [](const StrainFigures& each) { return fmt::format("up to {:.3f}", each.most); };
+        figure(frame, "Strain, corners joined", cut->before ? strain(*cut->before) : "no blank");
+        tooltip(sentence(in_words(*cut)));
+        figure(frame, "Strain, corners cut", strain(cut->after));
+        tooltip(sentence(in_words(*cut)));
+    }
     if (frame.state.document.session.options.read.seam.mode == SeamOptions::Mode::automatic)
         return;
     ImGui::BeginDisabled(frame.model.busy());
@@ -188,6 +196,7 @@ void unfold_step(Frame& frame)
                      : "Computes the flat blank of the part in one step  (F6)");
     if (!session.blank) {
         direction_control(frame);
+        k_factor_control(frame);
         skins_control(frame);
         return;
     }
@@ -209,13 +218,11 @@ void unfold_step(Frame& frame)
                            : "not converged");
     doubt_rows(frame, ChainStep::unfold);
     direction_control(frame);
+    k_factor_control(frame);
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
     figure(frame, "Blank", size_text(sheet.size[0], sheet.size[1], frame.lengths()));
-    if (session.bends && (session.part->solid || !session.bends->bends.empty())) {
-        figure(frame, "Lengths of", session.bends->surface);
-        tooltip("Which surface of the sheet the lengths of the blank are those of; the report lists the bends");
-    }
+    bend_rows(frame);
     figure(frame, "Thinning", percent_range(sheet.thinning));
     tooltip("Smallest and largest value of all faces; negative: thicker than before");
     figure(frame, "Equivalent strain",

@@ -1,0 +1,181 @@
+#include "app/viewer/panels/bend_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "app/viewer/model/k_choice.h"
+#include "app/viewer/model/lengths.h"
+#include "app/viewer/panels/widgets.h"
+#include "engine/pipeline/bend_report.h"
+
+namespace spia::viewer {
+namespace {
+
+constexpr int most_rows = 8; ///< in sight at once; more scroll
+
+/// The face in the middle of a bend.
+int face_of(const TriMesh& part, const SheetBend& bend)
+{
+    const auto off = [&](int f) {
+        return (part.position(Eigen::all, part.triangle.col(f)).rowwise().mean() - bend.place).squaredNorm();
+    };
+    return *std::min_element(bend.faces.begin(), bend.faces.end(), [&](int a, int b) { return off(a) < off(b); });
+}
+
+std::string bend_words(const Frame& frame, const SheetBend& bend)
+{
+    std::string words = engine_words(frame, in_words(bend));
+    words +=
+        ".\n" + fmt::format("It is {} long; its radius is that of the {}.", length_text(bend.length, frame.lengths()),
+                            bend.stated ? "CAD cylinder" : "circle through the vertices");
+    if (!bend.laid)
+        words += "\nThe blank has it as the mesh has: " + engine_words(frame, bend.why_not) + ".";
+    return words + "\nClick to look at it.";
+}
+
+void right_aligned(const std::string& text)
+{
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, free));
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void headings(Frame& frame)
+{
+    const std::string unit = std::string(length_word(frame.lengths()));
+    const std::pair<const char*, std::string> columns[] = {
+        {"Bend", "Up or down, seen on the blank as it is drawn"},
+        {"R", "Inner radius, " + unit},
+        {"Angle", "By how much the sheet turns, degrees; 0 is flat"},
+        {"K", "Share of the thickness, from the inner side, at which the neutral fibre lies"},
+        {"Allow.", "Bend allowance, " + unit + ": the breadth of the bend in the blank"},
+        {"Deduct.",
+         "Bend deduction, " + unit + ": what the sum of both outer leg lengths is longer by than the blank"}};
+    ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
+    for (const auto& [title, help] : columns) {
+        ImGui::TableNextColumn();
+        if (title == columns[0].first)
+            ImGui::TextUnformatted(title);
+        else
+            right_aligned(title);
+        tooltip(help);
+    }
+    ImGui::PopStyleColor();
+}
+
+void row(Frame& frame, int number, const SheetBend& made)
+{
+    const Session& session = frame.state.document.session;
+    const SheetBend bend = with_wanted_k(session, made);
+    const auto& spot = frame.state.spot;
+    const bool here = spot && std::binary_search(bend.faces.begin(), bend.faces.end(), spot->face);
+    if (!bend.laid)
+        ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
+    ImGui::TableNextColumn();
+    if (ImGui::Selectable(fmt::format("{} {}##bend", number, bend.up ? "up" : "down").c_str(), here,
+                          ImGuiSelectableFlags_SpanAllColumns) &&
+        !bend.faces.empty())
+        frame.actions.push(FlyTo{face_of(session.part->mesh, bend)});
+    tooltip(bend_words(frame, bend));
+    const LengthUnit lengths = frame.lengths();
+    const int decimals = 3 + more_decimals(lengths);
+    for (const std::string& text :
+         {fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
+          fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi), fmt::format("{:.3g}", bend.k),
+          fmt::format("{:.{}f}", shown_length(bend.allowance, lengths), decimals),
+          fmt::format("{:.{}f}", shown_length(bend.deduction, lengths), decimals)}) {
+        ImGui::TableNextColumn();
+        right_aligned(text);
+    }
+    if (!bend.laid)
+        ImGui::PopStyleColor();
+}
+
+void table(Frame& frame, const std::vector<SheetBend>& bends)
+{
+    const float line = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const bool scrolls = int(bends.size()) > most_rows;
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {3 * frame.ui.scale, ImGui::GetStyle().CellPadding.y});
+    if (ImGui::BeginTable("bends", 6, ImGuiTableFlags_SizingStretchProp | (scrolls ? ImGuiTableFlags_ScrollY : 0),
+                          {0, scrolls ? (most_rows + 1) * line : 0})) {
+        for (const float share : {1.3f, 1.f, 1.2f, 1.f, 1.3f, 1.3f})
+            ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, share);
+        ImGui::TableSetupScrollFreeze(0, 1);
+        headings(frame);
+        ImGuiListClipper clipper;
+        clipper.Begin(int(bends.size()), line);
+        while (clipper.Step())
+            for (int b = clipper.DisplayStart; b < clipper.DisplayEnd; ++b) {
+                ImGui::PushID(b);
+                row(frame, b + 1, bends[size_t(b)]);
+                ImGui::PopID();
+            }
+        ImGui::EndTable();
+    }
+    ImGui::PopStyleVar();
+}
+
+} // namespace
+
+void k_factor_control(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    if (!session.part)
+        return;
+    const auto& k = session.options.k_factor;
+    const bool of_skin = session.part->solid && session.part->solid->skin != Skin::middle;
+    const KSource now = k_source(k);
+    ImGui::BeginDisabled(of_skin && !k);
+    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    if (ImGui::BeginCombo("K factor", now == KSource::number ? "number" : k_words(k).c_str())) {
+        if (ImGui::Selectable("0.5, middle surface", now == KSource::automatic))
+            frame.actions.push(SetKFactor{});
+        if (ImGui::Selectable("number", now == KSource::number) && now != KSource::number)
+            frame.actions.push(SetKFactor{"0.5"});
+        if (ImGui::Selectable("DIN 6935", now == KSource::din6935))
+            frame.actions.push(SetKFactor{"din6935"});
+        if (ImGui::Selectable("Table from a file...", now == KSource::table))
+            frame.ui.files.open(FileDialog::Purpose::open_k_table,
+                                now == KSource::table ? std::filesystem::path(k->name) : session.file.parent_path());
+        ImGui::EndCombo();
+    } else
+        tooltip(
+            of_skin
+                ? "The lengths are those of a skin of the solid. Choose \"middle\" as \"Skin\" in the step Part to "
+                  "lay bends by their neutral fibre."
+                : "Where the neutral fibre of a bend lies: this share of the thickness from its inner side. A table "
+                  "has two columns, inner radius over thickness and K.");
+    ImGui::EndDisabled();
+    if (now != KSource::number)
+        return;
+    double value = k->table[0].second;
+    ImGui::SetNextItemWidth(170 * frame.ui.scale);
+    if (typed_number(frame, "K", value, "%.4g", 0.01))
+        frame.actions.push(SetKFactor{fmt::format("{}", std::round(value * 1e6) / 1e6)});
+    tooltip("Above 0 and below 1; 0.5 is the middle surface");
+}
+
+void bend_rows(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    if (!session.bends || (!session.part->solid && session.bends->bends.empty()))
+        return;
+    figure(frame, "Lengths of", session.bends->surface);
+    tooltip("Which surface of the sheet the lengths of the blank are those of");
+    const auto& bends = session.bends->bends;
+    if (bends.empty())
+        return;
+    const auto flags = int(bends.size()) > most_rows ? ImGuiTreeNodeFlags_None : ImGuiTreeNodeFlags_DefaultOpen;
+    const bool open = ImGui::TreeNodeEx("bends", flags | ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s",
+                                        bends.size() == 1 ? "1 bend" : fmt::format("{} bends", bends.size()).c_str());
+    tooltip("Bends over cylinders, with the length of their neutral fibre in the blank");
+    if (!open)
+        return;
+    table(frame, bends);
+    for (const std::string& note : session.bends->notes)
+        muted(frame, engine_words(frame, note));
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,157 @@
+// The K factor of the bends, and what cutting corners is worth, as the window has them.
+#include <fmt/core.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <numbers>
+#include <random>
+
+#include "app/viewer/model/chain.h"
+#include "app/viewer/model/k_choice.h"
+#include "app/viewer/model/project_file.h"
+#include "tests/support/bent_parts.h"
+#include "tests/support/developable.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/profile.h"
+#include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/viewer/model_fixture.h"
+
+namespace spia::viewer {
+namespace {
+
+using std::numbers::pi;
+using testing::HasSubstr;
+
+constexpr double legs = 40 + 25, thickness = 2; // mm
+
+struct KChoice : ModelFixture {
+    ScratchFolder folder;
+
+    /// A bend between two legs. @param middle  mm, radius of the middle surface
+    void open_bracket(double middle, double angle)
+    {
+        const auto profile = shapes::Profile({0, 0}, 0).straight(40).bend(middle, angle).straight(25);
+        shapes::write_mesh(folder / "bracket.obj", shapes::extruded(profile, 30, 800).mesh);
+        model.apply(OpenPart{folder / "bracket.obj", ""});
+        wait();
+        model.apply(SetThickness{thickness});
+        model.apply(RunTo{Stage::solve});
+        wait();
+        ASSERT_NE(document.session.blank, nullptr);
+        ASSERT_EQ(document.session.bends->bends.size(), 1u);
+    }
+    double length() const
+    {
+        const Eigen::Matrix2Xd& flat = document.session.blank->blank.position;
+        return (flat.rowwise().maxCoeff() - flat.rowwise().minCoeff())[0];
+    }
+    std::string last_error() const
+    {
+        for (auto message = state.messages.rbegin(); message != state.messages.rend(); ++message)
+            if (message->severity == Severity::error)
+                return message->text;
+        return "";
+    }
+    /// The part solved anew with this factor; what the panel showed before that are `shown`.
+    void choose(const std::string& k, SheetBend& shown)
+    {
+        model.apply(SetKFactor{k});
+        shown = with_wanted_k(document.session, document.session.bends->bends[0]);
+        EXPECT_EQ(first_stale(document), Stage::solve) << k;
+        wait();
+        ASSERT_EQ(last_error(), "");
+        EXPECT_GT(first_stale(document).value(), Stage::solve) << "it is solved at once";
+    }
+};
+
+/// DIN 6935 as its formula reads.
+double din(double ratio) { return ratio > 5 ? 0.5 : (0.65 + 0.5 * std::log10(ratio)) / 2; }
+
+} // namespace
+
+TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (int trial = 0; trial < 4; ++trial) {
+        const double inner = 1 + 12 * share(random), angle = 0.4 + 2 * share(random);
+        open_bracket(inner + thickness / 2, angle);
+        const double number = std::round(1000 * (0.3 + 0.2 * share(random))) / 1000;
+        std::ofstream(folder / "k.csv") << "R/t;K\n0;0.3\n10;0.5\n";
+        const double ratio = inner / thickness;
+        const std::pair<std::string, double> choices[] = {
+            {fmt::format("{}", number), number},
+            {"din6935", din(ratio)},
+            {(folder / "k.csv").string(), 0.3 + 0.02 * std::min(10., ratio)}};
+        for (const auto& [text, k] : choices) {
+            const double wanted = angle * (inner + k * thickness);
+            SheetBend shown;
+            ASSERT_NO_FATAL_FAILURE(choose(text, shown));
+            EXPECT_NEAR(shown.k, k, 1e-3) << text; // the radius is that of a circle through vertices
+            EXPECT_NEAR(shown.allowance, wanted, 1e-3 * wanted) << text;
+            EXPECT_NEAR(length(), legs + wanted, 1e-3 * legs) << text;
+            const SheetBend& made = document.session.bends->bends[0];
+            EXPECT_NEAR(shown.allowance, made.allowance, 1e-9);
+            EXPECT_NEAR(shown.deduction, made.deduction, 1e-9);
+            EXPECT_TRUE(made.laid);
+        }
+        EXPECT_EQ(k_source(document.session.options.k_factor), KSource::table);
+        EXPECT_EQ(k_words(document.session.options.k_factor), "k.csv");
+    }
+}
+
+TEST_F(KChoice, IsUndoneAndKeptInProjects)
+{
+    open_bracket(4, 1);
+    std::ofstream(folder / "k.csv") << "0 0.35\n";
+    for (const std::string& text : {std::string("0.42"), std::string("din6935"), (folder / "k.csv").string()}) {
+        model.apply(SetKFactor{text});
+        wait();
+        save_project(folder / "a.spia", document, state.view);
+        const auto kept = open_project(folder / "a.spia", assets / "materials").document.session.options.k_factor;
+        EXPECT_EQ(kept, document.session.options.k_factor) << text;
+    }
+    std::filesystem::remove(folder / "k.csv");
+    EXPECT_THROW(open_project(folder / "a.spia", assets / "materials"), InputError);
+    model.apply(Undo{});
+    EXPECT_FALSE(document.session.options.k_factor) << "changes in a row are one";
+    EXPECT_GT(first_stale(document).value_or(Stage::fit), Stage::solve) << "and the blank of then";
+}
+
+TEST_F(KChoice, WhatIsNoneIsRefused)
+{
+    open_bracket(4, 1);
+    for (const char* none : {"0", "1", "-0.2", "nowhere.csv", "nan"}) {
+        model.apply(SetKFactor{none});
+        EXPECT_NE(last_error(), "") << none;
+        EXPECT_FALSE(document.session.options.k_factor) << none;
+        model.apply(DismissMessages{});
+    }
+}
+
+TEST_F(KChoice, CutCornersTellTheStrainWithAndWithout)
+{
+    const shapes::LippedBox box;
+    shapes::write_mesh(folder / "tray.obj", shapes::lipped_box(box));
+    model.apply(OpenPart{folder / "tray.obj", ""});
+    wait();
+    model.apply(SetSeam{{SeamOptions::Mode::corners, {}}});
+    wait();
+    ASSERT_EQ(last_error(), "");
+    const auto cut = document.session.corner_cut;
+    ASSERT_TRUE(cut);
+    ASSERT_TRUE(cut->before) << cut->why_not;
+    EXPECT_LT(cut->after.most, 1e-6);
+    EXPECT_GT(cut->before->most, 0.1);
+    const auto says = [](const Message& message) { return message.text.find("With the corners cut") == 0; };
+    EXPECT_EQ(std::count_if(state.messages.begin(), state.messages.end(), says), 1);
+    // Joined, the part is as without the wish.
+    model.apply(SetSeam{});
+    wait();
+    EXPECT_FALSE(document.session.corner_cut);
+    model.apply(RunTo{Stage::solve});
+    wait();
+    ASSERT_NE(document.session.blank, nullptr);
+    EXPECT_NEAR(document.session.blank->face.strain_equivalent.maxCoeff(), cut->before->most, 1e-6);
+}
+
+} // namespace spia::viewer
