@@ -30,7 +30,7 @@ struct KChoice : ModelFixture {
     void open_bracket(double middle, double angle)
     {
         const auto profile = shapes::Profile({0, 0}, 0).straight(40).bend(middle, angle).straight(25);
-        shapes::write_mesh(folder / "bracket.obj", shapes::extruded(profile, 30, 800).mesh);
+        shapes::write_mesh(folder / "bracket.obj", shapes::extruded(profile, 30, 6000).mesh);
         model.apply(OpenPart{folder / "bracket.obj", ""});
         wait();
         model.apply(SetThickness{thickness});
@@ -73,8 +73,8 @@ TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
     std::mt19937 random(11);
     std::uniform_real_distribution<double> share(0, 1);
     for (int trial = 0; trial < 4; ++trial) {
-        const double inner = 1 + 12 * share(random), angle = 0.4 + 2 * share(random);
-        open_bracket(inner + thickness / 2, angle);
+        const double inner = 2 + 2 * share(random), angle = 0.9 + 1.2 * share(random); // radii that meshes are known by
+        ASSERT_NO_FATAL_FAILURE(open_bracket(inner + thickness / 2, angle));
         const double number = std::round(1000 * (0.3 + 0.2 * share(random))) / 1000;
         std::ofstream(folder / "k.csv") << "R/t;K\n0;0.3\n10;0.5\n";
         const double ratio = inner / thickness;
@@ -101,7 +101,7 @@ TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
 
 TEST_F(KChoice, IsUndoneAndKeptInProjects)
 {
-    open_bracket(4, 1);
+    ASSERT_NO_FATAL_FAILURE(open_bracket(4, 1));
     std::ofstream(folder / "k.csv") << "0 0.35\n";
     for (const std::string& text : {std::string("0.42"), std::string("din6935"), (folder / "k.csv").string()}) {
         model.apply(SetKFactor{text});
@@ -119,7 +119,7 @@ TEST_F(KChoice, IsUndoneAndKeptInProjects)
 
 TEST_F(KChoice, WhatIsNoneIsRefused)
 {
-    open_bracket(4, 1);
+    ASSERT_NO_FATAL_FAILURE(open_bracket(4, 1));
     for (const char* none : {"0", "1", "-0.2", "nowhere.csv", "nan"}) {
         model.apply(SetKFactor{none});
         EXPECT_NE(last_error(), "") << none;
