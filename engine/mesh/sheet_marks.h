@@ -38,11 +38,12 @@ double depth_of(const TriMesh& mesh, const SurfacePieces& pieces, const std::vec
 struct PlainSolid {
     TriMesh mesh;
     std::vector<int> source_vertex; ///< per vertex that of the solid, ascending
-    std::vector<int> source_face;   ///< per triangle that of the solid, ascending
+    std::vector<int> source_face;   ///< per triangle that of the solid, ascending; of what closes a skin one beside it
 };
 
-/// Puts the floors of marks back to the level of their skin and joins them with it where their walls were. Depths are those
-/// of the walls, where a corner of the floor has a corner of the skin straight over it: so they are exact over bends, too.
+/// Closes plane skins over their marks (refilled_mark()). Elsewhere the floors of marks are put back to the level of their skin and
+/// joined with it where their walls were. Depths are those of the walls, where a corner of the floor has a corner of the skin straight
+/// over it: so they are exact over bends, too.
 /// @throws NotASheet  what is left would fold over or not be closed
 PlainSolid without_marks(const TriMesh& solid, const ThinSolid& sheet);
 

@@ -237,6 +237,74 @@ TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
     EXPECT_NEAR(length, 6 + 2 * 30, 2 * 2) << "to the nearest cells";
 }
 
+TEST(Marks, OfAnyOutlineInPlaneSkinAreTakenOut)
+{
+    // Floors and tops with vertices of their own, as meshers make them along curved walls: foot and top of a wall do not match.
+    shapes::Lots lots(7);
+    for (int sample = 0; sample < 40; ++sample) {
+        const double depth = lots.between(0.2, 0.59) * (sample % 2 ? 1 : -1), z = 3;
+        const int tops = 60 + sample, feet = 50 + (7 * sample) % 41;
+        const auto petal = [&](double angle) { return 8 + 3 * std::sin(3 * angle) + 2 * std::cos(5 * angle); };
+        const auto loop = [&](int count, double at, double turned) {
+            shapes::Loop result;
+            for (int i = 0; i < count; ++i) {
+                const double angle = 2 * pi * (i + turned) / count;
+                result.emplace_back(35 + petal(angle) * std::cos(angle), 18 + petal(angle) * std::sin(angle), at);
+            }
+            return result;
+        };
+        const shapes::Loop top = loop(tops, z, 0), foot = loop(feet, z - depth, 0.3);
+        const auto reversed = [](shapes::Loop l) {
+            std::reverse(l.begin(), l.end());
+            return l;
+        };
+        const shapes::Loop upper = {{0, 0, z}, {70, 0, z}, {70, 36, z}, {0, 36, z}},
+                           lower = {{0, 0, 0}, {0, 36, 0}, {70, 36, 0}, {70, 0, 0}};
+        shapes::PlaneFaces faces;
+        faces.add(upper, {reversed(top)});
+        faces.add(lower);
+        for (size_t i = 0; i < 4; ++i) {
+            const Eigen::Vector3d &a = upper[i], &b = upper[(i + 1) % 4];
+            faces.add({{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, b, a});
+        }
+        faces.add(foot);
+        // The wall: from one loop to the other, whichever comes next around.
+        for (int i = 0, j = 0; i < tops || j < feet;)
+            if (j == feet || (i < tops && (i + 1.) / tops <= (j + 1.3) / feet)) {
+                faces.add({top[size_t(i)], top[size_t((i + 1) % tops)], foot[size_t(j % feet)]});
+                ++i;
+            } else {
+                faces.add({foot[size_t((j + 1) % feet)], foot[size_t(j)], top[size_t(i % tops)]});
+                ++j;
+            }
+        SCOPED_TRACE(fmt::format("{} corners above, {} below, {} mm", tops, feet, depth));
+        const PartFile part = examined(faces.mesh());
+        ASSERT_TRUE(part.solid) << words_of(part);
+        EXPECT_TRUE(part.doctor.healthy()) << words_of(part);
+        EXPECT_EQ(part.doctor.boundary_loops, 1);
+        EXPECT_NEAR(part.solid->thickness, z, 1e-9);
+        EXPECT_NEAR(area(part.mesh), 70 * 36, 1e-9);
+        const Finding* finding = part.doctor.find(Fault::mark);
+        ASSERT_TRUE(finding) << words_of(part);
+        EXPECT_NE(finding->text.find(fmt::format("{:.4g} mm {}", std::abs(depth), depth > 0 ? "deep" : "high")),
+                  std::string::npos)
+            << finding->text;
+    }
+}
+
+TEST(Marks, JustTooDeepOnesInAMeshAreRefusedAsInASolid)
+{
+    const BentSheet sheet = step_sheet();
+    const TriMesh solid = solid_of(sheet);
+    EXPECT_TRUE(examined(marked(sheet, solid, box(8, 20, 20, 40), 0.399)).doctor.healthy());
+    for (const double depth : {0.405, 1., 1.8}) {
+        const PartFile part = examined(marked(sheet, solid, box(8, 20, 20, 40), depth));
+        EXPECT_FALSE(part.solid);
+        EXPECT_FALSE(part.doctor.healthy()) << "not cut open as a hollow body: " << words_of(part);
+        EXPECT_TRUE(part.seam.empty());
+    }
+}
+
 TEST(Marks, DeeperOnesAreRefusedWithTheirDepth)
 {
     const BentSheet sheet = step_sheet();
