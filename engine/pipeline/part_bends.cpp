@@ -1,5 +1,7 @@
 #include "engine/pipeline/part_bends.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fmt/core.h>
 
@@ -63,7 +65,9 @@ void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& 
 
 KFactor k_factor(const std::string& text)
 {
-    if (text == "din6935")
+    std::string lower = text;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (lower == "din6935")
         return din6935_k();
     double value = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -106,6 +106,17 @@ void lay_straight(const TriMesh& part, const std::optional<Eigen::Vector2d>& rol
     flat.overlap = overlap(part, flat.blank.position);
 }
 
+/// Where the rolling direction lies on the blank. Where the sheet is strained, r-values have turned the blank to the direction as it is
+/// seen; sheet that is only bent may be turned anyhow, and has the direction in its faces.
+std::optional<Eigen::Vector2d> rolling_on(const TriMesh& part, const ProcessConditions& process,
+                                          const FlattenResult& flat)
+{
+    const auto seen = rolling_in(process, blank_plane(flat.stamping.direction));
+    if (!seen || flat.face.strain_equivalent.maxCoeff() > most_relaid_strain)
+        return seen;
+    return carried_to_blank(part, flat.blank.position, *process.rolling, *seen);
+}
+
 /// Where the rolling direction lies on the blank of steps, and on what was laid onto it.
 std::optional<Eigen::Vector2d> rolling_on_steps(const ProcessConditions& process)
 {
@@ -175,7 +186,7 @@ void solve(Session& session, const Progress& whole)
         lay_steps_anew(part, options, fibre, flat, progress);
     } else {
         flat = flatten_laid(part, fibre.laid, nullptr, options, progress);
-        lay_straight(part, rolling_in(options.process, blank_plane(flat.stamping.direction)), flat);
+        lay_straight(part, rolling_on(part, options.process, flat), flat);
     }
     place_on_blank(fibre, part, flat.blank);
     if (twice) {

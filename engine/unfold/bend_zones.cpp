@@ -1,7 +1,6 @@
 #include "engine/unfold/bend_zones.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,20 +11,13 @@
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/cylinder_fit.h"
+#include "engine/unfold/strip_cylinders.h"
 
 namespace spia {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// Unit vectors across the axis, right-handed with it.
-Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis)
-{
-    Eigen::Matrix<double, 3, 2> result;
-    result.col(0) = axis.unitOrthogonal();
-    result.col(1) = axis.cross(result.col(0));
-    return result;
-}
 
 double nearest_turn(double angle, double to) { return angle - 2 * pi * std::round((angle - to) / (2 * pi)); }
 
@@ -127,71 +119,6 @@ bool bulges(const TriMesh& part, const Eigen::Matrix3Xd& normal, const BendZone&
     return out > 0;
 }
 
-/// Circle through places of a plane. [Kasa 1976] Nothing if they lie on a line.
-std::optional<Eigen::Vector3d> circle(const Eigen::Matrix2Xd& place)
-{
-    const Eigen::Vector2d middle = place.rowwise().mean();
-    const Eigen::Matrix2Xd p = place.colwise() - middle;
-    const double size = p.colwise().norm().maxCoeff();
-    if (!(size > 0))
-        return std::nullopt;
-    Eigen::MatrixX3d a(p.cols(), 3);
-    a << p.transpose() / size, Eigen::VectorXd::Ones(p.cols());
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> qr(a);
-    const Eigen::VectorXd right = p.colwise().squaredNorm().transpose() / (size * size);
-    const Eigen::Vector3d x = qr.solve(right);
-    const double square = x[2] + (x[0] * x[0] + x[1] * x[1]) / 4;
-    if (!x.allFinite() || !(square > 0))
-        return std::nullopt;
-    return Eigen::Vector3d(middle.x() + size * x[0] / 2, middle.y() + size * x[1] / 2, size * std::sqrt(square));
-}
-
-/// The cylinder through the vertices of some faces, and how far the farthest is off it.
-std::optional<BendZone> cylinder_of(const TriMesh& part, const Eigen::Matrix3Xd& normal,
-                                    const Eigen::Matrix3Xi& neighbour, const std::vector<int>& faces)
-{
-    const std::set<int> in(faces.begin(), faces.end());
-    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-    for (const int f : faces)
-        for (int k = 0; k < 3; ++k)
-            if (const int g = neighbour(k, f); g > f && in.count(g)) {
-                const Eigen::Vector3d edge =
-                    part.position.col(part.triangle((k + 1) % 3, f)) - part.position.col(part.triangle(k, f));
-                const Eigen::Vector3d turn = normal.col(f).normalized().cross(normal.col(g).normalized()) * edge.norm();
-                axis += turn.dot(axis) < 0 ? Eigen::Vector3d(-turn) : turn;
-            }
-    if (!(axis.norm() > 0))
-        return std::nullopt;
-    BendZone zone{};
-    zone.axis = axis.normalized();
-    std::set<int> vertices;
-    for (const int f : faces)
-        for (int k = 0; k < 3; ++k)
-            vertices.insert(part.triangle(k, f));
-    const std::vector<int> list(vertices.begin(), vertices.end());
-    const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
-    const Eigen::Matrix2Xd flat = frame.transpose() * part.position(Eigen::all, list);
-    const auto round = circle(flat);
-    if (!round)
-        return std::nullopt;
-    zone.point = frame * round->head<2>();
-    zone.radius = (*round)[2];
-    zone.face = faces;
-    for (Eigen::Index i = 0; i < flat.cols(); ++i)
-        zone.off = std::max(zone.off, std::abs((flat.col(i) - round->head<2>()).norm() - zone.radius));
-    return zone;
-}
-
-bool lies_on(const TriMesh& part, const BendZone& zone, int face, double within)
-{
-    for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d from = part.position.col(part.triangle(k, face)) - zone.point;
-        if (std::abs((from - from.dot(zone.axis) * zone.axis).norm() - zone.radius) > within)
-            return false;
-    }
-    return true;
-}
-
 /// Pieces of one bend that holes or notches part: on one cylinder between the same angles.
 void join_pieces(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, std::vector<BendZone>& zones)
 {
@@ -280,37 +207,44 @@ std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map)
     const Eigen::Matrix3Xd normal = area_vectors(part);
     std::vector<BendZone> zones;
     std::vector<char> taken(size_t(part.triangles()), 0);
+    const auto take = [&](const FittedCylinder& cylinder, std::vector<int> faces) {
+        BendZone zone{};
+        zone.point = cylinder.point;
+        zone.axis = cylinder.axis;
+        zone.radius = cylinder.radius;
+        zone.face = std::move(faces);
+        for (const int f : zone.face)
+            taken[size_t(f)] = 1;
+        zone.bulging = bulges(part, normal, zone);
+        measure(part, neighbour, zone);
+        zones.push_back(std::move(zone));
+    };
+    for (StripCylinder& strips : strip_cylinders(part, normal, neighbour))
+        take(strips.cylinder, std::move(strips.face));
     for (size_t b = 0; b < map.bends.size(); ++b) {
         if (map.bends[b].faces == 0 || map.bends[b].b < 0)
             continue;
         FaceSet faces = map.faces_of(map.label_of_bend(b));
-        std::optional<BendZone> zone = cylinder_of(part, normal, neighbour, faces);
+        std::erase_if(faces, [&](int f) { return bool(taken[size_t(f)]); });
+        auto cylinder = cylinder_of(part, normal, neighbour, faces);
         // Of a band that is too broad the faces farthest off go first.
-        for (int round = 0; round < 4 && zone && zone->off > most_off * zone->radius; ++round) {
-            const double within = std::max(zone->off / 2, most_off * zone->radius);
-            std::erase_if(faces, [&](int f) { return !lies_on(part, *zone, f, within); });
-            zone = faces.empty() ? std::nullopt : cylinder_of(part, normal, neighbour, faces);
+        for (int round = 0; round < 4 && cylinder && cylinder->off > most_off * cylinder->radius; ++round) {
+            const double within = std::max(cylinder->off / 2, most_off * cylinder->radius);
+            std::erase_if(faces, [&](int f) { return !lies_on(part, *cylinder, f, within); });
+            cylinder = cylinder_of(part, normal, neighbour, faces);
         }
-        if (!zone || zone->off > most_off * zone->radius)
+        if (!cylinder || cylinder->off > most_off * cylinder->radius)
             continue;
-        std::vector<int> grown = zone->face;
+        std::vector<int> grown(faces.begin(), faces.end());
         std::set<int> in(grown.begin(), grown.end());
         for (size_t i = 0; i < grown.size(); ++i)
             for (int k = 0; k < 3; ++k)
-                if (const int g = neighbour(k, grown[i]);
-                    g >= 0 && !in.count(g) && !taken[size_t(g)] && lies_on(part, *zone, g, most_off * zone->radius)) {
+                if (const int g = neighbour(k, grown[i]); g >= 0 && !in.count(g) && !taken[size_t(g)] &&
+                                                          lies_on(part, *cylinder, g, most_off * cylinder->radius)) {
                     in.insert(g);
                     grown.push_back(g);
                 }
-        std::erase_if(grown, [&](int f) { return bool(taken[size_t(f)]); });
-        if (grown.empty())
-            continue;
-        zone->face = std::move(grown);
-        for (const int f : zone->face)
-            taken[size_t(f)] = 1;
-        zone->bulging = bulges(part, normal, *zone);
-        measure(part, neighbour, *zone);
-        zones.push_back(std::move(*zone));
+        take(*cylinder, std::move(grown));
     }
     join_pieces(part, neighbour, zones);
     return zones;

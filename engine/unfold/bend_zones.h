@@ -26,8 +26,8 @@ struct BendZone {
 /// @param surface  per face what it lies on, or is a distance from, all along its normal
 std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface);
 
-/// Zones of a mesh that nothing is known of: of each bend of the map the circle through its vertices, if they lie on one, and all faces of
-/// the bend and beside it with their corners on it.
+/// Zones of a mesh that nothing is known of: the chords of cylinders however large (strip_cylinders()); then of each bend of the map
+/// the circle through its vertices, if they lie on one, and all faces of the bend and beside it with their corners on it.
 std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map);
 
 } // namespace spia

@@ -92,8 +92,15 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
         k = layers.k->at(bend.inner_radius / t);
     if (layers.mesh_at != 0)
         k = middle + side * layers.mesh_at / t;
-    else if (bend.why_not.empty())
-        result.radius = bend.inner_radius + k * t;
+    else if (bend.why_not.empty()) {
+        constexpr double nothing = 0.02; // of the thickness: triangles shorter than that are none
+        const double laid = bend.inner_radius + k * t;
+        if (laid < nothing * t)
+            bend.why_not = fmt::format("K {:.3g} at an inner radius of {:.3g} mm leaves next to no length for the bend",
+                                       k, bend.inner_radius);
+        else
+            result.radius = laid;
+    }
     // Vertices that a mesher put on chords are off the cylinder by the sagitta of 20 degrees at most, 0.4 to 1.5 % of the radius.
     constexpr double most_off = 0.02;
     if (at.off + std::abs(at.radius - of_mesh) > most_off * of_mesh)
@@ -174,6 +181,7 @@ void note_other_bends(const TriMesh& part, const std::vector<SheetBend>& bends, 
         for (const int f : bend.faces)
             bent[size_t(f)] = 1;
     const Eigen::Matrix3Xd normal = area_vectors(part);
+    const auto breadth = [&](int f, double edge) { return normal.col(f).norm() / edge; };
     double edges = 0;
     const std::vector<EdgeUse> uses = edge_uses(part.triangle);
     for_each_edge(uses, [&](size_t begin, size_t end) {
@@ -183,10 +191,15 @@ void note_other_bends(const TriMesh& part, const std::vector<SheetBend>& bends, 
         if (bent[size_t(f)] || bent[size_t(g)])
             return;
         const double turn = std::atan2(normal.col(f).cross(normal.col(g)).norm(), normal.col(f).dot(normal.col(g)));
+        const double edge = (part.position.col(uses[begin].low) - part.position.col(uses[begin].high)).norm();
         if (turn > sharp)
-            edges += (part.position.col(uses[begin].low) - part.position.col(uses[begin].high)).norm();
-        else if (turn > curved)
-            otherwise[size_t(f)] = otherwise[size_t(g)] = 1;
+            edges += edge;
+        else if (turn > curved) { // a broad face beside a narrow one is the flat beside the first chord of a bend
+            constexpr double broader = 3;
+            const double one = breadth(f, edge), other = breadth(g, edge);
+            otherwise[size_t(f)] |= one <= broader * other;
+            otherwise[size_t(g)] |= other <= broader * one;
+        }
     });
     double area = 0, whole = 0;
     for (int f = 0; f < part.triangles(); ++f) {

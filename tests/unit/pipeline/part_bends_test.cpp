@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -15,6 +16,8 @@
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/lots.h"
 #include "tests/support/mesh_file.h"
+#include "tests/support/mesh_tools.h"
+#include "tests/support/plane_faces.h"
 #include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -236,6 +239,93 @@ TEST_F(PartBends, AMeshHasTheRadiusOfTheCircleThroughItsVertices)
     EXPECT_FALSE(bend.stated);
     EXPECT_TRUE(bend.laid) << bend.why_not;
     EXPECT_NEAR(rectangle(session).length, 65 + pi / 2 * (3 + 0.88), 1e-3);
+}
+
+TEST_F(PartBends, OfMeshesOfSolidsAreFoundHoweverLargeTheirRadius)
+{
+    // As CAD writes them: single precision, chords of every angle; R/t from 0.2 to 60, legs from a tenth of the radius on.
+    shapes::Lots lots(29);
+    int bends = 0;
+    for (int sample = 0; sample < 60; ++sample) {
+        const double t = lots.between(0.5, 4), k = lots.between(0.3, 0.5);
+        const int count = 1 + sample % 3, chords = 3 + sample % 9;
+        std::vector<shapes::ProfilePiece> profile;
+        std::vector<std::pair<double, double>> expected; // inner radius, angle
+        double length = 0, sense = 1;
+        for (int i = 0; i <= count; ++i) {
+            const double r = t * std::exp(lots.between(std::log(0.2), std::log(60.)));
+            const double angle = lots.between(2.2 / chords, 2.2), leg = lots.between(0.1, 1) * (r + t) + t;
+            profile.push_back({leg, 0, 0});
+            length += leg;
+            if (i == count)
+                break;
+            profile.push_back({0, r, sense * angle}); // an S in space, so that nothing meets
+            sense = -sense;
+            length += angle * (r + k * t);
+            expected.emplace_back(r, angle);
+        }
+        SCOPED_TRACE(fmt::format("sample {}: t {:.4g}, {} bends, {} chords each", sample, t, count, chords));
+        const double width = lots.between(0.2, 1) * length;
+        const fs::path file = folder_ / "part.stl";
+        shapes::write_mesh(file,
+                           shapes::transformed(shapes::extruded(shapes::sheet_section(profile, t, chords), {}, width),
+                                               shapes::random_rotation(std::uint64_t(sample)), {3, -2, 5}));
+        const Session session = solved(file, constant_k(k));
+        std::vector<std::pair<double, double>> found;
+        for (const SheetBend& bend : session.bends->bends) {
+            EXPECT_TRUE(bend.laid) << bend.why_not;
+            found.emplace_back(bend.inner_radius, bend.angle);
+        }
+        std::sort(found.begin(), found.end());
+        std::sort(expected.begin(), expected.end());
+        ASSERT_EQ(found.size(), expected.size());
+        for (size_t i = 0; i < found.size(); ++i) {
+            EXPECT_NEAR(found[i].first, expected[i].first, 2e-3 * (expected[i].first + t));
+            EXPECT_NEAR(found[i].second, expected[i].second, 2e-3 * expected[i].second);
+        }
+        EXPECT_NEAR(rectangle(session).length, length, 2e-4 * length);
+        EXPECT_NEAR(rectangle(session).width, width, 1e-4 * width);
+        bends += int(found.size());
+    }
+    EXPECT_EQ(bends, 120);
+}
+
+TEST_F(PartBends, FlatsAroundACircleAreNoCylinder)
+{
+    // Of sharp folds: three flats of a symmetric channel lie on a circle, and so do those of half a polygon.
+    for (const double angle : {0.2, 0.5, 0.9})
+        for (const int folds : {2, 3}) {
+            std::vector<shapes::ProfilePiece> profile{{30, 0, 0}};
+            for (int i = 0; i < folds; ++i) {
+                profile.push_back({0, 0.01, angle});
+                profile.push_back({30, 0, 0});
+            }
+            const fs::path file = folder_ / "folded.obj";
+            shapes::write_mesh(file, shapes::extruded(shapes::sheet_section(profile, 1, 1), {}, 40));
+            const Session session = solved(file);
+            for (const SheetBend& bend : session.bends->bends)
+                EXPECT_LT(bend.inner_radius, 1) << angle << " " << folds;
+        }
+}
+
+TEST_F(PartBends, AlongTheRollingDirectionTheBlankLiesStraight)
+{
+    BentSolid solid = l_bracket();
+    const double length = 65 + 2 * pi, width = rectangle(solved(write(solid))).width;
+    for (const Eigen::Vector3d& along :
+         {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)}) {
+        Session session;
+        session.file = write(solid);
+        session.options.flatten.process.rolling = along;
+        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+        session = run_stage(Stage::solve, run_stage(Stage::read, session));
+        const Eigen::Matrix2Xd& X = session.blank->blank.position;
+        const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff();
+        const SheetBend& bend = session.bends->bends.at(0);
+        const bool bend_along_x = std::abs(bend.axis.dot(along)) > 0.5;
+        EXPECT_NEAR(size[bend_along_x ? 1 : 0], length, 1e-4) << along.transpose();
+        EXPECT_NEAR(size[bend_along_x ? 0 : 1], width, 1e-4) << along.transpose();
+    }
 }
 
 TEST_F(PartBends, WhatIsNoBendOverACylinderKeepsItsLengthsWithAWord)

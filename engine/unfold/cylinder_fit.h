@@ -1,0 +1,29 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "engine/mesh/tri_mesh.h"
+
+namespace spia {
+
+/// A cylinder through vertices of a mesh.
+struct FittedCylinder {
+    Eigen::Vector3d point; ///< mm, on the axis
+    Eigen::Vector3d axis;  ///< unit
+    double radius;         ///< mm
+    double off;            ///< mm, of the farthest of the vertices
+};
+
+/// Unit vectors across the axis, right-handed with it.
+Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis);
+
+/// The cylinder through the vertices of some faces; nothing if these do not turn.
+/// @param normal  area_vectors() of the part
+std::optional<FittedCylinder> cylinder_of(const TriMesh& part, const Eigen::Matrix3Xd& normal,
+                                          const Eigen::Matrix3Xi& neighbour, const std::vector<int>& faces);
+
+/// @param within  mm, from the cylinder
+bool lies_on(const TriMesh& part, const FittedCylinder& cylinder, int face, double within);
+
+} // namespace spia
