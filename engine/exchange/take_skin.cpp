@@ -420,7 +420,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
     } catch (const NotASheet& reason) {
         if (marked)
             put_back(part, *marked);
-        if (claim == Claim::measured) {
+        if (claim == Claim::measured && !reason.sheet_but_for_it) {
             note_hollow(part, reason.what());
             return false;
         }

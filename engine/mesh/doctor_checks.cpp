@@ -5,6 +5,9 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
+#include <span>
+
+#include "engine/mesh/touching_edge.h"
 
 namespace spia {
 namespace {
@@ -76,8 +79,15 @@ void check_edges(MendedSurface& s, bool kept_largest, DoctorReport& report)
     int most = 0;
     std::vector<EdgeUse> crowded; ///< the first face of each
     const auto uses = edge_uses(s.triangle);
+    bool closed = true; // and seen from one side
     for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end - begin <= 2)
+        closed &= (end - begin) % 2 == 0;
+        if (end == begin + 2)
+            closed &= uses[begin].forward != uses[begin + 1].forward;
+    });
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end - begin <= 2 ||
+            (closed && touching_edge(std::span(uses).subspan(begin, end - begin), s.triangle, s.soup.position)))
             return;
         crowded.push_back(uses[begin]); // the uses of an edge are in the order of the faces
         most = std::max(most, int(end - begin));

@@ -2,14 +2,16 @@
 
 #include <fmt/core.h>
 #include <numeric>
+#include <span>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/touching_edge.h"
 
 namespace spia {
 namespace {
 
 /// Corner 3 f + k of triangle f; corners at one vertex that an edge of two faces links are one fan.
-DisjointSets fans(const std::vector<Triangle>& triangles)
+DisjointSets fans(const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& position)
 {
     DisjointSets sets(3 * triangles.size());
     const auto corner_at = [&](int f, int v) {
@@ -18,9 +20,16 @@ DisjointSets fans(const std::vector<Triangle>& triangles)
     };
     const auto uses = edge_uses(triangles);
     for_each_edge(uses, [&](size_t begin, size_t end) {
-        if (end - begin == 2)
+        const auto join = [&](size_t one, size_t other) {
             for (const int v : {uses[begin].low, uses[begin].high})
-                sets.join(corner_at(uses[begin].face, v), corner_at(uses[begin + 1].face, v));
+                sets.join(corner_at(uses[one].face, v), corner_at(uses[other].face, v));
+        };
+        if (end - begin == 2)
+            join(begin, begin + 1);
+        else if (const auto pairs = touching_edge(std::span(uses).subspan(begin, end - begin), triangles, position)) {
+            join(begin + size_t((*pairs)[0]), begin + size_t((*pairs)[1]));
+            join(begin + size_t((*pairs)[2]), begin + size_t((*pairs)[3]));
+        }
     });
     return sets;
 }
@@ -34,7 +43,7 @@ void separate_fans(MendedSurface& s, DoctorReport& report)
     if (!s.two_faces_per_edge)
         return; // around an edge of three faces there is no fan
 
-    DisjointSets sets = fans(s.triangle);
+    DisjointSets sets = fans(s.triangle, s.soup.position);
     std::vector<int> first_fan(s.home.size(), -1), copy(3 * s.triangle.size(), -1);
     std::vector<char> doubled(s.home.size(), 0);
     for (size_t c = 0; c < copy.size(); ++c) {

@@ -13,6 +13,10 @@ namespace {
 
 constexpr double sure = 0.8; // of a piece's area lies opposite to another: it belongs to a skin
 constexpr double likely = 0.5;
+constexpr double least_facing = 0.72;                       // 44 degrees: not chamfers
+constexpr double least_distance = 0.6, most_distance = 1.7; // of the thickness
+constexpr double parallel = 0.94;      // 20 degrees: chords of one bend on both sides are askew by less
+constexpr double mostly_sloped = 0.75; // of a piece; of sharp bends' outer sides a half
 
 /// Two pieces that are on the same skin or on different ones.
 struct Relation {
@@ -78,6 +82,43 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
     return share;
 }
 
+/// Of each piece the share of its area that lies askew to the other side, as of countersinks and wide chamfers.
+std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
+{
+    std::vector<double> share(size_t(pieces.count()), 0);
+    for (const Opposite& at : places)
+        if (at.hit >= 0 && at.facing > least_facing && at.facing < parallel &&
+            at.distance < most_distance * thickness) {
+            const auto p = size_t(pieces.piece[size_t(at.face)]);
+            share[p] += at.area / pieces.area[p];
+        }
+    return share;
+}
+
+/// The outer sides of sharp bends are askew to the inner ones as well; but they go on smoothly at most of their outline, whereas a
+/// countersink ends at its hole.
+void keep_bends(const SurfacePieces& pieces, std::vector<double>& sloped)
+{
+    constexpr double ends = 0.25;         // of what goes on smoothly; of a hole half as wide as its countersink 0.5
+    DisjointSets together(sloped.size()); // a countersink may be in several pieces
+    const auto steep = [&](int p) { return sloped[size_t(p)] > mostly_sloped; };
+    for (const PieceContact& c : pieces.contact)
+        if (c.smooth > 0 && steep(c.a) && steep(c.b))
+            together.join(c.a, c.b);
+    std::vector<double> smooth(sloped.size(), 0), sharp(sloped.size(), 0);
+    for (const PieceContact& c : pieces.contact) {
+        if (steep(c.a) && steep(c.b) && together.root(c.a) == together.root(c.b))
+            continue;
+        for (const int p : {c.a, c.b}) {
+            smooth[size_t(together.root(p))] += c.smooth;
+            sharp[size_t(together.root(p))] += c.concave + c.convex;
+        }
+    }
+    for (int p = 0; p < pieces.count(); ++p)
+        if (const auto group = size_t(together.root(p)); sharp[group] < ends * smooth[group])
+            sloped[size_t(p)] = 0;
+}
+
 /// Between pieces that are surely skin.
 std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<Opposite>& places,
                                 const std::vector<double>& share, double thickness)
@@ -128,7 +169,8 @@ Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relati
 
 /// Pieces that are not sure, in groups across which the surface goes on smoothly: settled by what a group touches.
 /// @returns whether one was
-bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, Side& side)
+bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share, const std::vector<double>& sloped,
+                   Side& side)
 {
     DisjointSets group(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
@@ -136,7 +178,7 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
             group.join(c.a, c.b);
     struct Touch {
         std::array<double, 2> smooth{}, sharp{};
-        double area = 0, across = 0;
+        double area = 0, across = 0, sloped = 0;
     };
     std::map<int, Touch> touches;
     for (int p = 0; p < pieces.count(); ++p)
@@ -144,6 +186,7 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
             Touch& touch = touches[group.root(p)];
             touch.area += pieces.area[size_t(p)];
             touch.across += pieces.area[size_t(p)] * share[size_t(p)];
+            touch.sloped += pieces.area[size_t(p)] * sloped[size_t(p)];
         }
     for (const PieceContact& c : pieces.contact)
         for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
@@ -157,6 +200,8 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
         if (side[size_t(p)] >= 0)
             continue;
         const Touch& touch = touches[group.root(p)];
+        if (touch.sloped > mostly_sloped * touch.area)
+            continue;
         for (const size_t s : {size_t(0), size_t(1)}) {
             const bool only = touch.smooth[1 - s] + touch.sharp[1 - s] == 0;
             if (only && (touch.smooth[s] > 0 || (touch.sharp[s] > 0 && touch.across >= likely * touch.area))) {
@@ -175,7 +220,8 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
 /// that is not in a corner only, those of a thick tube with the share of the inner radius in the outer one. What touches the side that looks at
 /// it is none.
 /// @returns whether one was
-bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness, Side& side)
+bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& places, const std::vector<double>& sloped,
+                  double thickness, Side& side)
 {
     constexpr double least = 0.1; // of its area
     std::vector<std::array<double, 2>> looked(size_t(pieces.count()), {0, 0});
@@ -190,7 +236,8 @@ bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& plac
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
         const auto [one, other] = looked[size_t(p)];
-        if (side[size_t(p)] >= 0 || std::max(one, other) < least * pieces.area[size_t(p)] ||
+        if (side[size_t(p)] >= 0 || sloped[size_t(p)] > mostly_sloped ||
+            std::max(one, other) < least * pieces.area[size_t(p)] ||
             std::min(one, other) > least * std::max(one, other) || (touches[size_t(p)] & (one > other ? 1 : 2)))
             continue;
         side[size_t(p)] = one > other ? 1 : 0;
@@ -203,18 +250,22 @@ bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& plac
 
 bool across(const Opposite& place, double thickness)
 {
-    constexpr double least_facing = 0.72; // 44 degrees: not chamfers
-    return place.hit >= 0 && place.facing > least_facing && place.distance > 0.6 * thickness &&
-           place.distance < 1.7 * thickness;
+    return place.hit >= 0 && place.facing > least_facing && place.distance > least_distance * thickness &&
+           place.distance < most_distance * thickness;
 }
 
 SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
 {
     SheetSides result;
     result.opposite_area = opposite_shares(pieces, places, thickness);
+    std::vector<double> sloped = sloped_shares(pieces, places, thickness);
+    keep_bends(pieces, sloped);
+    for (size_t p = 0; p < sloped.size(); ++p)
+        if (sloped[p] > mostly_sloped)
+            result.opposite_area[p] = 0;
     const std::vector<double>& share = result.opposite_area;
     Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
-    while (settle_faced(pieces, places, thickness, side) || settle_groups(pieces, share, side)) {
+    while (settle_faced(pieces, places, sloped, thickness, side) || settle_groups(pieces, share, sloped, side)) {
     }
 
     double whole = 0, same = 0, most = 0;

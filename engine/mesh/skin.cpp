@@ -96,16 +96,18 @@ struct MiddleSurface {
     std::vector<std::vector<int>> around; ///< faces of the solid at each of its vertices
     TriMesh inner;                        ///< the inner skin
     ClosestPointSearch nearest_inner;
+    TriMesh rim;                                   ///< the faces across the thickness
+    std::optional<ClosestPointSearch> nearest_rim; ///< none: there are none
 
     /// Where a vertex of the outer skin goes. @param to_rim  at the rim along its faces; else as if there were none
     Eigen::Vector3d move(int v, bool to_rim = true) const
     {
-        std::vector<int> skin, rim;
+        std::vector<int> skin, others;
         for (const int f : around[size_t(v)])
-            (sheet.side[size_t(f)] == SheetSide::outer ? skin : rim).push_back(f);
+            (sheet.side[size_t(f)] == SheetSide::outer ? skin : others).push_back(f);
         const auto larger = [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; };
         std::sort(skin.begin(), skin.end(), larger);
-        std::sort(rim.begin(), rim.end(), larger);
+        std::sort(others.begin(), others.end(), larger);
         // Of the surfaces at the vertex itself where they are known: triangles of a bend are its chords.
         const auto normal_of = [&](int f) {
             const Eigen::Vector3d own = normal.col(f);
@@ -136,14 +138,48 @@ struct MiddleSurface {
             planes.add(told.value_or(mean), -half);
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
         bool at_rim = false;
-        for (const int f : rim)
+        for (const int f : others)
             if (to_rim && sheet.side[size_t(f)] == SheetSide::rim && std::abs(normal.col(f).dot(mean)) < slanted) {
                 planes.add(normal_of(f), 0);
                 at_rim = true;
             }
         const Eigen::Vector3d moved = planes.move();
+        if (at_rim)
+            if (const auto place = beyond_chamfer(v, moved, mean, others))
+                return *place;
         // Where the planes leave the surface, or are too alike to say where to, straight in.
         return (at_rim || sharp) && moved.norm() > 3 * half ? Eigen::Vector3d(-half * mean) : moved;
+    }
+
+    /// A chamfer ends before the middle of the sheet; the edge of that is at the wall, or where the walls meet, between those of both skins.
+    /// @param others  faces at the vertex that are not of the outer skin
+    /// @returns the way there; nothing if the way along the faces at the vertex ends on the rim, or no wall is square to the sheet
+    std::optional<Eigen::Vector3d> beyond_chamfer(int v, const Eigen::Vector3d& moved, const Eigen::Vector3d& mean,
+                                                  const std::vector<int>& others) const
+    {
+        constexpr double off = 0.1; // of the thickness: more than chords are
+        const Eigen::Vector3d here = solid.position.col(v);
+        if (nearest_rim->nearest(here + moved, off * sheet.thickness).face >= 0)
+            return std::nullopt;
+        const double half = sheet.thickness / 2;
+        Planes planes;
+        planes.add(mean, -half);
+        for (const int f : others) {
+            const Eigen::Vector3d own = normal.col(f), out = own - own.dot(mean) * mean;
+            if (sheet.side[size_t(f)] != SheetSide::rim || out.norm() < off)
+                continue;
+            const Eigen::Vector3d outside = here - half * mean + half * out.normalized();
+            const ClosestPoint wall = nearest_rim->nearest(outside, sheet.thickness);
+            if (wall.face < 0)
+                return std::nullopt;
+            const auto corner = [&](int k) { return Eigen::Vector3d(rim.position.col(rim.triangle(k, wall.face))); };
+            const Eigen::Vector3d across = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+            constexpr double square = 0.05; // of the cosine; elsewhere the way along the faces is right
+            if (std::abs(across.dot(mean)) > square)
+                return std::nullopt;
+            planes.add(across, across.dot(wall.position - here));
+        }
+        return planes.move();
     }
 
     /// Outwards. Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not.
@@ -365,6 +401,10 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
     const Eigen::Matrix3Xd vectors = sheet.flipped * area_vectors(solid);
     TriMesh inner = side_of(solid, sheet, SheetSide::inner).mesh;
     ClosestPointSearch nearest_inner(inner);
+    TriMesh rim = side_of(solid, sheet, SheetSide::rim).mesh;
+    std::optional<ClosestPointSearch> nearest_rim;
+    if (rim.triangles() > 0)
+        nearest_rim.emplace(rim);
     const MiddleSurface middle{solid,
                                sheet,
                                options,
@@ -372,7 +412,9 @@ SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const 
                                vectors.colwise().norm().transpose(),
                                faces_around(solid),
                                std::move(inner),
-                               std::move(nearest_inner)};
+                               std::move(nearest_inner),
+                               std::move(rim),
+                               std::move(nearest_rim)};
     TriMesh before = result.mesh;
     parallel_for(int(result.source_vertex.size()),
                  [&](int i) { result.mesh.position.col(i) += middle.move(result.source_vertex[size_t(i)]); });

@@ -22,7 +22,7 @@ struct SkinMesh {
 
 /// The middle surface is the outer skin moved inwards by half the thickness: where the inner skin lies opposite at the
 /// thickness, straight towards it, else along the normal (that of the CAD face, where ThinSolidOptions::normal_at knows it); at sharp edges to where the planes beside them meet once they are moved; at the rim along its
-/// faces. So planes, cylinders with the vertices on the surface and mitred edges are exact.
+/// faces, past chamfers and roundings to the wall between them. So planes, cylinders with the vertices on the surface and mitred edges are exact.
 /// @throws NotASheet  the middle surface would fold over: a bend is too tight for the triangles of the outer skin
 SkinMesh skin_of(const TriMesh& solid, const ThinSolid& sheet, Skin skin, const ThinSolidOptions& options = {});
 

@@ -57,10 +57,12 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
         if (found.same_as[size_t(v)] != v)
             joined.add(v);
     if (joined.count > 0 && options.weld) {
-        std::string text = fmt::format("{} welded to an earlier one at the same place (first: vertex {})",
-                                       counted(joined.count, "vertex was", "vertices were"), joined.first);
+        std::string text = fmt::format("{} welded to an earlier one{} (first: vertex {})",
+                                       counted(joined.count, "vertex was", "vertices were"),
+                                       found.near == 0 ? " at the same place" : "", joined.first);
         if (found.near > 0)
-            text += fmt::format(", {} of them across gaps of up to {:.3g} mm", found.near, found.widest);
+            text += fmt::format(", {} of them across gaps of up to {:.3g} mm and the others at the same place",
+                                found.near, found.widest);
         report.add(Fault::coincident_vertex, Severity::repaired, joined, text, "");
     }
     if (options.weld) {

@@ -60,9 +60,9 @@ struct Solid {
                            options.face_name ? options.face_name(face) : fmt::format("face {}", face), place.x(),
                            place.y(), place.z());
     }
-    [[noreturn]] void refuse(const std::string& what, int face) const
+    [[noreturn]] void refuse(const std::string& what, int face, bool sheet_but_for_it = false) const
     {
-        throw NotASheet(fmt::format("{} ({})", what, at(face, middle(face))), face, middle(face));
+        throw NotASheet(fmt::format("{} ({})", what, at(face, middle(face))), face, middle(face), sheet_but_for_it);
     }
     /// The largest triangle of the pieces for which `counts`.
     template <class Counts> int largest(const Counts& counts) const
@@ -148,6 +148,8 @@ template <class Counts> std::string how_deep(const Solid& solid, PieceSide side,
 void require_connected(Solid& solid, double thickness, double area)
 {
     const SurfacePieces& pieces = solid.pieces;
+    constexpr double plate = 0.15; // of the width: beyond that a plain one may be a closed box (sheet_or_hollow())
+    const bool surely = thickness < plate * std::sqrt(area / 2);
     DisjointSets together(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
         if (solid.sides.side[size_t(c.a)] == solid.sides.side[size_t(c.b)])
@@ -174,7 +176,7 @@ void require_connected(Solid& solid, double thickness, double area)
                             "{:.4g} mm2{}",
                             thickness, size[size_t(second)],
                             how_deep(solid, side, thickness, [&](int p) { return together.root(p) == second; })),
-                solid.largest([&](int p) { return together.root(p) == second; }));
+                solid.largest([&](int p) { return together.root(p) == second; }), surely);
         for (int p = 0; p < pieces.count(); ++p)
             if (solid.sides.side[size_t(p)] == side && together.root(p) != largest)
                 solid.sides.side[size_t(p)] = PieceSide::rim;
@@ -193,7 +195,7 @@ void require_connected(Solid& solid, double thickness, double area)
                                      size[size_t(p)], thickness,
                                      how_deep(solid, touches[size_t(p)] == 1 ? PieceSide::one : PieceSide::other,
                                               thickness, [&](int q) { return together.root(q) == p; })),
-                         solid.largest([&](int q) { return together.root(q) == p; }));
+                         solid.largest([&](int q) { return together.root(q) == p; }), surely);
 }
 
 /// With faces missing, most of the outline of the skins must still be where faces cross the thickness.

@@ -42,9 +42,13 @@ struct ThinSolid {
 
 /// Why a solid is no sheet of one thickness.
 struct NotASheet : InputError {
-    NotASheet(const std::string& why, int where, const Eigen::Vector3d& at) : InputError(why), face(where), place(at) {}
+    NotASheet(const std::string& why, int where, const Eigen::Vector3d& at, bool but_for_it = false)
+        : InputError(why), face(where), place(at), sheet_but_for_it(but_for_it)
+    {
+    }
     int face;              ///< a triangle to look at; -1: all of it
     Eigen::Vector3d place; ///< mm
+    bool sheet_but_for_it; ///< the rest is two skins at one distance, too near to each other for a hollow body
 };
 
 /// Finds the thickness of a solid of sheet and its sides from its surface alone. Rays go inwards along the normals: where

@@ -1,5 +1,6 @@
 // What is closed: solids of sheet and hollow bodies, told apart by measuring.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -209,6 +210,127 @@ TEST(ClosedInput, SaysWhatItIsNotSureOf)
     ASSERT_TRUE(asked.solid) << words_of(asked);
     EXPECT_NEAR(asked.solid->thickness, 34, 1e-9);
     EXPECT_TRUE(asked.doubts.empty());
+}
+
+TEST(ClosedInput, PlatesWhoseHolesTouchAreSheet)
+{
+    // Both holes have the edge across the thickness: it belongs to four faces. A plate of squares, two of them left out.
+    for (const double t : {1., 4.})
+        for (const std::uint64_t seed : {0, 1, 2}) {
+            constexpr int columns = 6, rows = 4;
+            const auto there = [](int i, int j) {
+                const bool inside = i >= 0 && j >= 0 && i < columns && j < rows;
+                return inside && !(i == 2 && j == 1) && !(i == 3 && j == 2);
+            };
+            shapes::PlaneFaces faces;
+            const auto at = [](int i, int j, double z) { return Eigen::Vector3d(10 * i, 10 * j, z); };
+            for (int i = 0; i < columns; ++i)
+                for (int j = 0; j < rows; ++j) {
+                    if (!there(i, j))
+                        continue;
+                    faces.add({at(i, j, t), at(i + 1, j, t), at(i + 1, j + 1, t), at(i, j + 1, t)});
+                    faces.add({at(i, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0), at(i + 1, j, 0)});
+                    const int corner[5][2] = {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}, {i, j}};
+                    const bool rim[] = {!there(i, j - 1), !there(i + 1, j), !there(i, j + 1), !there(i - 1, j)};
+                    for (int k = 0; k < 4; ++k) {
+                        const auto &a = corner[k], &b = corner[k + 1];
+                        if (rim[k])
+                            faces.add({at(a[0], a[1], 0), at(b[0], b[1], 0), at(b[0], b[1], t), at(a[0], a[1], t)});
+                    }
+                }
+            const TriMesh mesh =
+                shapes::permuted(shapes::transformed(faces.mesh(), shapes::random_rotation(seed), {1, 2, 3}), seed)
+                    .mesh;
+            const PartFile part = examined(mesh);
+            ASSERT_TRUE(part.solid) << words_of(part);
+            EXPECT_TRUE(part.doctor.healthy()) << words_of(part);
+            EXPECT_NEAR(part.solid->thickness, t, 1e-9);
+            EXPECT_NEAR(area(part.mesh), 100 * (columns * rows - 2), 1e-9);
+        }
+}
+
+TEST(ClosedInput, CountersinksAreEdgesOfHolesAndNoSkin)
+{
+    constexpr int around = 48;
+    const double z = 3;
+    for (const double angle : {60., 82., 90., 100., 120., 126.}) // degrees between its sides
+        for (const double depth : {1., 2., 2.7}) {
+            const double wide =
+                3 + depth * std::tan(angle / 2 * pi / 180); // mm, its radius above; that of the hole is 3
+            SCOPED_TRACE(fmt::format("{} degrees, {} mm deep", angle, depth));
+            const auto ring = [&](double radius, double height) {
+                shapes::Loop loop;
+                for (const Eigen::Vector2d& p : shapes::circle({50, 30}, radius, around, false))
+                    loop.emplace_back(p.x(), p.y(), height);
+                return loop;
+            };
+            const auto reversed = [](shapes::Loop loop) {
+                std::reverse(loop.begin(), loop.end());
+                return loop;
+            };
+            const shapes::Loop upper = {{0, 0, z}, {100, 0, z}, {100, 60, z}, {0, 60, z}};
+            shapes::PlaneFaces faces;
+            const shapes::Loop top = ring(wide, z), waist = ring(3, z - depth), foot = ring(3, 0);
+            faces.add(upper, {reversed(top)});
+            faces.add({{0, 0, 0}, {0, 60, 0}, {100, 60, 0}, {100, 0, 0}}, {foot});
+            for (size_t i = 0; i < 4; ++i) {
+                const Eigen::Vector3d &a = upper[i], &b = upper[(i + 1) % 4];
+                faces.add({{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, b, a});
+            }
+            for (const auto& [above, below] : {std::pair(top, waist), {waist, foot}})
+                for (size_t i = 0; i < around; ++i) {
+                    const size_t next = (i + 1) % around;
+                    faces.add({above[i], above[next], below[next], below[i]});
+                }
+            const PartFile part = examined(faces.mesh());
+            ASSERT_TRUE(part.solid) << words_of(part);
+            EXPECT_NEAR(part.solid->thickness, z, 1e-9);
+            EXPECT_NEAR(part.solid->least, z, 1e-9) << "nothing thinner is taken for sheet";
+            EXPECT_EQ(part.doctor.boundary_loops, 2);
+            const Eigen::Vector3d size =
+                part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
+            EXPECT_LT((size - Eigen::Vector3d(100, 60, 0)).norm(), 1e-9) << "the middle is plane";
+        }
+}
+
+TEST(ClosedInput, PlatesWithChamfersOnBothSidesHaveTheSizeOfTheirWalls)
+{
+    const double z = 3;
+    for (const double c : {0.1, 0.3, 0.5, 1.}) { // mm, of all edges
+        SCOPED_TRACE(c);
+        const auto ring = [&](double inset, double height) {
+            return shapes::Loop{{inset, inset, height},
+                                {80 - inset, inset, height},
+                                {80 - inset, 50 - inset, height},
+                                {inset, 50 - inset, height}};
+        };
+        const auto hole = [&](double more, double height) {
+            shapes::Loop loop;
+            for (const Eigen::Vector2d& p : shapes::circle({40, 25}, 6 + more, 64, true))
+                loop.emplace_back(p.x(), p.y(), height);
+            return loop;
+        };
+        const auto reversed = [](shapes::Loop loop) {
+            std::reverse(loop.begin(), loop.end());
+            return loop;
+        };
+        shapes::PlaneFaces faces;
+        faces.add(ring(c, z), {hole(c, z)});
+        faces.add(reversed(ring(c, 0)), {reversed(hole(c, 0))});
+        for (const auto& rings : {std::array<shapes::Loop, 4>{ring(c, 0), ring(0, c), ring(0, z - c), ring(c, z)},
+                                  {hole(c, 0), hole(0, c), hole(0, z - c), hole(c, z)}})
+            for (size_t k = 0; k < 3; ++k)
+                for (size_t i = 0; i < rings[k].size(); ++i) {
+                    const size_t next = (i + 1) % rings[k].size();
+                    faces.add({rings[k][i], rings[k][next], rings[k + 1][next], rings[k + 1][i]});
+                }
+        const PartFile part = examined(faces.mesh());
+        ASSERT_TRUE(part.solid) << words_of(part);
+        EXPECT_EQ(part.doctor.boundary_loops, 2);
+        const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
+        EXPECT_LT((size - Eigen::Vector3d(80, 50, 0)).norm(), 1e-9) << size.transpose();
+        EXPECT_NEAR(area(part.mesh), 80 * 50 - 32 * 36 * std::sin(2 * pi / 64), 1e-2);
+    }
 }
 
 /// A format and who writes it.
