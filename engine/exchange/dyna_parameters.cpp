@@ -1,8 +1,11 @@
 #include "engine/exchange/dyna_parameters.h"
 
 #include <cctype>
+#include <cmath>
+#include <fmt/core.h>
 
 #include "engine/exchange/deck_number.h"
+#include "engine/exchange/dyna_expression.h"
 
 namespace spia {
 namespace {
@@ -39,20 +42,36 @@ void DynaParameters::define(const DeckFields& card, bool local)
 
 void DynaParameters::define_expression(std::string_view line, int width, bool local)
 {
-    const size_t comma = line.find(',');
+    size_t comma = line.find(',');
+    if (comma != line.npos && line.substr(0, comma).find('(') != line.npos)
+        comma = line.npos; // one between arguments
     const size_t cut = comma != line.npos ? comma : std::min(line.size(), size_t(width));
-    const std::string_view value = trimmed(line.substr(std::min(line.size(), comma != line.npos ? cut + 1 : cut)));
-    if (deck_number(value))
-        set(trimmed(line.substr(0, cut)), value, local);
+    const std::string_view text = trimmed(line.substr(std::min(line.size(), comma != line.npos ? cut + 1 : cut)));
+    const std::string_view name = trimmed(line.substr(0, cut));
+    if (name.empty() || deck_number(text)) {
+        set(name, text, local);
+        return;
+    }
+    const std::optional<double> value =
+        dyna_expression(text, [&](const std::string& of) { return known(small_letters(of)); });
+    if (value)
+        set(name, fmt::format("{:.17g}", std::tolower(name.front()) == 'i' ? std::trunc(*value) : *value), local);
+}
+
+std::optional<std::string> DynaParameters::known(const std::string& name) const
+{
+    for (auto file = values_.rbegin(); file != values_.rend(); ++file)
+        if (const auto found = file->find(name); found != file->end())
+            return found->second;
+    return std::nullopt;
 }
 
 std::optional<std::string> DynaParameters::find(std::string_view field)
 {
     const bool minus = field.starts_with('-');
     const std::string name = small_letters(trimmed(field.substr(minus ? 2 : 1)));
-    for (auto file = values_.rbegin(); file != values_.rend(); ++file)
-        if (const auto found = file->find(name); found != file->end())
-            return minus ? negative(found->second) : found->second;
+    if (const std::optional<std::string> value = known(name))
+        return minus ? negative(*value) : value;
     undefined_.insert(std::string(field.substr(minus ? 1 : 0)));
     return std::nullopt;
 }

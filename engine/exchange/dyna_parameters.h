@@ -15,7 +15,7 @@ namespace spia {
 class DynaParameters {
 public:
     void define(const DeckFields& card, bool local); ///< "R name", value, up to four times
-    /// "R name", expression: known only if it is a number
+    /// "R name", expression of those that are known, see dyna_expression(); of type I without what is behind the point
     void define_expression(std::string_view line, int width, bool local);
 
     void enter_file() { values_.emplace_back(); } ///< one that is included
@@ -28,6 +28,7 @@ public:
     std::string undefined() const; ///< "&a, &b": all that were asked for in vain; empty if none
 
 private:
+    std::optional<std::string> known(const std::string& name) const; ///< in small letters
     void set(std::string_view name, std::string_view value, bool local);
     /// What is global, then what is local to each of the files that are open.
     std::vector<std::map<std::string, std::string>> values_ = {{}, {}};

@@ -298,7 +298,9 @@ private:
         moves_.apply();
         parts_.finish();
         if (const std::string names = values_.parameters.undefined(); !names.empty())
-            deck_.note("thicknesses are missing because parameters are not defined: " + names);
+            deck_.doubt("thicknesses are missing because parameters are not defined, or their expressions are not "
+                        "understood (*PARAMETER, *PARAMETER_EXPRESSION): " +
+                        names);
         if (end_missing_)
             deck_.doubt("the deck does not end with *END: if it was cut off, shells are missing");
         if (some_corners_ > 0)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
 
@@ -144,11 +145,51 @@ TEST(DynaDeck, ParametersAreTakenWhereTheyAreDefined)
     EXPECT_EQ(deck.parts[0].thickness, 0.8);
     EXPECT_EQ(deck.parts[0].name, "lid");
     EXPECT_EQ(read("*PARAMETER\nI pid, 7\n*PARAMETER_EXPRESSION\nR thick   1.25\n" + shells).parts[0].thickness, 1.25);
-    const Deck without = read("*PARAMETER\nI pid, 7\n*PARAMETER_EXPRESSION\nR thick   2*pid\n" + shells);
+    EXPECT_EQ(read("*PARAMETER\nI pid, 7\n*PARAMETER_EXPRESSION\nR thick   2*pid\n" + shells).parts[0].thickness, 14);
+    const Deck without = read("*PARAMETER\nI pid, 7\n*PARAMETER_EXPRESSION\nR thick   2*pod\n" + shells);
     EXPECT_FALSE(without.parts[0].thickness);
     EXPECT_TRUE(has_note(without, "&Thick"));
-    EXPECT_NE(refusal("a.k", "*NODE\n1,0,&x,0\n" + shells).find("line 2: the parameter &x is not defined"),
+    EXPECT_TRUE(std::any_of(without.doubts.begin(), without.doubts.end(), [](const std::string& doubt) {
+        return doubt.find("*PARAMETER_EXPRESSION") != std::string::npos;
+    }));
+    EXPECT_NE(refusal("a.k", "*NODE\n1,0,&x,0\n" + shells).find("line 2: the parameter &x is not defined before"),
               std::string::npos);
+}
+
+TEST(DynaDeck, ExpressionsComeToTheirValues)
+{
+    const auto thickness = [](const std::string& expression) {
+        return read("*PARAMETER\nR a, 2.0\nI n, 3\n*PARAMETER_EXPRESSION\nR b, a*1.5\nI m, 7.9/a\nR thick, " +
+                    expression + "\n" + four_nodes +
+                    "*PART\nlid\n7,5,6\n*ELEMENT_SHELL\n1,7,1,2,3,4\n*SECTION_SHELL\n5,2\n&thick\n")
+            .parts[0]
+            .thickness;
+    };
+    for (const auto& [text, value] : {std::pair<const char*, double>{"a*0.75+sqrt(0.25)*0", 1.5},
+                                      {"&a/4", 0.5},
+                                      {"2**n", 8},
+                                      {"2**3**2", 512},
+                                      {"(a+b)*n/m", 5},
+                                      {"1.5d-1*A", 0.3},
+                                      {"max(a,b,n)-min(a,b)", 1},
+                                      {"mod(n,2)", 1},
+                                      {"sign(a,-n)+n", 1},
+                                      {"exp(log(a))", 2},
+                                      {"4*atan(1.0)-pi+1", 1},
+                                      {"int(2.7)+nint(2.7)", 5},
+                                      {"-(-a)", 2},
+                                      {"3/2", 1.5}}) {
+        ASSERT_TRUE(thickness(text)) << text;
+        EXPECT_NEAR(*thickness(text), value, 1e-12) << text;
+    }
+    for (const char* text : {"a*", "(a", "a)", "c", "a b", "1/0", "sqrt(-1)", "system(1)", "a=3", "\"a\"", "0/0"})
+        EXPECT_FALSE(thickness(text)) << text;
+    EXPECT_FALSE(thickness(std::string(5000, '(')));
+    // In columns commas stand between arguments only.
+    const Deck columns =
+        read("*PARAMETER\nR        a       2.0\n*PARAMETER_EXPRESSION\nR    thick max(a,3)+mod(7,4)\n" + four_nodes +
+             "*PART\nlid\n7,5,6\n*ELEMENT_SHELL\n1,7,1,2,3,4\n*SECTION_SHELL\n5,2\n&thick\n");
+    EXPECT_EQ(columns.parts[0].thickness, 6);
 }
 
 class DynaIncludes : public testing::Test {
