@@ -156,13 +156,14 @@ struct Rims {
     std::vector<std::vector<int>> loop;
     std::vector<double> length; ///< mm; the longest comes first
     std::vector<double>
-        turning; ///< to the left in the surface, the sheet on the left: 2 pi around a flat one, -2 pi at
-                 ///< its holes, 0 at the ends of a tube
+        turning;          ///< to the left in the surface, the sheet on the left: 2 pi around a flat one, -2 pi at
+                          ///< its holes, 0 at the ends of a tube
+    double curvature = 0; ///< radians, of all vertices inside without their signs: 0 where the sheet is only bent
 };
 
 Rims rims_of(const TriMesh& part, std::vector<std::vector<int>> loops)
 {
-    Rims rims{std::move(loops), {}, {}};
+    Rims rims{std::move(loops), {}, {}, 0};
     std::vector<double> angle(size_t(part.vertices()), 0);
     for (int f = 0; f < part.triangles(); ++f)
         for (int k = 0; k < 3; ++k) {
@@ -171,6 +172,13 @@ Rims rims_of(const TriMesh& part, std::vector<std::vector<int>> loops)
                                   b = part.position.col(part.triangle((k + 2) % 3, f)) - at;
             angle[size_t(part.triangle(k, f))] += std::atan2(a.cross(b).norm(), a.dot(b));
         }
+    std::vector<char> inside(angle.size(), 1);
+    for (const std::vector<int>& loop : rims.loop)
+        for (const int v : loop)
+            inside[size_t(v)] = 0;
+    for (size_t v = 0; v < angle.size(); ++v)
+        if (inside[v] && angle[v] > 0)
+            rims.curvature += std::abs(2 * std::numbers::pi - angle[v]);
     for (const std::vector<int>& loop : rims.loop) {
         double length = 0, turning = 0;
         for (size_t i = 0; i < loop.size(); ++i) {
@@ -196,7 +204,11 @@ std::optional<CutPart> cut_tube(const TriMesh& part, const Rims& rims)
     std::vector<char> ends(size_t(part.vertices()), 0), worst_ends;
     size_t worst = rims.loop.size();
     double ring = most_ring;
+    // Sheet that is only bent unrolls between its windows; the front is not exact among the needles of bends.
+    constexpr double only_bent = 1; // radians; of a dome 2 pi
     for (const bool windows_count : {false, true}) {
+        if (windows_count && rims.curvature < only_bent)
+            break;
         const auto end = [&](size_t k) { return windows_count || rims.turning[k] > window; };
         for (size_t j = 0; j < rims.loop.size(); ++j) {
             bool any = false;

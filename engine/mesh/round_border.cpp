@@ -127,9 +127,9 @@ public:
                     const auto exact = onto_both(rim_level(here.rim), level->second, place, half_);
                     if (!exact)
                         continue;
-                    const Eigen::Vector3d was = std::exchange(place, *exact);
-                    if (!std::ranges::all_of(here.around,
-                                             [&](int f) { return upright(middle_.mesh, f, facing_.col(f)); }))
+                    const Eigen::Vector3d was = place;
+                    place = *exact;
+                    if (!std::ranges::all_of(here.around, [&](int f) { return upright(f, corners(middle_.mesh, f)); }))
                         place = was;
                 }
     }
@@ -150,7 +150,7 @@ public:
             const auto corner = outer_.triangle.col(f);
             divide(corner[0], corner[1], corner[2], between, triangle);
             if (here > 0 && !std::all_of(triangle.begin() + long(first), triangle.end(),
-                                         [&](const Eigen::Vector3i& t) { return both_upright(t, facing_.col(f)); })) {
+                                         [&](const Eigen::Vector3i& t) { return both_upright(f, t); })) {
                 triangle.resize(first); // the chord stays
                 triangle.emplace_back(corner);
                 new_outer_.resize(before);
@@ -224,28 +224,44 @@ private:
         return std::pair(outer, middle);
     }
 
-    static Eigen::Vector3d normal_of(const TriMesh& mesh, const Eigen::Vector3i& t)
+    static Eigen::Matrix3d corners(const TriMesh& mesh, int f)
     {
-        return (mesh.position.col(t[1]) - mesh.position.col(t[0]))
-            .cross(mesh.position.col(t[2]) - mesh.position.col(t[0]));
+        return mesh.position(Eigen::all, mesh.triangle.col(f));
     }
-    static bool upright(const TriMesh& mesh, int f, const Eigen::Vector3d& facing)
+
+    /// Twice the area on the cylinder unrolled, seen along its normals: chords of it have all the normals of a bend, and do not tell whether
+    /// a triangle near its rim turns over.
+    static double unrolled(const StatedSurface& s, const Eigen::Matrix3d& corner)
     {
-        return normal_of(mesh, mesh.triangle.col(f)).dot(facing) > 0;
+        const auto off_axis = [&](int k) {
+            const Eigen::Vector3d from = corner.col(k) - s.point;
+            return Eigen::Vector3d(from - from.dot(s.direction) * s.direction);
+        };
+        const auto at = [&](int k) {
+            const Eigen::Vector3d u = off_axis(0), v = off_axis(k);
+            return Eigen::Vector2d(s.radius * std::atan2(u.cross(v).dot(s.direction), u.dot(v)),
+                                   (corner.col(k) - corner.col(0)).dot(s.direction));
+        };
+        const Eigen::Vector2d a = at(1), b = at(2);
+        return a.x() * b.y() - a.y() * b.x();
     }
-    bool both_upright(const Eigen::Vector3i& t, const Eigen::Vector3d& facing) const
+
+    /// Whether corners that take the place of the triangle's look the way it did.
+    bool upright(int f, const Eigen::Matrix3d& corner) const
     {
-        TriMesh outer, middle;
-        outer.position.resize(3, 3);
-        middle.position.resize(3, 3);
+        if (under(f).kind == Kind::cylinder)
+            return unrolled(under(f), corner) * unrolled(under(f), corners(outer_, f)) > 0;
+        return (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).dot(facing_.col(f)) > 0;
+    }
+    bool both_upright(int f, const Eigen::Vector3i& t) const
+    {
+        Eigen::Matrix3d outer, middle;
         for (int k = 0; k < 3; ++k) {
             const int v = t[k], added = v - outer_.vertices();
-            outer.position.col(k) = added < 0 ? Eigen::Vector3d(outer_.position.col(v)) : new_outer_[size_t(added)];
-            middle.position.col(k) =
-                added < 0 ? Eigen::Vector3d(middle_.mesh.position.col(v)) : new_middle_[size_t(added)];
+            outer.col(k) = added < 0 ? Eigen::Vector3d(outer_.position.col(v)) : new_outer_[size_t(added)];
+            middle.col(k) = added < 0 ? Eigen::Vector3d(middle_.mesh.position.col(v)) : new_middle_[size_t(added)];
         }
-        const Eigen::Vector3i all(0, 1, 2);
-        return normal_of(outer, all).dot(facing) > 0 && normal_of(middle, all).dot(facing) > 0;
+        return upright(f, outer) && upright(f, middle);
     }
 
     /// How far the border turns along the chord, radians: around the cylinder that cuts it, and itself.

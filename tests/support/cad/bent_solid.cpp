@@ -164,7 +164,9 @@ TopoDS_Shape made(const BentSolid& solid)
         const gp_Pnt at = beside(profile, bend, s, 0);
         // Broader than the bend, so that it is cut into both legs, where they are long enough.
         const double radius =
-            std::min({0.3 * solid.width, (bend.to - bend.from) / 2 + 0.4 * std::min(solid.leg[0], solid.leg[1])});
+            solid.hole_radius > 0
+                ? solid.hole_radius
+                : std::min({0.3 * solid.width, (bend.to - bend.from) / 2 + 0.4 * std::min(solid.leg[0], solid.leg[1])});
         const gp_Dir across(-std::sin(h), 0, std::cos(h));
         const double reach = 1.5 * solid.thickness + radius;
         const gp_Pnt from = at.Translated(gp_Vec(across) * -reach + gp_Vec(0, solid.width / 2, 0));

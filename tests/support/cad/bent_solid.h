@@ -31,7 +31,8 @@ struct BentSolid {
     double width = 30;           ///< mm, along the bends
     std::vector<double> leg;     ///< mm, flat: one more than bends
     std::vector<SolidBend> bend; ///< in their order
-    bool hole = false; ///< a round hole through the middle of the first bend, seen along the half of its angle
+    bool hole = false;      ///< a round hole through the middle of the first bend, seen along the half of its angle
+    double hole_radius = 0; ///< mm, of it; 0: somewhat broader than the bend
 
     std::vector<Cutout> cutout = {};
     std::uint64_t pose = 0; ///< turned and moved by this lot; 0: as said

@@ -1,4 +1,6 @@
+#include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
@@ -66,6 +68,38 @@ TEST(SheetArea, RoundHolesAreRoundByDefault)
     const PartFile part = examine_part(file);
     ASSERT_TRUE(part.solid);
     EXPECT_NEAR(area(part.mesh) * solid.thickness / shapes::exact_volume(file), 1, 1e-4);
+}
+
+/// Through a right angle holes are askew by up to 45 degrees to the legs and more to the bend: not all their vertices can lie on the middle
+/// surface, but none may fold it.
+TEST(SheetArea, HolesOfEverySizeThroughARightAngleStrainNothing)
+{
+    const ScratchFolder folder;
+    for (double radius = 0.7; radius < 13; radius *= 1.3)
+        for (const double inner : {1., 3.}) {
+            SCOPED_TRACE(fmt::format("a hole of {:.3g} mm through a radius of {} mm", radius, inner));
+            BentSolid solid;
+            solid.kind = "bracket";
+            solid.thickness = 2;
+            solid.width = 60;
+            solid.leg = {50, 40};
+            solid.bend = {{inner, std::numbers::pi / 2}};
+            solid.hole = true;
+            solid.hole_radius = radius;
+            Session session;
+            session.file = folder / "part.step";
+            shapes::write_bent_solid(session.file, solid);
+            session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+            session = run_stage(Stage::read, std::move(session));
+            ASSERT_TRUE(session.part->solid);
+            session.options.flatten.thickness = solid.thickness;
+            session = run_stage(Stage::solve, std::move(session));
+            const Eigen::Matrix2Xd& X = session.blank->blank.position;
+            const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff();
+            EXPECT_NEAR(size.x(), solid.developed(0.5), 1e-4);
+            EXPECT_NEAR(size.y(), solid.width, 1e-4);
+            EXPECT_LT(session.blank->face.strain_equivalent.maxCoeff(), 1e-3);
+        }
 }
 
 } // namespace spia
