@@ -17,6 +17,8 @@ struct DrawnBend {
     bool up = false;         ///< seen on the blank as it is drawn the legs come towards the eye
     std::vector<Eigen::Matrix2Xd> middle; ///< along the bend, where it is bent: lines of two points or more
     std::vector<Eigen::Matrix2Xd> zone;   ///< where the bend begins and ends
+    double allowance = 0;                 ///< mm, of the blank that the bend takes; 0: not known
+    double deduction = 0;                 ///< mm, see SheetBend; told with the allowance
 };
 
 /// All that is drawn of a blank, mm.
@@ -26,6 +28,8 @@ struct BlankDrawing {
     std::vector<Eigen::Matrix2Xd> marks =
         {}; ///< what is scribed: lines of two points or more; a closed one ends where it begins
     std::vector<std::vector<StatedPiece>> stated = {}; ///< per loop what a CAD file says of it; empty: nothing of any
+    std::string lengths_of = {}; ///< which surface of the sheet, "neutral fibre, K 0.44"; empty: not told
+    double thickness = 0;        ///< mm, of the flat sheet; 0: not told
 };
 
 } // namespace spia

@@ -21,6 +21,14 @@ using Kind = OutlinePiece::Kind;
 
 constexpr double degree = std::numbers::pi / 180;
 
+std::string ascii(std::string text)
+{
+    for (char& c : text)
+        if (c < ' ' || c > '~')
+            c = '_';
+    return text;
+}
+
 /// A point of a polyline and the bulge of the way to the next.
 struct Bulged {
     Eigen::Vector2d at;
@@ -30,7 +38,8 @@ struct Bulged {
 /// Entities with their handles, lengths in the unit of the file.
 class Entities {
 public:
-    Entities(DxfText& dxf, double mm) : dxf_(dxf), mm_(mm) {}
+    /// @param mm of a unit of the file; @param thickness mm, 0: not told
+    Entities(DxfText& dxf, double mm, double thickness) : dxf_(dxf), mm_(mm), thickness_(thickness) {}
 
     int next_handle() const { return handle_; }
 
@@ -108,6 +117,10 @@ public:
         for (const auto& [name, value] :
              {std::pair{"angle_deg", bend.angle / degree}, {"inner_radius", bend.inner_radius / mm_}, {"k", bend.k}})
             dxf_(1000, name)(1040, value);
+        if (bend.allowance > 0)
+            dxf_(1000, "allowance")(1040, bend.allowance / mm_)(1000, "deduction")(1040, bend.deduction / mm_);
+        if (thickness_ > 0)
+            dxf_(1000, "thickness")(1040, thickness_ / mm_);
     }
 
 private:
@@ -116,13 +129,6 @@ private:
         const double angle = std::atan2(arm[1], arm[0]) / degree;
         return angle < 0 ? angle + 360 : angle;
     }
-    static std::string ascii(std::string text)
-    {
-        for (char& c : text)
-            if (c < ' ' || c > '~')
-                c = '_';
-        return text;
-    }
     void begin(const char* type, const char* layer)
     {
         dxf_(0, type).handle(5, handle_).handle(330, model_space)(100, "AcDbEntity")(8, layer);
@@ -130,7 +136,7 @@ private:
     }
 
     DxfText& dxf_;
-    double mm_; ///< of a unit of the file
+    double mm_, thickness_;
     int handle_ = first_entity;
 };
 
@@ -191,6 +197,16 @@ void draw_loop(Entities& draw, const char* layer, const OutlineLoop& loop, std::
         else
             draw_points(draw, layer, loop, piece);
     }
+}
+
+/// What the drawing is of, as comments before all else.
+void head(DxfText& dxf, const BlankDrawing& drawing, const DxfOptions& options)
+{
+    if (!drawing.lengths_of.empty())
+        dxf(999, ascii("SPIA: blank, lengths are those of the " + drawing.lengths_of));
+    if (drawing.thickness > 0)
+        dxf(999, fmt::format("SPIA: sheet {:.6g} {} thick", drawing.thickness / millimetres(options.unit),
+                             name(options.unit)));
 }
 
 /// A number as drawings have it: few digits, no zeros at the end.
@@ -339,7 +355,7 @@ void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, c
     }
     const double mm = millimetres(options.unit), size = (high - low).norm();
     DxfText entities(options.version);
-    Entities draw(entities, mm);
+    Entities draw(entities, mm, drawing.thickness);
     for (size_t i = 0; i < loops.size(); ++i)
         draw_loop(draw, i == 0 ? "OUTLINE" : "HOLES", loops[i],
                   drawing.stated.empty() ? std::span<const StatedPiece>() : drawing.stated[i], size, options);
@@ -348,6 +364,7 @@ void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, c
     for (const Eigen::Matrix2Xd& mark : drawing.marks)
         draw_mark(draw, mark);
     DxfText dxf(options.version);
+    head(dxf, drawing, options);
     begin_dxf(dxf, {low / mm, high / mm, options.unit, layers_of(drawing), draw.next_handle()});
     dxf.append(entities);
     end_dxf(dxf);

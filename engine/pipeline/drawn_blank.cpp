@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <map>
 
+#include "engine/mesh/topology.h"
 #include "engine/pipeline/blank_marks.h"
 #include "engine/pipeline/stated_outline.h"
 #include "engine/unfold/sheet_lines.h"
@@ -87,6 +88,8 @@ DrawnBend drawn_bend(const SheetBend& bend, std::string name)
     drawn.angle = bend.angle;
     drawn.inner_radius = bend.inner_radius;
     drawn.k = bend.k;
+    drawn.allowance = bend.allowance;
+    drawn.deduction = bend.deduction;
     drawn.up = bend.up;
     for (const BlankSegment& segment : bend.line) {
         const Eigen::Vector2d way = segment.to - segment.from;
@@ -125,6 +128,51 @@ std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vecto
     return result;
 }
 
+/// Bends of the map that are parts of what the table has as whole ones: pieces between a hole and the side of a bend, and the edges
+/// between its chords where a rim crosses them.
+std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const BendTable& table)
+{
+    constexpr double mostly = 0.5, small = 0.1; // of the area, and of that of the bend beside it
+    constexpr double sharp = 0.6;               // radians: chords of one bend turn by less
+    std::vector<int> bend_of(size_t(part.triangles()), -1), at(size_t(part.vertices()), -1);
+    std::vector<double> size(table.bends.size(), 0);
+    const Eigen::VectorXd area = area_vectors(part).colwise().norm() / 2;
+    for (size_t j = 0; j < table.bends.size(); ++j)
+        for (const int f : table.bends[j].faces) {
+            bend_of[size_t(f)] = int(j);
+            size[j] += area[f];
+            for (const int v : part.triangle.col(f))
+                at[size_t(v)] = int(j);
+        }
+    std::vector<double> whole(map.bends.size(), 0), inside(whole.size(), 0), beside(whole.size(), 0);
+    for (int f = 0; f < part.triangles(); ++f) {
+        const int k = map.label[f] - int(map.regions.size());
+        if (k < 0)
+            continue;
+        whole[size_t(k)] += area[f];
+        inside[size_t(k)] += bend_of[size_t(f)] >= 0 ? area[f] : 0;
+        for (const int v : part.triangle.col(f))
+            if (const int j = at[size_t(v)]; j >= 0)
+                beside[size_t(k)] = std::max(beside[size_t(k)], size[size_t(j)]);
+    }
+    // A sharp bend has no faces: it lies between those of its two regions, one of which is a piece of a bend.
+    std::vector<double> region(map.regions.size(), 0), in_bend(map.regions.size(), 0);
+    for (int f = 0; f < part.triangles(); ++f)
+        if (map.label[f] < int(region.size())) {
+            region[size_t(map.label[f])] += area[f];
+            in_bend[size_t(map.label[f])] += bend_of[size_t(f)] >= 0 ? area[f] : 0;
+        }
+    const auto of_bend = [&](int r) { return in_bend[size_t(r)] > mostly * region[size_t(r)]; };
+    std::vector<char> result;
+    for (size_t k = 0; k < map.bends.size(); ++k) {
+        const Bend& bend = map.bends[k];
+        const bool edge =
+            bend.faces == 0 && bend.b >= 0 && std::abs(bend.angle) < sharp && (of_bend(bend.a) || of_bend(bend.b));
+        result.push_back(bend.faces == 0 ? edge : inside[k] > mostly * whole[k] || whole[k] < small * beside[k]);
+    }
+    return result;
+}
+
 } // namespace
 
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
@@ -132,10 +180,18 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
 {
     BlankDrawing drawing = stated_outline(part, blank);
     drawing.marks = marks_on_blank(part, blank);
+    if (table) {
+        drawing.lengths_of = table->surface;
+        drawing.thickness = table->thickness;
+    }
     const std::vector<SheetLine> lines = bend_lines(part.mesh, map, blank.position);
     std::vector<char> taken;
     const std::vector<int> known = table ? in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);
+    const std::vector<char> part_of_known =
+        table ? parts_of_table(part.mesh, map, *table) : std::vector<char>(map.bends.size(), 0);
     for (size_t k = 0; k < map.bends.size(); ++k) {
+        if (known[k] < 0 && part_of_known[k])
+            continue;
         const Bend& bend = map.bends[k];
         const SheetBend* stated =
             known[k] >= 0 && !table->bends[size_t(known[k])].line.empty() ? &table->bends[size_t(known[k])] : nullptr;

@@ -53,11 +53,17 @@ public:
     double within() const { return zones_.within; }
 
 private:
-    /// What is known of the edge from one vertex of the first mesh to the next. @param face of the mesh there
-    std::pair<const FlatZone*, int> stated(int a, int b, int face) const
+    /// What is known of the edge from one vertex of a loop of the first mesh to the next. Vertices on a divided chord are called by the number
+    /// of the end that they come after. @param face of the mesh there
+    std::pair<const FlatZone*, int> stated(const std::vector<int>& loop, size_t k, int face) const
     {
+        const size_t next = (k + 1) % loop.size();
+        const int a = loop[k], b = loop[next], from = number_[size_t(a)];
+        size_t end = next;
+        while (end != k && number_[size_t(loop[end])] == from)
+            end = (end + 1) % loop.size();
         const FlatZone* zone = zones_.at(face);
-        const int curve = part_.cad->curves.of(number_[size_t(a)], number_[size_t(b)]);
+        const int curve = part_.cad->curves.of(from, number_[size_t(loop[end])]);
         if (!zone || curve < 0 || !zone->has(before_.position.col(a), zones_.within) ||
             !zone->has(before_.position.col(b), zones_.within))
             return {nullptr, -1};
@@ -79,7 +85,8 @@ private:
         Border border = bare(loop);
         for (int k = 0; k < border.size(); ++k) {
             const int a = loop[size_t(k)], b = loop[size_t((k + 1) % border.size())];
-            std::tie(border.zone[size_t(k)], border.curve[size_t(k)]) = stated(a, b, zones_.face_beside(a, b));
+            std::tie(border.zone[size_t(k)], border.curve[size_t(k)]) =
+                stated(loop, size_t(k), zones_.face_beside(a, b));
         }
         for (int k = 0; k < border.size(); ++k)
             if (const FlatZone* zone = zone_at(border, k))
@@ -131,7 +138,7 @@ private:
         for (size_t k = 0; k < before.size(); ++k) {
             const int a = before[k], b = before[(k + 1) % before.size()];
             const Eigen::Vector3d middle = (before_.position.col(a) + before_.position.col(b)) / 2;
-            known.push_back(stated(a, b, search_->nearest(middle).face));
+            known.push_back(stated(before, k, search_->nearest(middle).face));
         }
         return known;
     }

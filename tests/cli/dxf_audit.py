@@ -23,6 +23,10 @@ for path in sys.argv[1:]:
                 sys.exit(f"{path}: the extended data of a bend are {tags}")
             if not (0 < values["angle_deg"] <= 360 and values["inner_radius"] >= 0 and 0 <= values["k"] <= 1):
                 sys.exit(f"{path}: a bend with {values}")
+            if "allowance" in values:
+                arc = math.radians(values["angle_deg"]) * (values["inner_radius"] + values["k"] * values["thickness"])
+                if abs(arc - values["allowance"]) > 1e-9 * arc or "deduction" not in values:
+                    sys.exit(f"{path}: a bend with {values}, whose arc is {arc} long")
     for name, line_type in (("BEND_UP", "DASHED"), ("BEND_DOWN", "DASHED"), ("BEND_ZONE", "DOT")):
         if document.layers.has_entry(name) and document.layers.get(name).dxf.linetype != line_type:
             sys.exit(f"{path}: layer {name} is {document.layers.get(name).dxf.linetype}")

@@ -6,8 +6,10 @@
 
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/session.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/bent_parts.h"
+#include "tests/support/cad/bent_solid.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/profile.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -103,6 +105,32 @@ TEST(DrawnBlank, WhatTheTableOfBendsHasIsDrawn)
     ASSERT_EQ(drawing.bends[0].zone.size(), 2u);
     EXPECT_NEAR((drawing.bends[0].zone[0] - drawing.bends[0].zone[1]).norm(), 6 * std::sqrt(2.), 1e-9);
     EXPECT_NEAR(drawing.bends[0].middle[0](0, 1), 33, 1e-12);
+}
+
+TEST(DrawnBlank, HolesThroughABendMakeNoFurtherBends)
+{
+    const ScratchFolder folder;
+    int holes = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const shapes::BentSolid solid = shapes::random_bent_solid(seed);
+        if (!solid.hole)
+            continue;
+        SCOPED_TRACE(seed);
+        Session session;
+        session.file = folder / "part.step";
+        shapes::write_bent_solid(session.file, solid);
+        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+        session = run_stage(Stage::read, std::move(session));
+        session.options.flatten.thickness = solid.thickness;
+        session = run_stage(Stage::solve, std::move(session));
+        const BlankDrawing drawing = drawn_blank(*session.part, find_bends(session.part->mesh), session.blank->blank,
+                                                 session.blank->face, true, session.bends.get());
+        EXPECT_EQ(drawing.bends.size(), solid.bend.size());
+        EXPECT_EQ(drawing.lengths_of, session.bends->surface);
+        EXPECT_NEAR(drawing.thickness, solid.thickness, 1e-9);
+        ++holes;
+    }
+    EXPECT_GE(holes, 12);
 }
 
 TEST(DrawnBlank, OfADrawnPartOnlyStraightBendsAreLeft)
