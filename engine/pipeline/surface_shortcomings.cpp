@@ -59,7 +59,7 @@ std::optional<std::string> folded_surface(const Session& session)
     if (refused)
         text = fmt::format("the surface may have a fold: {}", unsuited(certificate).value_or(""));
     else if (const double turned = session.surface->deviation.normal.turned; turned > 0)
-        text = fmt::format("the surface folds: on {} of its area the normal is opposite to that of the part",
+        text = fmt::format("the surface turns over against the part: on {} of its area the normals are opposite",
                            percent(turned));
     else
         return std::nullopt;

@@ -1,11 +1,13 @@
 #include "engine/unfold/upright.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "engine/mesh/fill_holes.h"
@@ -251,16 +253,6 @@ Way chosen_way(std::vector<Way> ways, const Eigen::Matrix2d& moment)
     });
 }
 
-/// Whether the rule takes one way rather than another by so little that it may well change while a solve converges.
-bool hardly_before(const Way& taken, const Way& other)
-{
-    constexpr double little = 0.01; // of keys that are about 1 or less
-    for (size_t k = 0; k < taken.key.size(); ++k)
-        if (std::abs(taken.key[k] - other.key[k]) > little)
-            return taken.key[k] < other.key[k];
-    return true;
-}
-
 Eigen::Matrix2Xd rim_of(const std::vector<std::vector<int>>& loops, const Eigen::Matrix2Xd& flat)
 {
     return flat(Eigen::all, loops[size_t(outer_loop(loops, flat))]);
@@ -290,35 +282,37 @@ Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat,
     return from_corner(upright_turn(part, flat, rolling) * flat);
 }
 
-LiveUpright::LiveUpright(const TriMesh& part, Eigen::Matrix2Xd seen, const std::optional<Eigen::Vector2d>& rolling)
-    : part_(part), seen_(std::move(seen)), rolling_(rolling), loops_(boundary_loops(part))
+LiveUpright::LiveUpright(const TriMesh& part, const Eigen::Matrix2Xd& seen,
+                         const std::optional<Eigen::Vector2d>& rolling)
+    : part_(part), rolling_(rolling), loops_(boundary_loops(part)), mass_(Eigen::VectorXd::Zero(part.vertices()))
 {
-    Eigen::VectorXd mass = Eigen::VectorXd::Zero(part.vertices());
     const Eigen::Matrix3Xd normal = area_vectors(part);
     for (int f = 0; f < part.triangles(); ++f)
         for (const int v : part.triangle.col(f))
-            mass[v] += normal.col(f).norm();
-    mass /= mass.sum();
-    const Eigen::Vector2d middle = seen_ * mass;
-    seen_ = (seen_.colwise() - middle) * mass.asDiagonal();
+            mass_[v] += normal.col(f).norm();
+    mass_ /= mass_.sum();
+    look_at(seen);
+}
+
+void LiveUpright::look_at(const Eigen::Matrix2Xd& shape)
+{
+    const Eigen::Vector2d middle = shape * mass_;
+    seen_ = (shape.colwise() - middle) * mass_.asDiagonal();
 }
 
 Eigen::Matrix2Xd LiveUpright::operator()(const Eigen::Matrix2Xd& flat)
 {
     if (loops_.empty())
         return flat;
-    const std::vector<Way> ways = ways_round(part_, flat, rim_of(loops_, flat), rolling_);
     // The turn that brings the shape nearest to where it is seen is the rotation in this moment. [Kabsch 1976 in the plane]
-    Way way = chosen_way(ways, seen_ * flat.transpose());
-    if (turn_) {
-        const Way& nearest = *std::max_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
-            return likeness(a.turn, *turn_) < likeness(b.turn, *turn_);
-        });
-        if (hardly_before(way, nearest))
-            way = nearest;
-    }
-    turn_ = way.turn;
-    return from_corner(way.turn * flat);
+    const Eigen::Matrix2d moment = seen_ * flat.transpose();
+    Eigen::Matrix2d turn;
+    if (!std::exchange(any_, true))
+        turn = chosen_way(ways_round(part_, flat, rim_of(loops_, flat), rolling_), moment).turn;
+    else
+        turn = Eigen::Rotation2Dd(std::atan2(moment(1, 0) - moment(0, 1), moment(0, 0) + moment(1, 1)));
+    look_at(turn * flat);
+    return from_corner(turn * flat);
 }
 
 } // namespace spia

@@ -24,25 +24,28 @@ Eigen::Matrix2Xd upright(const TriMesh& part, const Eigen::Matrix2Xd& flat,
 Eigen::Matrix2d upright_turn(const TriMesh& part, const Eigen::Matrix2Xd& flat,
                              const std::optional<Eigen::Vector2d>& rolling = {});
 
-/// Lays the shapes that a solve goes through straight, one after the other, so that the last one lies as upright() lays the result.
-/// Where the rule hardly tells two ways round apart it stays with that of the shape before: a nearly symmetric blank does not
-/// turn over and back while it converges.
+/// Shapes of a blank while it converges, each laid as it is to be seen: the first one straight, by the rule of upright(), and the others
+/// as near to the one before as a turn brings them, so that none jumps. The result by the rule itself may lie another way round where the
+/// shape is nearly symmetric, or round.
 class LiveUpright {
 public:
     /// @param part  must outlive it
     /// @param seen  2 by #V, mm, in the axes of the shapes: where the result is brought before it is laid straight, which decides for a
     ///              symmetric one; the part seen along the stamping direction
     /// @param rolling  as for upright()
-    LiveUpright(const TriMesh& part, Eigen::Matrix2Xd seen, const std::optional<Eigen::Vector2d>& rolling);
+    LiveUpright(const TriMesh& part, const Eigen::Matrix2Xd& seen, const std::optional<Eigen::Vector2d>& rolling);
 
     Eigen::Matrix2Xd operator()(const Eigen::Matrix2Xd& flat);
 
 private:
+    void look_at(const Eigen::Matrix2Xd& shape);
+
     const TriMesh& part_;
-    Eigen::Matrix2Xd seen_; ///< about its middle, each vertex times its area
     std::optional<Eigen::Vector2d> rolling_;
     std::vector<std::vector<int>> loops_; ///< of the part's boundary
-    std::optional<Eigen::Matrix2d> turn_; ///< of the shape before
+    Eigen::VectorXd mass_;                ///< per vertex, its share of the area
+    Eigen::Matrix2Xd seen_;               ///< the shape before about its middle, each vertex times its mass
+    bool any_ = false;                    ///< a shape was seen
 };
 
 } // namespace spia

@@ -67,7 +67,7 @@ std::string plain_length(double mm, LengthUnit unit)
 
 std::string size_text(double mm, double other_mm, LengthUnit unit)
 {
-    return fmt::format("{:.4g} x {:.4g} {}", told_length(mm, unit), told_length(other_mm, unit), length_word(unit));
+    return fmt::format("{:.6g} x {:.6g} {}", told_length(mm, unit), told_length(other_mm, unit), length_word(unit));
 }
 
 std::string in_unit(std::string_view label, LengthUnit unit) { return fmt::format("{}, {}", label, length_word(unit)); }

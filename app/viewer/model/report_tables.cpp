@@ -152,7 +152,7 @@ std::string tiles(const Session& session, const Json& figures, LengthUnit length
     const InUnit in{lengths};
     const std::string unit(in.word);
     std::string text = "<section class=\"tiles\">\n";
-    text += tile("Blank", fmt::format("{} \u00d7 {}", in.round(size[0]), in.round(size[1])), unit,
+    text += tile("Blank", fmt::format("{} \u00d7 {}", in.round(size[0], 1), in.round(size[1], 1)), unit,
                  "area " + in.area(figures["blank"]["area_mm2"].get<double>()));
     text += tile("Maximum thinning", fixed(100 * flat.face.thinning.maxCoeff(), 1), "%",
                  fmt::format("least {} %", fixed(100 * flat.face.thinning.minCoeff(), 1)));
@@ -195,8 +195,8 @@ std::string key_figures(const Session& session, const Json& figures, LengthUnit 
                                                loops == 1   ? "no holes"
                                                : loops == 2 ? "one hole"
                                                             : fmt::format("{} holes", loops - 1)));
-    rows += row("Blank", fmt::format("{0} \u00d7 {1} {2}, area {3}, outline {4} {2} long", in.round(size[0], 1),
-                                     in.round(size[1], 1), in.word, in.area(blank["area_mm2"].get<double>()),
+    rows += row("Blank", fmt::format("{0} \u00d7 {1} {2}, area {3}, outline {4} {2} long", in.round(size[0], 2),
+                                     in.round(size[1], 2), in.word, in.area(blank["area_mm2"].get<double>()),
                                      in.round(blank["perimeter_mm"].get<double>(), 1)));
     if (session.bends)
         rows += row("Lengths of the blank", "those of the " + session.bends->surface);
