@@ -232,7 +232,10 @@ std::optional<Cracks> find_cracks(const PolygonSoup& soup, const std::vector<int
     std::nth_element(lengths.begin(), lengths.begin() + long(lengths.size() / 2), lengths.end());
     constexpr double narrow = 0.02; // of an edge: a slit that was cut is wider, digits that were cut off are not
     Cracks cracks;
-    for (const Gap& gap : gaps(soup.position, open, narrow * lengths[lengths.size() / 2])) {
+    const double widest = narrow * lengths[lengths.size() / 2];
+    if (!(widest > 0)) // most open edges have no length
+        return std::nullopt;
+    for (const Gap& gap : gaps(soup.position, open, widest)) {
         const int a = open[size_t(gap.a)], b = open[size_t(gap.b)];
         if (gap.width > narrow * std::min(shortest.at(a), shortest.at(b)))
             continue;

@@ -28,7 +28,7 @@ TEST_F(UnfoldingSteps, AProposedListUnfoldsABentSheetToItsDevelopment)
     const Eigen::Vector2d wanted = channel.flat.rowwise().maxCoeff() - channel.flat.rowwise().minCoeff();
     EXPECT_NEAR(size[0], wanted.maxCoeff(), 1e-4);
     EXPECT_NEAR(size[1], 80, 1e-4);
-    EXPECT_THAT(last(Severity::done), HasSubstr(fmt::format("a blank of {:.4g} x {:.4g} mm", size[0], size[1])));
+    EXPECT_THAT(last(Severity::done), HasSubstr(fmt::format("a blank of {:.6g} x {:.6g} mm", size[0], size[1])));
     EXPECT_EQ(step_position(state), double(document.steps.size())) << "its end is shown";
     run();
     EXPECT_THAT(last(Severity::hint), HasSubstr("up to date"));
