@@ -81,6 +81,8 @@ KFactor k_factor(const std::string& text)
                                      text));
     if (std::filesystem::file_size(text, none) > most_bytes)
         throw InputError(fmt::format("{}: a table of K factors has 1 MB at most", text));
+    if (std::filesystem::file_size(text, none) == 0)
+        throw InputError(fmt::format("{}: the file is empty; a table of K factors has two columns, R/t and K", text));
     return parse_k_table(file_content(text), text);
 }
 
