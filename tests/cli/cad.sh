@@ -17,6 +17,8 @@ expect 0 "can be unfolded" "$spia" info "$step" --angle 2 --no-remesh --json "$o
 [ "$(triangles)" -gt "$usual" ] || fail "a smaller angle gave no more triangles"
 expect 0 "can be kept (--no-remesh)" "$spia" info "$step"
 expect 2 "excludes" "$spia" info "$step" --remesh --no-remesh
+: >"$out/empty.txt"
+expect 2 "empty.txt: the file is empty" "$spia" run "$step" --k-factor "$out/empty.txt" --out "$out"
 expect 0 "not sewn" "$spia" info "$step" --sewing 0 --skip-bad-faces
 for wrong in "--sewing -1" "--sewing nan" "--sewing 1e9" "--deflection 0" "--deflection inf" "--deflection 1e-300" "--angle 0" "--angle 95" "--angle nan"; do
     expect 2 "sewing tolerance\|deflection\|angle" "$spia" info "$step" $wrong
