@@ -14,8 +14,9 @@ Skin skin_by_name(const std::string& name); ///< @throws InputError
 /// One surface of a solid of sheet. Its triangles are seen from the outer side of the sheet, whichever it is.
 struct SkinMesh {
     TriMesh mesh;
-    std::vector<int> source_vertex; ///< per vertex that of the solid, ascending
-    std::vector<int> source_face;   ///< per triangle that of the solid, ascending
+    std::vector<int>
+        source_vertex; ///< per vertex that of the solid, ascending; one on a divided chord has that of an end
+    std::vector<int> source_face; ///< per triangle that of the solid, ascending; repeats where one was divided
     int straightened =
         0; ///< vertices of a middle surface at slanted edges that went straight in, for triangles not to turn over
 };

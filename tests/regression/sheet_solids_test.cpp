@@ -14,23 +14,13 @@
 #include "engine/pipeline/session.h"
 #include "engine/remesh/triangle_quality.h"
 #include "tests/support/cad/exact_volume.h"
+#include "tests/support/flat_area.h"
 
 namespace spia {
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path folder = SPIA_SOURCE_DIR "/../shared/data/cad";
-
-double area_of(const Eigen::Matrix2Xd& position, const Eigen::Matrix3Xi& triangle)
-{
-    double sum = 0;
-    for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
-        const Eigen::Vector2d p = position.col(triangle(1, f)) - position.col(triangle(0, f)),
-                              q = position.col(triangle(2, f)) - position.col(triangle(0, f));
-        sum += (p[0] * q[1] - p[1] * q[0]) / 2;
-    }
-    return sum;
-}
 
 Session solved(const fs::path& file)
 {
@@ -74,7 +64,7 @@ TEST(SheetSolids, BlanksOfBentSheetHaveTheAreaOfVolumeOverThickness)
             continue; // what is drawn gets thinner, and its blank has another area
         ++bent;
         const double expected = shapes::exact_volume(file) / session.part->thickness_mm.value();
-        EXPECT_NEAR(area_of(session.blank->blank.position, session.part->mesh.triangle) / expected, 1, 2e-4);
+        EXPECT_NEAR(shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle) / expected, 1, 2e-4);
         EXPECT_NEAR(area(session.part->mesh) / expected, 1, 2e-4) << "chords of bends lack some";
     }
     EXPECT_GE(bent, 2) << "the fan bracket and the battery clip";

@@ -6,13 +6,12 @@
 
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/session.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/bent_parts.h"
-#include "tests/support/cad/bent_solid.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/profile.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
 namespace {
@@ -116,13 +115,7 @@ TEST(DrawnBlank, HolesThroughABendMakeNoFurtherBends)
         if (!solid.hole)
             continue;
         SCOPED_TRACE(seed);
-        Session session;
-        session.file = folder / "part.step";
-        shapes::write_bent_solid(session.file, solid);
-        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-        session = run_stage(Stage::read, std::move(session));
-        session.options.flatten.thickness = solid.thickness;
-        session = run_stage(Stage::solve, std::move(session));
+        const Session session = solved_bent_solid(folder / "part.step", solid);
         const BlankDrawing drawing = drawn_blank(*session.part, find_bends(session.part->mesh), session.blank->blank,
                                                  session.blank->face, true, session.bends.get());
         EXPECT_EQ(drawing.bends.size(), solid.bend.size());

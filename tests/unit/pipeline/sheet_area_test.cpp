@@ -2,30 +2,16 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/session.h"
-#include "tests/support/cad/bent_solid.h"
 #include "tests/support/cad/exact_volume.h"
+#include "tests/support/flat_area.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
 namespace {
-
 using shapes::BentSolid;
-
-double area_of(const Eigen::Matrix2Xd& position, const Eigen::Matrix3Xi& triangle)
-{
-    double sum = 0;
-    for (Eigen::Index f = 0; f < triangle.cols(); ++f) {
-        const Eigen::Vector2d p = position.col(triangle(1, f)) - position.col(triangle(0, f)),
-                              q = position.col(triangle(2, f)) - position.col(triangle(0, f));
-        sum += (p[0] * q[1] - p[1] * q[0]) / 2;
-    }
-    return sum;
 }
-
-} // namespace
 
 /// Solids with a hole drilled askew through their first bend. Volume / thickness is the area of the middle surface, whatever the triangles.
 TEST(SheetArea, HolesThroughBendsLieOnTheMiddleSurface)
@@ -37,16 +23,10 @@ TEST(SheetArea, HolesThroughBendsLieOnTheMiddleSurface)
         if (!solid.hole)
             continue;
         SCOPED_TRACE(seed);
-        Session session;
-        session.file = folder / "part.step";
-        shapes::write_bent_solid(session.file, solid);
-        session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-        session = run_stage(Stage::read, std::move(session));
+        const Session session = solved_bent_solid(folder / "part.step", solid);
         ASSERT_TRUE(session.part->solid);
-        session.options.flatten.thickness = solid.thickness;
-        session = run_stage(Stage::solve, std::move(session));
         ++holes;
-        const double area = area_of(session.blank->blank.position, session.part->mesh.triangle);
+        const double area = shapes::flat_area(session.blank->blank.position, session.part->mesh.triangle);
         EXPECT_NEAR(area * solid.thickness / shapes::exact_volume(session.file), 1, 2e-4);
     }
     EXPECT_GE(holes, 15);
@@ -86,14 +66,8 @@ TEST(SheetArea, HolesOfEverySizeThroughARightAngleStrainNothing)
             solid.bend = {{inner, std::numbers::pi / 2}};
             solid.hole = true;
             solid.hole_radius = radius;
-            Session session;
-            session.file = folder / "part.step";
-            shapes::write_bent_solid(session.file, solid);
-            session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-            session = run_stage(Stage::read, std::move(session));
+            const Session session = solved_bent_solid(folder / "part.step", solid);
             ASSERT_TRUE(session.part->solid);
-            session.options.flatten.thickness = solid.thickness;
-            session = run_stage(Stage::solve, std::move(session));
             const Eigen::Matrix2Xd& X = session.blank->blank.position;
             const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff();
             EXPECT_NEAR(size.x(), solid.developed(0.5), 1e-4);
