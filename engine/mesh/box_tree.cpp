@@ -168,8 +168,10 @@ BoxTree::BoxTree(const TriMesh& mesh, Boxes boxes, const Progress& progress)
     progress.checkpoint(1, sorting);
     face.resize(entry.size());
     triangle.resize(entry.size());
+    box.resize(entry.size());
     for (size_t i = 0; i < entry.size(); ++i) {
         face[i] = entry[i].face;
+        box[i] = entry[i].box;
         for (int k = 0; k < 3; ++k)
             triangle[i].col(k) = mesh.position.col(mesh.triangle(k, face[i]));
     }

@@ -23,6 +23,7 @@ struct BoxTree {
     std::vector<Node> node;                ///< the root first; no node if there is no face
     std::vector<int> face;                 ///< of the mesh, in the order of the leaves
     std::vector<Eigen::Matrix3d> triangle; ///< its vertices (columns), in the same order
+    std::vector<Eigen::AlignedBox3d> box;  ///< of it, or of the piece that this leaf is for, in the same order
 
     /// Thin triangles that lie askew have large boxes, which are full of others. As pieces they have small ones, and several leaves.
     enum class Boxes { whole, pieces };

@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,6 +25,7 @@ public:
     using Face = OpenMesh::FaceHandle;
     using Corners = Eigen::Matrix3d;    ///< one per column
     using Quad = std::array<Vertex, 4>; ///< an edge from 0 to 1 between the triangles 0 1 2 and 1 0 3
+    using Tick = long;                  ///< counts changes
 
     /// Divides the kept lines (divide_line()).
     /// @param size     of edges at each vertex, mm
@@ -42,27 +46,55 @@ public:
     std::pair<Vertex, Vertex> ends(Edge e) const;
     Corners triangle(Face f) const;
     Corners triangle(Vertex a, Vertex b, Vertex c) const;
-    double worst_angle(const Quad& quad) const; ///< radians, of both triangles
-    double worst_around(Vertex v) const;        ///< radians
+    /// Squared cotangent of the least angle: what an angle is compared by, as it takes no root and no arc. From 1/3 up.
+    static double thinness(const Corners& triangle);
+    static double thinness(double angle) { return std::pow(std::tan(angle), -2); } ///< of that least angle, radians
+    double thinness(const Quad& quad) const;                                       ///< the larger one of both
     static Vector area_of(const Corners& t) { return (t.col(1) - t.col(0)).cross(t.col(2) - t.col(0)) / 2; }
     ///@}
 
-    /// If the edge may be flipped at all.
+    /// @name When it changed. What has been tried in vain need not be tried again before something around it is another.
+    ///@{
+    Tick now() const { return now_; }
+    /// The last change of its place, its size, its faces or those of a neighbour.
+    Tick changed(Vertex v) const { return changed_[size_t(v.idx())]; }
+    Tick changed(Edge e) const;
+    Tick changed(Face f) const;
+    /// Whether it may be changed: all may until shorten(), then what is near to where that asked for shorter edges.
+    bool open(Vertex v) const { return open_[size_t(v.idx())]; }
+    bool open(Edge e) const;
+    bool open(Face f) const;
+    ///@}
+
+    /// Around an edge that is neither on the boundary nor on a line.
     std::optional<Quad> quad(Edge edge) const;
 
-    /// In its middle, on the given mesh.
-    void split(Edge edge);
+    /// In its middle, on the given mesh, unless nothing would be left of a face.
+    bool split(Edge edge);
+    /// An edge of a kept line at the place of the line that is nearest to its middle, unless a face would turn over.
+    bool split_line(Edge edge);
     /// Pulls either end into the other one, but none off a line, and makes no edge longer than 4/3 of its size.
     bool collapse_if_sound(Edge edge);
-    /// If both new triangles have larger angles than that, radians.
-    bool flip_if_sound(Edge edge, const Quad& quad, double worst);
-    /// Puts the vertex on the given mesh near the place, unless a face turns over or the least angle falls below
-    /// what it is and below good_enough, radians.
+    /// If both new triangles are less thin than that.
+    bool flip_if_sound(Edge edge, const Quad& quad, double thin);
+    /// Puts the vertex on the given mesh near the place, unless a face turns over or the thinnest one becomes thinner than
+    /// it is and than good_enough.
     bool move(Vertex v, const Vector& place, const Vector& normal, double good_enough);
     /// Those between the pieces of lines that are longer than they were.
     void drop_line_vertices();
+    /// Asks for shorter edges at vertices of the mesh that finished() told last, and around them, growing with the way. Only these, and a few
+    /// rings around for triangles to fit in, may be changed then.
+    /// @param share   #V of that mesh, of the size that is asked for now: 1 where it stays
+    /// @param least   mm, no size becomes smaller
+    /// @param growth  of the size per mm of way
+    void shorten(const Eigen::VectorXd& share, double least, double growth);
 
-    TriMesh finished();
+    struct Finished {
+        TriMesh mesh;
+        /// Per face its number in the mesh that was told before if neither it nor a neighbour has changed, else -1.
+        std::vector<int> was;
+    };
+    Finished finished();
 
     static constexpr double too_long = 4.0 / 3,
                             too_short = 4.0 / 5; ///< of the size: where a split or collapse does not go farther from it
@@ -74,27 +106,103 @@ private:
         int face;    ///< of the given mesh
     };
 
-    /// @param way  mm, to any place of the given mesh: nothing farther away is looked for
-    Placed place(const Vector& point, double way) const;
-    bool near(const Vector& a, const Vector& b) const;
+    /// @param way   mm, to any place of the given mesh: nothing farther away is looked for
+    /// @param near  a vertex on whose given face the place may be: only saves time
+    Placed place(const Vector& point, double way, Vertex near) const;
+    double distance_to_face(const Vector& point, int face) const;
+    bool near(Vertex a, Vertex b) const;
     Edge edge_between(Vertex a, Vertex b) const { return mesh_.edge_handle(mesh_.find_halfedge(a, b)); }
-    Vertex split(Edge edge, const Vector& position, double asked, bool line);
-    void divide(const std::vector<int>& line, const Eigen::VectorXd& sagitta, const Progress& progress);
+    template <class Each> bool all_halves(Edge edge, const Vector& place, const Each& each) const;
+    Vertex split(Edge edge, const Vector& position, double asked, int face, int line);
+    void divide(int line, const Eigen::VectorXd& sagitta, const Progress& progress);
     void forget_crumb(const std::vector<int>& line);
     void drop(Vertex v);
     bool may_collapse(Halfedge h, bool inner);
     bool closes_line(Halfedge h) const;
     void collapse(Halfedge h);
+    void touch(Vertex v);
 
     const TriMesh& original_;
+    const KeptLines& lines_;
     Eigen::Matrix3Xd original_normal_;
     const Eigen::VectorXd& original_size_;
     const ClosestPointSearch& search_;
     double sagitta_;
     HalfedgeMesh mesh_;
-    std::vector<char> line_edge_;      ///< per edge
+    std::vector<int> line_edge_;       ///< per edge: 0, or 1 + the line that it is a part of
     std::vector<char> on_line_, drop_; ///< per vertex
     std::vector<double> size_;         ///< per vertex, mm
+    std::vector<double> share_;        ///< per vertex, of what the size is there by original_size_
+    std::vector<int> face_;            ///< per vertex: a given face that it is or was on
+    std::vector<Tick> changed_;        ///< per vertex
+    std::vector<char> open_;           ///< per vertex
+    Tick now_ = 0, told_ = -1;         ///< told_: when finished() was asked last
+    std::vector<int> vertex_told_;     ///< per vertex of the mesh told last
+    std::vector<int> face_told_;       ///< per face its number there, -1: none
 };
+
+inline EvolvingMesh::Vector EvolvingMesh::at(Vertex v) const
+{
+    const auto& p = mesh_.point(v);
+    return {p[0], p[1], p[2]};
+}
+
+inline std::pair<EvolvingMesh::Vertex, EvolvingMesh::Vertex> EvolvingMesh::ends(Edge e) const
+{
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    return {mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)};
+}
+
+inline EvolvingMesh::Corners EvolvingMesh::triangle(Face f) const
+{
+    const Halfedge a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a), c = mesh_.next_halfedge_handle(b);
+    return triangle(mesh_.to_vertex_handle(a), mesh_.to_vertex_handle(b), mesh_.to_vertex_handle(c));
+}
+
+inline EvolvingMesh::Corners EvolvingMesh::triangle(Vertex a, Vertex b, Vertex c) const
+{
+    Corners result;
+    result.col(0) = at(a);
+    result.col(1) = at(b);
+    result.col(2) = at(c);
+    return result;
+}
+
+inline double EvolvingMesh::thinness(const Corners& t)
+{
+    // The angle opposite to the shortest side.
+    const Vector side[3] = {t.col(2) - t.col(1), t.col(0) - t.col(2), t.col(1) - t.col(0)};
+    const double length[3] = {side[0].squaredNorm(), side[1].squaredNorm(), side[2].squaredNorm()};
+    const int k = length[0] <= length[1] ? (length[0] <= length[2] ? 0 : 2) : (length[1] <= length[2] ? 1 : 2);
+    const Vector &a = side[(k + 1) % 3], &b = side[(k + 2) % 3];
+    const double dot = a.dot(b), area = a.cross(b).squaredNorm();
+    return area > 0 ? dot * dot / area : std::numeric_limits<double>::infinity();
+}
+
+inline EvolvingMesh::Tick EvolvingMesh::changed(Edge e) const
+{
+    const auto [a, b] = ends(e);
+    return std::max(changed(a), changed(b));
+}
+
+inline bool EvolvingMesh::open(Edge e) const
+{
+    const auto [a, b] = ends(e);
+    return open(a) && open(b);
+}
+
+inline bool EvolvingMesh::open(Face f) const
+{
+    const Halfedge h = mesh_.halfedge_handle(f);
+    return open(mesh_.from_vertex_handle(h)) && open(mesh_.to_vertex_handle(h)) &&
+           open(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
+}
+
+inline EvolvingMesh::Tick EvolvingMesh::changed(Face f) const
+{
+    const Halfedge h = mesh_.halfedge_handle(f);
+    return std::max({changed(mesh_.from_vertex_handle(h)), changed(mesh_.to_vertex_handle(h)),
+                     changed(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)))});
+}
 
 } // namespace spia

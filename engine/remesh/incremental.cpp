@@ -1,16 +1,17 @@
 #include "engine/remesh/incremental.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/remesh/border_clearance.h"
 #include "engine/remesh/evolving_mesh.h"
-#include "engine/remesh/triangle_quality.h"
 
 namespace spia {
 namespace {
@@ -34,12 +35,48 @@ template <class Each> void for_all(int count, const Progress& progress, const ch
     }
 }
 
-/// Calls each(edge) for those that are free to change, but none that the calls make.
+using Tick = EvolvingMesh::Tick;
+
+/// When each edge, vertex or face was last tried: what was left as it was would be so again before something around it changes.
+class LastTried {
+public:
+    /// @param handle  of an edge, vertex or face
+    /// @param since   changes up to then do not count
+    template <class Handle> bool due(const EvolvingMesh& mesh, Handle handle, Tick since)
+    {
+        if (!mesh.open(handle))
+            return false;
+        const size_t i = size_t(handle.idx());
+        if (i >= tried_.size())
+            tried_.resize(i + i / 2 + 1, never);
+        if (mesh.changed(handle) <= std::max(tried_[i], since))
+            return false;
+        tried_[i] = mesh.now();
+        return true;
+    }
+
+private:
+    static constexpr Tick never = -1;
+    std::vector<Tick> tried_;
+};
+
+/// What is worked on, and what was tried there.
+struct Work {
+    explicit Work(EvolvingMesh evolving) : mesh(std::move(evolving)) {}
+
+    EvolvingMesh mesh;
+    LastTried to_split, to_collapse, to_flip_for_valence, to_flip_for_angle, to_smooth, to_mend;
+    Tick since = -1; ///< only what has changed after this is looked at
+};
+
+/// Calls each(edge) for those that are free to change and due, but none that the calls make.
 template <class Each>
-void for_free_edges(const EvolvingMesh& mesh, const Progress& progress, const char* what, const Each& each)
+void for_free_edges(Work& work, LastTried& tried, const Progress& progress, const char* what, const Each& each)
 {
+    const EvolvingMesh& mesh = work.mesh;
     for_all(int(mesh.mesh().n_edges()), progress, what, [&](int e) {
-        if (const Edge edge(e); !mesh.mesh().status(edge).deleted() && !mesh.on_line(edge))
+        if (const Edge edge(e);
+            !mesh.mesh().status(edge).deleted() && !mesh.on_line(edge) && tried.due(mesh, edge, work.since))
             each(edge);
     });
 }
@@ -51,23 +88,26 @@ double relative_length(const EvolvingMesh& mesh, Edge edge)
     return mesh.length(a, b) / std::min(mesh.size(a), mesh.size(b));
 }
 
-void collapse_short(EvolvingMesh& mesh, const Progress& progress)
+void collapse_short(Work& work, const Progress& progress)
 {
-    for_free_edges(mesh, progress, "collapsing short edges", [&](Edge edge) {
+    EvolvingMesh& mesh = work.mesh;
+    for_free_edges(work, work.to_collapse, progress, "collapsing short edges", [&](Edge edge) {
         if (relative_length(mesh, edge) < EvolvingMesh::too_short)
             mesh.collapse_if_sound(edge);
     });
 }
 
-void split_long(EvolvingMesh& mesh, double most_edges, const Progress& progress)
+void split_long(Work& work, double most_edges, const Progress& progress)
 {
+    EvolvingMesh& mesh = work.mesh;
     constexpr int most_sweeps = 12; // each halves
     constexpr size_t most_growth = 4;
     bool again = true;
     size_t before = mesh.mesh().n_edges();
     for (int sweep = 0; sweep < most_sweeps && again; ++sweep) {
         again = false;
-        for_free_edges(mesh, sweep == 0 ? progress : progress.part(1, 1), "splitting long edges", [&](Edge edge) {
+        const Progress here = sweep == 0 ? progress : progress.part(1, 1);
+        for_free_edges(work, work.to_split, here, "splitting long edges", [&](Edge edge) {
             if (relative_length(mesh, edge) <= EvolvingMesh::too_long)
                 return;
             if (double(mesh.mesh().n_edges()) > most_edges) {
@@ -76,60 +116,69 @@ void split_long(EvolvingMesh& mesh, double most_edges, const Progress& progress)
                     "remeshing would cut the needles near {:.6g}, {:.6g}, {:.6g} mm into more than {:.2g} million edges",
                     at.x(), at.y(), at.z(), most_edges / 1e6));
             }
-            mesh.split(edge);
-            again = true;
+            again = mesh.split(edge) || again;
         });
         // Needles beside each other would all be cut to pieces as long as the sizes, a hundred times too many.
         if (mesh.mesh().n_edges() > most_growth * before) {
-            collapse_short(mesh, progress.part(1, 1));
+            collapse_short(work, progress.part(1, 1));
             before = mesh.mesh().n_edges();
         }
     }
 }
 
 /// Towards six neighbours of inner vertices and four of those at the boundary.
-void flip_for_valence(EvolvingMesh& mesh, const Progress& progress)
+void flip_for_valence(Work& work, const Progress& progress)
 {
+    EvolvingMesh& mesh = work.mesh;
     const auto excess = [&](Vertex v, int change) {
-        const int wanted = mesh.mesh().is_boundary(v) ? 4 : 6, off = int(mesh.mesh().valence(v)) + change - wanted;
+        int edges = 0;
+        bool inner = true;
+        for (const EvolvingMesh::Halfedge h : mesh.mesh().voh_range(v)) {
+            ++edges;
+            inner = inner && !mesh.mesh().is_boundary(h);
+        }
+        const int off = edges + change - (inner ? 6 : 4);
         return off * off;
     };
-    for_free_edges(mesh, progress, "flipping edges", [&](Edge edge) {
+    for_free_edges(work, work.to_flip_for_valence, progress, "flipping edges", [&](Edge edge) {
         const auto v = mesh.quad(edge);
         if (!v)
             return;
         const int before = excess((*v)[0], 0) + excess((*v)[1], 0) + excess((*v)[2], 0) + excess((*v)[3], 0);
         const int after = excess((*v)[0], -1) + excess((*v)[1], -1) + excess((*v)[2], 1) + excess((*v)[3], 1);
-        constexpr double still_good = 20 * degrees;
+        static const double still_good = EvolvingMesh::thinness(20 * degrees);
         if (after < before)
-            mesh.flip_if_sound(edge, *v, std::min(mesh.worst_angle(*v), still_good));
+            mesh.flip_if_sound(edge, *v, std::max(mesh.thinness(*v), still_good));
     });
 }
 
-void flip_for_angle(EvolvingMesh& mesh, const Progress& progress)
+void flip_for_angle(Work& work, const Progress& progress)
 {
-    for_free_edges(mesh, progress, "flipping edges", [&](Edge edge) {
+    EvolvingMesh& mesh = work.mesh;
+    for_free_edges(work, work.to_flip_for_angle, progress, "flipping edges", [&](Edge edge) {
         if (const auto v = mesh.quad(edge))
-            mesh.flip_if_sound(edge, *v, mesh.worst_angle(*v));
+            mesh.flip_if_sound(edge, *v, mesh.thinness(*v));
     });
 }
 
 /// To the mean of the middles of the faces around, each with its share of what the sizes ask for.
-void smooth(EvolvingMesh& mesh, const Progress& progress)
+void smooth(Work& work, const Progress& progress)
 {
+    EvolvingMesh& mesh = work.mesh;
     const HalfedgeMesh& around = mesh.mesh();
     for_all(int(around.n_vertices()), progress, "smoothing", [&](int i) {
         const Vertex v(i);
-        if (around.status(v).deleted() || mesh.on_line(v))
+        if (around.status(v).deleted() || mesh.on_line(v) || !work.to_smooth.due(mesh, v, work.since))
             return;
         Vector sum = Vector::Zero(), normal = Vector::Zero();
         double weights = 0;
-        for (const Face f : around.vf_range(v)) {
-            const EvolvingMesh::Corners t = mesh.triangle(f);
+        for (const EvolvingMesh::Halfedge out : around.voh_range(v)) {
+            if (around.is_boundary(out))
+                continue;
+            const Vertex a = around.to_vertex_handle(out), b = around.to_vertex_handle(around.next_halfedge_handle(out));
+            const EvolvingMesh::Corners t = mesh.triangle(v, a, b);
             const Vector area = EvolvingMesh::area_of(t);
-            double mean_size = 0;
-            for (const Vertex w : around.fv_range(f))
-                mean_size += mesh.size(w) / 3;
+            const double mean_size = (mesh.size(v) + mesh.size(a) + mesh.size(b)) / 3;
             const double weight = area.norm() / (mean_size * mean_size);
             sum += weight * t.rowwise().mean();
             weights += weight;
@@ -143,7 +192,7 @@ void smooth(EvolvingMesh& mesh, const Progress& progress)
         constexpr double arrived = 0.003; // of the size
         if (way.norm() < arrived * mesh.size(v))
             return;
-        constexpr double good_enough = 35 * degrees;
+        static const double good_enough = EvolvingMesh::thinness(35 * degrees);
         for (const double share : {1.0, 0.4})
             if (mesh.move(v, mesh.at(v) + share * way, normal, good_enough))
                 break;
@@ -174,7 +223,7 @@ bool flip_longest(EvolvingMesh& mesh, Face f)
 {
     const Edge longest = extreme_edges(mesh, f).second;
     const auto v = longest.is_valid() ? mesh.quad(longest) : std::nullopt;
-    return v && mesh.flip_if_sound(longest, *v, mesh.worst_angle(*v));
+    return v && mesh.flip_if_sound(longest, *v, mesh.thinness(*v));
 }
 
 bool collapse_shortest(EvolvingMesh& mesh, Face f)
@@ -204,20 +253,22 @@ void climb(EvolvingMesh& mesh, Face f)
         for (double step = 0.3 * mesh.size(v); step > 0.02 * mesh.size(v); step /= 2)
             for (int k = 0; k < directions; ++k) {
                 const double turn = 2 * std::numbers::pi * k / directions;
-                mesh.move(v, mesh.at(v) + step * (std::cos(turn) * u + std::sin(turn) * w), normal, std::numbers::pi);
+                mesh.move(v, mesh.at(v) + step * (std::cos(turn) * u + std::sin(turn) * w), normal, 0);
             }
     }
 }
 
 /// Flips, collapses and moves what is left of thin triangles.
-/// @param thin  radians
-/// @returns how many there are
-int mend_thin(EvolvingMesh& mesh, double thin, const Progress& progress)
+/// @param thin  which they are, as EvolvingMesh::thinness()
+/// @returns how many there are that something may be done about
+int mend_thin(Work& work, double thin, const Progress& progress)
 {
+    EvolvingMesh& mesh = work.mesh;
     int left = 0;
     for_all(int(mesh.mesh().n_faces()), progress, "mending thin triangles", [&](int i) {
         const Face f(i);
-        if (mesh.mesh().status(f).deleted() || least_angle(mesh.triangle(f)) >= thin)
+        if (mesh.mesh().status(f).deleted() || !work.to_mend.due(mesh, f, work.since) ||
+            EvolvingMesh::thinness(mesh.triangle(f)) <= thin)
             return;
         ++left;
         if (!flip_longest(mesh, f) && !collapse_shortest(mesh, f))
@@ -226,41 +277,99 @@ int mend_thin(EvolvingMesh& mesh, double thin, const Progress& progress)
     return left;
 }
 
+/// Halves edges of kept lines; divide_line() has divided them for the sizes that were asked for at first.
+void split_long_lines(Work& work)
+{
+    EvolvingMesh& mesh = work.mesh;
+    for (int e = 0, edges = int(mesh.mesh().n_edges()); e < edges; ++e)
+        if (const Edge edge(e); !mesh.mesh().status(edge).deleted() && mesh.on_line(edge) &&
+                                mesh.open(edge) && mesh.changed(edge) > work.since &&
+                                relative_length(mesh, edge) > EvolvingMesh::too_long)
+            mesh.split_line(edge);
+}
+
+void one_round(Work& work, double most_edges, const Progress& progress)
+{
+    split_long(work, most_edges, progress.part(0, 0.2));
+    work.mesh.drop_line_vertices();
+    collapse_short(work, progress.part(0.2, 0.5));
+    flip_for_valence(work, progress.part(0.5, 0.6));
+    smooth(work, progress.part(0.6, 0.8));
+    smooth(work, progress.part(0.8, 1));
+}
+
+void mend(Work& work, const Progress& progress)
+{
+    constexpr int most_mends = 10;
+    static const double thin = EvolvingMesh::thinness(30 * degrees);
+    for (int round = 0; round < most_mends; ++round) {
+        const Progress here = progress.part(double(round) / most_mends, double(round + 1) / most_mends);
+        flip_for_angle(work, here.part(0, 0.2));
+        smooth(work, here.part(0.2, 0.6));
+        if (mend_thin(work, thin, here.part(0.6, 1)) == 0)
+            break;
+    }
+    work.mesh.drop_line_vertices();
+}
+
 } // namespace
+
+struct IncrementalRemesh::State {
+    Work work;
+    IncrementalOptions options;
+};
+
+IncrementalRemesh::IncrementalRemesh(const TriMesh& part, const KeptLines& lines, const Eigen::VectorXd& size,
+                                     const ClosestPointSearch& search, const IncrementalOptions& options,
+                                     const Progress& progress)
+{
+    progress.checkpoint(0, "dividing the kept lines");
+    const Eigen::VectorXd gap = border_clearance(part, 1.5 * options.sagitta, progress.part(0, 0));
+    EvolvingMesh mesh(part, lines, size, search, options.sagitta, gap, progress.part(0, 0));
+    state_ = std::make_unique<State>(State{Work(std::move(mesh)), options});
+}
+
+IncrementalRemesh::~IncrementalRemesh() = default;
+
+void IncrementalRemesh::run(const Progress& progress)
+{
+    Work& work = state_->work;
+    flip_for_angle(work, progress.part(0, 0.01)); // thin triangles hinder collapses
+    work.mesh.drop_line_vertices();               // strips: what will go is not split along their length before
+    collapse_short(work, progress.part(0.01, 0.02));
+    const int rounds = state_->options.rounds;
+    for (int round = 0; round < rounds; ++round)
+        one_round(work, state_->options.most_edges,
+                  progress.part(0.02 + 0.78 * round / rounds, 0.02 + 0.78 * (round + 1) / rounds));
+    mend(work, progress.part(0.8, 1));
+}
+
+void IncrementalRemesh::refine(const Eigen::VectorXd& share, double least, double growth, const Progress& progress)
+{
+    Work& work = state_->work;
+    work.since = work.mesh.now();
+    work.mesh.shorten(share, least, growth);
+    constexpr int rounds = 4; // one halves edges, and the rest lets those around follow
+    for (int round = 0; round < rounds; ++round) {
+        split_long_lines(work);
+        one_round(work, state_->options.most_edges, progress.part(0.8 * round / rounds, 0.8 * (round + 1) / rounds));
+    }
+    mend(work, progress.part(0.8, 1));
+}
+
+IncrementalRemesh::Told IncrementalRemesh::told()
+{
+    EvolvingMesh::Finished finished = state_->work.mesh.finished();
+    return {std::move(finished.mesh), std::move(finished.was)};
+}
 
 TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const Eigen::VectorXd& size,
                              const ClosestPointSearch& search, const IncrementalOptions& options,
                              const Progress& progress)
 {
-    progress.checkpoint(0, "dividing the kept lines");
-    const Eigen::VectorXd gap = border_clearance(part, 1.5 * options.sagitta, progress.part(0, 0));
-    EvolvingMesh mesh(part, lines, size, search, options.sagitta, gap, progress.part(0, 0));
-    flip_for_angle(mesh, progress.part(0, 0.01)); // thin triangles hinder collapses
-    mesh.drop_line_vertices();                    // strips: what will go is not split along their length before
-    collapse_short(mesh, progress.part(0.01, 0.02));
-    for (int round = 0; round < options.rounds; ++round) {
-        const auto step = [&](double from, double to) {
-            return progress.part(0.02 + 0.78 * (round + from) / options.rounds,
-                                 0.02 + 0.78 * (round + to) / options.rounds);
-        };
-        split_long(mesh, options.most_edges, step(0, 0.2));
-        mesh.drop_line_vertices();
-        collapse_short(mesh, step(0.2, 0.5));
-        flip_for_valence(mesh, step(0.5, 0.6));
-        smooth(mesh, step(0.6, 0.8));
-        smooth(mesh, step(0.8, 1));
-    }
-    constexpr int most_mends = 10;
-    constexpr double thin = 30 * degrees;
-    for (int mend = 0; mend < most_mends; ++mend) {
-        const Progress here = progress.part(0.8 + 0.2 * mend / most_mends, 0.8 + 0.2 * (mend + 1) / most_mends);
-        flip_for_angle(mesh, here.part(0, 0.2));
-        smooth(mesh, here.part(0.2, 0.6));
-        if (mend_thin(mesh, thin, here.part(0.6, 1)) == 0)
-            break;
-    }
-    mesh.drop_line_vertices();
-    return mesh.finished();
+    IncrementalRemesh remesh(part, lines, size, search, options, progress);
+    remesh.run(progress);
+    return remesh.told().mesh;
 }
 
 } // namespace spia

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "engine/core/progress.h"
@@ -16,10 +17,39 @@ struct IncrementalOptions {
 
 /// Isotropic remeshing by splits, collapses, flips and tangential smoothing, vertices projected on the given mesh. [Botsch, Kobbelt,
 /// A remeshing approach to multiresolution modeling, 2004; with a size per place: Dunyach et al., Adaptive remeshing for
-/// real-time mesh deformation, 2013]. Kept lines are divided once (divide_line()) and then stay.
-/// @param size    of edges at each vertex, mm
-/// @param search  of `mesh`
-/// @throws InputError  if more edges would have to be made: names the place where the last one was
+/// real-time mesh deformation, 2013]. Kept lines are divided once (divide_line()); where edges are asked to be shorter later they are
+/// halved there.
+class IncrementalRemesh {
+public:
+    /// @param size    of edges at each vertex, mm; it, the mesh and the lines have to stay
+    /// @param search  of `mesh`
+    IncrementalRemesh(const TriMesh& mesh, const KeptLines& lines, const Eigen::VectorXd& size,
+                      const ClosestPointSearch& search, const IncrementalOptions& options,
+                      const Progress& progress = {});
+    ~IncrementalRemesh();
+
+    /// All rounds.
+    /// @throws InputError  if more edges would have to be made: names the place where the last one was
+    void run(const Progress& progress = {});
+    /// A few rounds around those vertices of the mesh told last where edges have to be shorter; nothing is touched elsewhere.
+    /// @param share   #V of that mesh, of their length now: 1 where they are good
+    /// @param least   mm, of edges
+    /// @param growth  of the length per mm of way
+    /// @throws InputError  as run() does
+    void refine(const Eigen::VectorXd& share, double least, double growth, const Progress& progress = {});
+
+    struct Told {
+        TriMesh mesh;
+        std::vector<int> was; ///< per face its number in the mesh told before if it is still the same, else -1
+    };
+    Told told();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Its run().
 TriMesh remesh_incrementally(const TriMesh& mesh, const KeptLines& lines, const Eigen::VectorXd& size,
                              const ClosestPointSearch& search, const IncrementalOptions& options,
                              const Progress& progress = {});

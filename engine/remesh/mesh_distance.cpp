@@ -77,6 +77,9 @@ Eigen::Vector3d middle_of(const Polygon& polygon)
     return sum / double(polygon.size());
 }
 
+/// Far away the bound may be farther from what was seen.
+double sharp_enough(double seen, double precision) { return seen + std::max(precision, 0.1 * seen); }
+
 class FaceDistance {
 public:
     FaceDistance(const TriMesh& to, const ClosestPointSearch& search, double precision)
@@ -89,12 +92,19 @@ public:
         Eigen::Vector3d where = Eigen::Vector3d::Zero();
     };
 
-    Found of(const Eigen::Matrix3d& triangle) const
+    /// @param found     of its corners and its middle
+    /// @param nearest   to its middle; -1: not known
+    /// @param harmless  mm; a bound of that is good enough
+    Found of(const Eigen::Matrix3d& triangle, Found found, int nearest, double harmless) const
     {
         constexpr int most_pieces = 1'000'000; // then what is left is bounded by the way from its middle
-        Found found;
-        for (int k = 0; k < 3; ++k)
-            see(triangle.col(k), found);
+        const auto enough = [&] { return std::max(harmless, sharp_enough(found.seen, precision_)); };
+        if (nearest >= 0) // mostly one face is near enough to all of it
+            if (const double bound = bound_of({triangle.col(0), triangle.col(1), triangle.col(2)}, nearest);
+                bound <= enough()) {
+                found.bound = std::max(bound, found.seen);
+                return found;
+            }
         std::vector<Polygon> waiting = {{triangle.col(0), triangle.col(1), triangle.col(2)}};
         int pieces = 0;
         while (!waiting.empty()) {
@@ -102,23 +112,23 @@ public:
             ++pieces;
             waiting.pop_back();
             const Eigen::Vector3d middle = middle_of(piece);
-            const ClosestPoint nearest = see(middle, found);
-            const double bound = bound_of(piece, nearest.face);
-            if (bound <= enough(found)) {
+            const ClosestPoint to_middle = see(middle, found);
+            const double bound = bound_of(piece, to_middle.face);
+            if (bound <= enough()) {
                 found.bound = std::max(found.bound, bound);
                 continue;
             }
             double radius = 0;
             for (const Eigen::Vector3d& p : piece)
                 radius = std::max(radius, (p - middle).norm());
-            const double sure = std::min(bound, nearest.distance + radius); // no distance changes faster than the way
-            if (sure <= enough(found) || pieces >= most_pieces) {
+            const double sure = std::min(bound, to_middle.distance + radius); // no distance changes faster than the way
+            if (sure <= enough() || pieces >= most_pieces) {
                 found.bound = std::max(found.bound, sure);
                 continue;
             }
             const size_t before = waiting.size();
             Polygon inside = piece;
-            for (const Side& side : sides_[size_t(nearest.face)]) {
+            for (const Side& side : sides_[size_t(to_middle.face)]) {
                 auto [in, out] = cut(inside, side, on_);
                 if (in.empty() || out.empty())
                     continue;
@@ -144,9 +154,6 @@ private:
         }
         return nearest;
     }
-
-    /// Far away the bound may be farther from what was seen.
-    double enough(const Found& found) const { return found.seen + std::max(precision_, 0.1 * found.seen); }
 
     double bound_of(const Polygon& polygon, int face) const
     {
@@ -181,32 +188,72 @@ private:
 } // namespace
 
 MeshDistance farthest(const TriMesh& from, const TriMesh& to, const ClosestPointSearch& search, double precision,
-                      const Progress& progress)
+                      double harmless, const Progress& progress)
 {
-    const FaceDistance distance(to, search, precision);
-    std::vector<FaceDistance::Found> found(size_t(from.triangles()));
+    const size_t faces = size_t(from.triangles());
+    MeshDistance result;
+    result.of_face = result.seen_of_face = Eigen::VectorXd::Zero(from.triangles());
+    result.place = Eigen::Matrix3Xd::Zero(3, from.triangles());
+    result.nearest.assign(faces, -1);
+    measure_again(result, std::vector<char>(faces, 1), from, to, search, precision, harmless, progress);
+    return result;
+}
+
+void measure_again(MeshDistance& distance, const std::vector<char>& again, const TriMesh& from, const TriMesh& to,
+                   const ClosestPointSearch& search, double precision, double harmless, const Progress& progress)
+{
+    constexpr const char* step = "measuring the distance of both meshes";
+    std::vector<int> face;
+    std::vector<char> corner(size_t(from.vertices()), 0);
+    for (int f = 0; f < from.triangles(); ++f)
+        if (again[size_t(f)]) {
+            face.push_back(f);
+            for (const int v : from.triangle.col(f))
+                corner[size_t(v)] = 1;
+        }
+    Eigen::VectorXd at_vertex = Eigen::VectorXd::Zero(from.vertices());
+    for_each_in_parts(from.vertices(), progress.part(0, 0.2), step, [&](int v) {
+        if (corner[size_t(v)])
+            at_vertex[v] = search.nearest(from.position.col(v)).distance;
+    });
+    for_each_in_parts(int(face.size()), progress.part(0.2, 0.4), step, [&](int i) {
+        const int f = face[size_t(i)];
+        const Eigen::Matrix3d t = from.position(Eigen::all, from.triangle.col(f));
+        const ClosestPoint middle = search.nearest(t.rowwise().mean());
+        distance.nearest[size_t(f)] = middle.face;
+        distance.seen_of_face[f] = middle.distance;
+        distance.place.col(f) = t.rowwise().mean();
+        for (int k = 0; k < 3; ++k)
+            if (const double away = at_vertex[from.triangle(k, f)]; away > distance.seen_of_face[f]) {
+                distance.seen_of_face[f] = away;
+                distance.place.col(f) = t.col(k);
+            }
+    });
+    // No face with a smaller bound than what was seen somewhere makes the largest bound larger.
+    const double good_enough = std::min(harmless, distance.seen_of_face.maxCoeff());
+    const FaceDistance measured(to, search, precision);
+    face.clear();
+    for (int f = 0; f < from.triangles(); ++f)
+        if (again[size_t(f)] ||
+            distance.of_face[f] > std::max(good_enough, sharp_enough(distance.seen_of_face[f], precision)))
+            face.push_back(f);
     constexpr int at_a_time = 16384;
-    for (int first = 0; first < from.triangles(); first += std::min(at_a_time, from.triangles() - first)) {
-        progress.checkpoint(double(first) / from.triangles(), "measuring the distance of both meshes");
-        parallel_for(std::min(at_a_time, from.triangles() - first), [&](int i) {
-            found[size_t(first + i)] = distance.of(from.position(Eigen::all, from.triangle.col(first + i)));
+    for (int first = 0; first < int(face.size()); first += at_a_time) {
+        progress.checkpoint(0.4 + 0.6 * double(first) / double(face.size()), step);
+        parallel_for(std::min(at_a_time, int(face.size()) - first), [&](int i) {
+            const int f = face[size_t(first + i)];
+            const FaceDistance::Found found =
+                measured.of(from.position(Eigen::all, from.triangle.col(f)),
+                            {0, distance.seen_of_face[f], distance.place.col(f)}, distance.nearest[size_t(f)], good_enough);
+            distance.of_face[f] = found.bound;
+            distance.seen_of_face[f] = found.seen;
+            distance.place.col(f) = found.where;
         });
     }
-    MeshDistance result;
-    result.of_face.resize(from.triangles());
-    for (int f = 0; f < from.triangles(); ++f) {
-        const FaceDistance::Found& each = found[size_t(f)];
-        result.of_face[f] = each.bound;
-        if (each.bound > result.bound || result.face < 0) {
-            result.bound = each.bound;
-            result.face = f;
-        }
-        if (each.seen > result.seen) {
-            result.seen = each.seen;
-            result.where = each.where;
-        }
-    }
-    return result;
+    distance.bound = distance.of_face.maxCoeff(&distance.face);
+    int worst;
+    distance.seen = distance.seen_of_face.maxCoeff(&worst);
+    distance.where = distance.place.col(worst);
 }
 
 } // namespace spia

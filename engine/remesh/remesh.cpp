@@ -15,8 +15,8 @@
 #include "engine/remesh/edge_sizes.h"
 #include "engine/remesh/incremental.h"
 #include "engine/remesh/kept_lines.h"
-#include "engine/remesh/mesh_distance.h"
 #include "engine/remesh/thin_faces.h"
+#include "engine/remesh/two_way_distance.h"
 
 namespace spia {
 namespace {
@@ -82,15 +82,13 @@ void sort_by_source(RemeshResult& result, const std::vector<int>& vertex, const 
 }
 
 /// Fills what leads from the new mesh to the given one.
-void lead_back(RemeshResult& result, const TriMesh& part, const ClosestPointSearch& search)
+/// @param face  per new face: the given one nearest to its middle
+void lead_back(RemeshResult& result, const TriMesh& part, const ClosestPointSearch& search,
+               const std::vector<int>& face)
 {
-    std::vector<int> vertex(size_t(result.mesh.vertices())), face(size_t(result.mesh.triangles()));
+    std::vector<int> vertex(size_t(result.mesh.vertices()));
     parallel_for(result.mesh.vertices(),
                  [&](int v) { vertex[size_t(v)] = nearest_vertex(part, search, result.mesh.position.col(v)); });
-    parallel_for(result.mesh.triangles(), [&](int f) {
-        const Eigen::Vector3d middle = result.mesh.position(Eigen::all, result.mesh.triangle.col(f)).rowwise().mean();
-        face[size_t(f)] = search.nearest(middle).face;
-    });
     sort_by_source(result, vertex, face);
 }
 
@@ -105,7 +103,8 @@ constexpr double no_height = 0.1; // of the tolerance: the normal of such a face
 /// What keeps a new mesh from being taken.
 struct Fault {
     std::string text;        ///< empty: nothing
-    Eigen::VectorXd shorter; ///< #V of the part, mm: sizes that may help; empty: none would
+    Eigen::VectorXd shorter; ///< #V of the part, mm: sizes that may help if all is done again
+    Eigen::VectorXd share;   ///< #V of the new mesh: of the length of edges there, which may help; empty: none would
 };
 
 std::string place_in_words(const Eigen::Vector3d& p)
@@ -128,59 +127,131 @@ std::vector<char> folded_faces(const TriMesh& part, const Eigen::Matrix3Xd& norm
     return folded;
 }
 
-/// Measures both ways; the sizes become shorter where a mesh is too far from the other one.
-Fault fault_of(RemeshResult& result, const TriMesh& part, const ClosestPointSearch& search, const Eigen::VectorXd& size,
-               const Progress& progress)
+/// New faces that look to the other side than the given one that is nearest.
+std::vector<int> turned_over(const TriMesh& mesh, const std::vector<int>& nearest, const TriMesh& part,
+                             double tolerance)
+{
+    const Eigen::Matrix3Xd normal = area_vectors(part), new_normal = area_vectors(mesh);
+    const std::vector<char> folded = folded_faces(part, normal);
+    std::vector<int> result;
+    for (int f = 0; f < mesh.triangles(); ++f) {
+        const int near = nearest[size_t(f)];
+        if (new_normal.col(f).dot(normal.col(near)) < 0 && !folded[size_t(near)] &&
+            !is_thin(part, near, no_height * tolerance))
+            result.push_back(f);
+    }
+    return result;
+}
+
+/// Where edges have to be shorter, on the part and on the new mesh.
+class Shortening {
+public:
+    Shortening(Fault& fault, const TriMesh& part, const TriMesh& mesh, const Eigen::VectorXd& size, double tolerance)
+        : fault_(fault), part_(part), mesh_(mesh), size_(size), tolerance_(tolerance)
+    {
+        fault.shorter = size;
+        fault.share = Eigen::VectorXd::Ones(mesh.vertices());
+    }
+
+    /// @param distance  mm; what cuts off a ridge does so in proportion to its length
+    void at(int face, int given_face, double distance)
+    {
+        const double share = std::clamp(0.6 * tolerance_ / distance, 0.3, 0.75);
+        for (const int v : part_.triangle.col(given_face))
+            fault_.shorter[v] = std::min(fault_.shorter[v], share * size_[v]);
+        for (const int v : mesh_.triangle.col(face))
+            fault_.share[v] = std::min(fault_.share[v], share);
+    }
+
+private:
+    Fault& fault_;
+    const TriMesh &part_, &mesh_;
+    const Eigen::VectorXd& size_;
+    double tolerance_;
+};
+
+/// @param distance  as measured for the mesh
+Fault fault_of(const TriMesh& mesh, const TwoWayDistance& distance, const TriMesh& part, const Eigen::VectorXd& size,
+               double tolerance)
 {
     Fault fault;
-    const SurfaceType before = surface_type(part), after = surface_type(result.mesh);
-    if (before.loops != after.loops || before.genus != after.genus) {
-        fault.text = fmt::format("the remeshed part has {} boundary loops and genus {} in place of {} and {}",
-                                 after.loops, after.genus, before.loops, before.genus);
-        fault.shorter = size / 2;
-        return fault;
-    }
-    const ClosestPointSearch back(result.mesh);
-    constexpr double precision = 0.1; // of the tolerance
-    const MeshDistance to_part =
-        farthest(result.mesh, part, search, precision * result.tolerance, progress.part(0, 0.5));
-    const MeshDistance from_part =
-        farthest(part, result.mesh, back, precision * result.tolerance, progress.part(0.5, 1));
-    result.distance = std::max(to_part.bound, from_part.bound);
-    result.seen = std::max(to_part.seen, from_part.seen);
-    const Eigen::Matrix3Xd normal = area_vectors(part), new_normal = area_vectors(result.mesh);
-    Eigen::VectorXd shorter = size;
-    const auto shorten_at = [&](int face,
-                                double distance) { // what cuts off a ridge does so in proportion to its length
-        const double share = std::clamp(0.6 * result.tolerance / distance, 0.3, 0.75);
-        for (const int v : part.triangle.col(face))
-            shorter[v] = std::min(shorter[v], share * size[v]);
-    };
-    const std::vector<char> folded = folded_faces(part, normal);
-    int turned = -1;
-    for (int f = 0; f < result.mesh.triangles(); ++f) {
-        const int near = result.nearest_face[size_t(f)];
-        const bool over = !folded[size_t(near)] && !is_thin(part, near, no_height * result.tolerance) &&
-                          new_normal.col(f).dot(normal.col(near)) < 0;
-        if (over && turned < 0)
-            turned = f;
-        if (over || to_part.of_face[f] > result.tolerance)
-            shorten_at(near, to_part.of_face[f]);
-    }
+    const MeshDistance &to_part = distance.to_part(), &from_part = distance.from_part();
+    Shortening shorten(fault, part, mesh, size, tolerance);
+    const std::vector<int> over = turned_over(mesh, to_part.nearest, part, tolerance);
+    for (const int f : over)
+        shorten.at(f, to_part.nearest[size_t(f)], to_part.of_face[f]);
+    for (int f = 0; f < mesh.triangles(); ++f)
+        if (to_part.of_face[f] > tolerance)
+            shorten.at(f, to_part.nearest[size_t(f)], to_part.of_face[f]);
     for (int f = 0; f < part.triangles(); ++f)
-        if (from_part.of_face[f] > result.tolerance)
-            shorten_at(f, from_part.of_face[f]);
-    if (result.distance > result.tolerance)
+        if (from_part.of_face[f] > tolerance)
+            shorten.at(distance.on_mesh().nearest(from_part.place.col(f)).face, f, from_part.of_face[f]);
+    if (distance.bound() > tolerance)
         fault.text = fmt::format(
             "the remeshed part is {:.3g} mm from the given one at {}, beyond the tolerance of {:.3g} mm",
-            result.distance, place_in_words(to_part.seen > from_part.seen ? to_part.where : from_part.where),
-            result.tolerance);
-    else if (turned >= 0)
+            distance.bound(), place_in_words(to_part.seen > from_part.seen ? to_part.where : from_part.where),
+            tolerance);
+    else if (!over.empty())
         fault.text = fmt::format(
             "a face of the remeshed part is turned over at {}",
-            place_in_words(result.mesh.position(Eigen::all, result.mesh.triangle.col(turned)).rowwise().mean()));
-    fault.shorter = std::move(shorter);
+            place_in_words(mesh.position(Eigen::all, mesh.triangle.col(over.front())).rowwise().mean()));
     return fault;
+}
+
+/// A mesh of another kind than the part is not measured.
+Fault fault_of_type(const SurfaceType& before, const SurfaceType& after, const Eigen::VectorXd& size)
+{
+    if (before.loops == after.loops && before.genus == after.genus)
+        return {};
+    return {fmt::format("the remeshed part has {} boundary loops and genus {} in place of {} and {}", after.loops,
+                        after.genus, before.loops, before.genus),
+            size / 2,
+            {}};
+}
+
+/// What stays the same for every attempt.
+struct Given {
+    const TriMesh &part, &even; ///< even: without thin faces, with the vertices of the part
+    const KeptLines& lines;
+    const ClosestPointSearch &on_part, &on_even;
+};
+
+/// Remeshes with these sizes. Where the mesh is not good it is made finer there until it is, a few times.
+/// @param limits  that the sizes are of
+/// @returns what is wrong with it in the end
+Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& size, const SizeLimits& limits,
+              const IncrementalOptions& options, const Progress& progress)
+{
+    constexpr int most_repairs = 8;         // two or three are usual
+    constexpr double most_at_fault = 0.1;   // of the vertices; where most are the sizes are wrong
+    constexpr double all_rounds = 0.7, share_of_making = 0.7;
+    const SurfaceType type = surface_type(given.part);
+    IncrementalRemesh remesh(given.even, given.lines, size, given.on_even, options, progress.part(0, 0));
+    TwoWayDistance distance(given.part, given.on_part, result.tolerance);
+    double least = limits.least;
+    remesh.run(progress.part(0, share_of_making * all_rounds));
+    for (int repair = 0;; ++repair) {
+        const auto from = [&](double within) {
+            return repair == 0 ? within * all_rounds : all_rounds + (1 - all_rounds) * (repair - 1 + within) / most_repairs;
+        };
+        IncrementalRemesh::Told told = remesh.told();
+        result.mesh = std::move(told.mesh);
+        if (Fault other = fault_of_type(type, surface_type(result.mesh), size); !other.text.empty())
+            return other;
+        distance.measure(result.mesh, told.was, progress.part(from(share_of_making), from(1)));
+        result.distance = distance.bound();
+        result.seen = distance.seen();
+        Fault fault = fault_of(result.mesh, distance, given.part, size, result.tolerance);
+        if (fault.text.empty())
+            lead_back(result, given.part, given.on_part, distance.to_part().nearest);
+        const bool local = (fault.share.array() < 1).count() < most_at_fault * double(result.mesh.vertices());
+        if (fault.text.empty() || repair == most_repairs || !local)
+            return fault;
+        least /= 2;
+        const double next = all_rounds + (1 - all_rounds) * repair / most_repairs;
+        remesh.refine(fault.share, least, limits.growth,
+                      progress.part(next, next + share_of_making * (1 - all_rounds) / most_repairs));
+    }
 }
 
 /// Of the mesh that these sizes ask for.
@@ -218,6 +289,7 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
     result.lines = int(lines.line.size());
     result.corners = int(std::count(lines.corner.begin(), lines.corner.end(), 1));
     const ClosestPointSearch search(part), on_even(even);
+    const Given given{part, even, lines, search, on_even};
     constexpr double planned = 0.6, allowed = 0.75; // of the tolerance, for chords
     SizeLimits limits{result.size, result.size / 10, planned * result.tolerance};
     Fault fault;
@@ -228,9 +300,9 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
                                      "remeshing",
                                      fault.text, what, result.size));
     };
-    for (int attempt = 0;; ++attempt) {
+    for (int done = 0;; ++done) {
         constexpr double left = 0.2; // of the way after an attempt: mostly the first one is good
-        const Progress here = progress.part(1 - std::pow(left, attempt), 1 - std::pow(left, attempt + 1));
+        const Progress here = progress.part(1 - std::pow(left, done), 1 - std::pow(left, done + 1));
         const Eigen::VectorXd size = edge_sizes(even, lines, limits, fault.shorter);
         if (const double count = expected_triangles(even, size); count > most_triangles) {
             if (!fault.text.empty())
@@ -243,15 +315,12 @@ RemeshResult remesh(const TriMesh& part, const RemeshOptions& options, std::span
         constexpr double most_growth = 20; // then shorter edges do not help
         // 1.5 for a triangle that is to be; the needles of CAD faces take up to 15 times as many on the way.
         const double most_edges = std::max(2e6, 25 * 1.5 * expected_triangles(even, size));
-        if (attempt == 0)
+        if (done == 0)
             most_triangles = std::min(most_triangles, most_growth * expected_triangles(even, size));
-        result.mesh = remesh_incrementally(even, lines, size, on_even, {allowed * result.tolerance, most_edges},
-                                           here.part(0, 0.8));
-        lead_back(result, part, search);
-        fault = fault_of(result, part, search, size, here.part(0.8, 1));
+        fault = attempt(result, given, size, limits, {allowed * result.tolerance, most_edges}, here);
         if (fault.text.empty())
             break;
-        if (attempt + 1 == most_attempts)
+        if (done + 1 == most_attempts)
             refuse("a smaller size");
         limits.least /= 2;
     }
