@@ -9,10 +9,13 @@
 #include <set>
 #include <utility>
 
+#include "engine/exchange/tell_holes.h"
 #include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/round_border.h"
 #include "engine/mesh/sheet_or_hollow.h"
+#include "engine/mesh/sunk_holes.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/without_marks.h"
 
 namespace spia {
 namespace {
@@ -201,6 +204,15 @@ Finding finding_of(const std::vector<SheetMark>& marks, double thickness, const 
     return finding;
 }
 
+/// Per triangle of the solid.
+std::vector<StatedSurface> surfaces_of(const PartFile& part)
+{
+    std::vector<StatedSurface> surface;
+    for (int f = 0; f < part.mesh.triangles(); ++f)
+        surface.push_back(surface_of(part, f));
+    return surface;
+}
+
 /// Measures the solid; its shallow marks are taken out of the part before.
 /// @param marked, found, outlines  set to the part as it was, what was done to it, and of the marks, if it had any
 /// @throws NotASheet
@@ -210,7 +222,8 @@ ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::o
     ThinSolid sheet = thin_solid(part.mesh, faces_of(part, normals), progress);
     if (sheet.marks.empty())
         return sheet;
-    PlainSolid plain = without_marks(part.mesh, sheet);
+    const bool stated = part.cad && !part.cad->surface.empty();
+    PlainSolid plain = without_marks(part.mesh, sheet, stated ? surfaces_of(part) : std::vector<StatedSurface>());
     outlines = mark_outlines(part.mesh, sheet, plain);
     found = finding_of(sheet.marks, sheet.thickness, part, sheet.side);
     std::vector<int> vertex, face;
@@ -253,15 +266,6 @@ bool decide(PartFile& part, const ThinSolid& sheet)
         doubt(part, either + ". It is taken as a hollow body; for a solid choose the skin that stands for it (--skin "
                              "middle)");
     return closed != ClosedSurface::perhaps_hollow;
-}
-
-/// Per triangle of the solid.
-std::vector<StatedSurface> surfaces_of(const PartFile& part)
-{
-    std::vector<StatedSurface> surface;
-    for (int f = 0; f < part.mesh.triangles(); ++f)
-        surface.push_back(surface_of(part, f));
-    return surface;
 }
 
 /// Vertices of a middle surface that lie on one CAD cylinder, exactly onto the middle one. Along faces across the thickness that are slanted
@@ -395,7 +399,10 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
         if (part.cad && !part.cad->surface.empty())
             sheet.thickness = stated_thickness(part.mesh, sheet, surfaces_of(part));
         Skin wanted = options.skin.value_or(Skin::middle);
-        const SkinMesh skin = wanted_skin(part, sheet, wanted, options.skin.has_value(), units);
+        SkinMesh skin = wanted_skin(part, sheet, wanted, options.skin.has_value(), units);
+        const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
+        if (wanted == Skin::middle)
+            narrow_holes(skin, holes);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
         part.solid = {wanted,
                       sheet.thickness,
@@ -412,11 +419,17 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
                       open};
         for (const MarkOutline& outline : outlines)
             part.solid->marks.push_back(on_surface(outline, wanted, sheet.thickness));
+        for (const SunkHole& hole : holes)
+            part.solid->marks.push_back(circle_of(hole, wanted, sheet.thickness));
+        std::optional<Finding> sunk;
+        if (!holes.empty())
+            sunk = finding_of(holes, wanted, part.source_face);
         part.thickness_mm = sheet.thickness;
         replace_mesh(part, skin);
         note_skin(part);
-        if (marks)
-            part.doctor.findings.push_back(std::move(*marks));
+        for (std::optional<Finding>* each : {&marks, &sunk})
+            if (*each)
+                part.doctor.findings.push_back(std::move(**each));
     } catch (const NotASheet& reason) {
         if (marked)
             put_back(part, *marked);

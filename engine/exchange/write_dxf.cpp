@@ -274,10 +274,15 @@ void draw_bend(Entities& draw, const DrawnBend& bend, double size, const DxfOpti
             draw.polyline("BEND_ZONE", through(line), false);
 }
 
-void draw_mark(Entities& draw, const Eigen::Matrix2Xd& mark)
+/// A row of points, a circle where they lie on one: sunk holes are drilled there.
+void draw_mark(Entities& draw, const Eigen::Matrix2Xd& mark, const DxfOptions& options)
 {
     const bool closed = mark.cols() > 3 && mark.col(0) == mark.rightCols<1>();
-    draw.polyline("MARKS", through(closed ? mark.leftCols(mark.cols() - 1) : mark), closed);
+    const Eigen::Matrix2Xd points = closed ? mark.leftCols(mark.cols() - 1) : mark;
+    if (closed && options.curves != DxfCurves::polylines)
+        if (const OutlineCurves curves = find_curves(points, options.tolerance, options.tolerance, {}); curves.circle)
+            return draw.circle("MARKS", curves.centre, curves.radius);
+    draw.polyline("MARKS", through(points), closed);
 }
 
 void require_drawn(std::span<const Eigen::Matrix2Xd> lines, const std::string& what)
@@ -362,7 +367,7 @@ void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, c
     for (const DrawnBend& bend : drawing.bends)
         draw_bend(draw, bend, size, options);
     for (const Eigen::Matrix2Xd& mark : drawing.marks)
-        draw_mark(draw, mark);
+        draw_mark(draw, mark, options);
     DxfText dxf(options.version);
     head(dxf, drawing, options);
     begin_dxf(dxf, {low / mm, high / mm, options.unit, layers_of(drawing), draw.next_handle()});

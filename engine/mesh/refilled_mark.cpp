@@ -5,17 +5,18 @@
 #include <array>
 #include <map>
 
+#include "engine/mesh/refilled_bend.h"
 #include "engine/mesh/split_polygon.h"
 
 namespace spia {
 namespace {
 
 /// The triangle that has the edge from a to b; -1: none.
-int face_of_edge(const TriMesh& mesh, const std::vector<std::vector<int>>& around, int a, int b)
+int face_of_edge(const MarkedSkin& marked, int a, int b)
 {
-    for (const int f : around[size_t(a)])
+    for (const int f : marked.around[size_t(a)])
         for (int k = 0; k < 3; ++k)
-            if (mesh.triangle(k, f) == a && mesh.triangle((k + 1) % 3, f) == b)
+            if (marked.solid.triangle(k, f) == a && marked.solid.triangle((k + 1) % 3, f) == b)
                 return f;
     return -1;
 }
@@ -42,50 +43,59 @@ Eigen::Vector3d newell(const TriMesh& mesh, const std::vector<int>& loop)
     return sum;
 }
 
-} // namespace
-
-std::optional<RefilledMark> refilled_mark(const TriMesh& solid, const Eigen::Matrix3Xd& normal,
-                                          const std::vector<int>& faces, const std::vector<char>& mark,
-                                          const std::vector<char>& skin, const std::vector<std::vector<int>>& around,
-                                          double flat)
+/// @param beside  triangles of the skin along the loop
+bool is_plane(const MarkedSkin& marked, const std::vector<int>& loop, const std::vector<int>& beside)
 {
     constexpr double parallel = 0.9999; // 0.8 degrees: the skin beside it, on average
-    std::map<int, int> next;
+    const Eigen::Vector3d up = newell(marked.solid, loop).normalized();
+    const Eigen::Vector3d middle = marked.solid.position(Eigen::all, loop).rowwise().mean();
+    const auto off = [&](int v) { return std::abs(up.dot(marked.solid.position.col(v) - middle)); };
+    if (!std::all_of(loop.begin(), loop.end(), [&](int v) { return off(v) <= marked.flat; }))
+        return false;
+    double along = 0, whole = 0;
+    for (const int g : beside) {
+        along += up.dot(marked.normal.col(g));
+        whole += marked.normal.col(g).norm();
+    }
+    return std::abs(along) >= parallel * whole;
+}
+
+RefilledMark in_plane(const MarkedSkin& marked, const std::vector<int>& loop, const std::vector<int>& beside)
+{
+    std::vector<Eigen::Vector3d> corners;
+    for (const int v : loop)
+        corners.push_back(marked.solid.position.col(v));
     RefilledMark result;
+    for (const std::array<int, 3>& t : split_polygon(corners))
+        result.triangle.push_back({loop[size_t(t[0])], loop[size_t(t[1])], loop[size_t(t[2])]});
+    result.beside.assign(result.triangle.size(), *std::min_element(beside.begin(), beside.end()));
+    return result;
+}
+
+} // namespace
+
+std::optional<RefilledMark> refilled_mark(const MarkedSkin& marked, const std::vector<int>& faces)
+{
+    std::map<int, int> next;
     std::vector<int> beside;
     for (const int f : faces)
         for (int k = 0; k < 3; ++k) {
-            const int a = solid.triangle(k, f), b = solid.triangle((k + 1) % 3, f);
-            const int g = face_of_edge(solid, around, b, a);
-            if (g >= 0 && mark[size_t(g)])
+            const int a = marked.solid.triangle(k, f), b = marked.solid.triangle((k + 1) % 3, f);
+            const int g = face_of_edge(marked, b, a);
+            if (g >= 0 && marked.mark[size_t(g)])
                 continue;
-            if (g < 0 || !skin[size_t(g)] || !next.emplace(a, b).second)
+            if (g < 0 || !marked.skin[size_t(g)] || !next.emplace(a, b).second)
                 return std::nullopt;
             beside.push_back(g);
         }
     const std::vector<int> loop = one_loop(next);
     if (loop.size() < 3)
         return std::nullopt;
-    const Eigen::Vector3d up = newell(solid, loop).normalized();
-    const Eigen::Vector3d middle = solid.position(Eigen::all, loop).rowwise().mean();
-    const auto off = [&](int v) { return std::abs(up.dot(solid.position.col(v) - middle)); };
-    if (!std::all_of(loop.begin(), loop.end(), [&](int v) { return off(v) <= flat; }))
-        return std::nullopt;
-    double along = 0, whole = 0;
-    for (const int g : beside) {
-        along += up.dot(normal.col(g));
-        whole += normal.col(g).norm();
-    }
-    if (!(std::abs(along) >= parallel * whole))
-        return std::nullopt;
-    std::vector<Eigen::Vector3d> corners;
-    for (const int v : loop)
-        corners.push_back(solid.position.col(v));
-    for (const std::array<int, 3>& t : split_polygon(corners))
-        result.triangle.push_back({loop[size_t(t[0])], loop[size_t(t[1])], loop[size_t(t[2])]});
-    if (result.triangle.size() + 2 != loop.size())
-        return std::nullopt;
-    result.beside = *std::min_element(beside.begin(), beside.end());
+    std::optional<RefilledMark> result =
+        is_plane(marked, loop, beside) ? in_plane(marked, loop, beside) : refilled_bend(marked, loop, beside);
+    if (!result || result->triangle.size() + 2 != loop.size() + 2 * result->added.size())
+        return std::nullopt; // its polygon crosses itself
+    result->vertex = loop.front();
     return result;
 }
 

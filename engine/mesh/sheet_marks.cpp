@@ -64,6 +64,47 @@ std::vector<char> candidates(const SurfacePieces& pieces, const std::vector<Piec
     return result;
 }
 
+/// Takes floors of marks from the main part of their skin that hang together with it smoothly where they run out, into a bend say: they are off
+/// its level elsewhere, and meet walls that do not reach the other skin.
+void take_out_floors(const TriMesh& mesh, const Eigen::Matrix3Xd& normal, const SurfacePieces& pieces,
+                     const std::vector<PieceSide>& side, double thickness, std::vector<char>& main)
+{
+    const std::vector<char> free = candidates(pieces, side, main);
+    std::vector<char> perhaps(size_t(pieces.count()), 0);
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            perhaps[size_t(p)] |= main[size_t(p)] && free[size_t(q)] && c.concave + c.convex > 0;
+    const std::vector<char> skins = main;
+    for (const PieceSide skin : {PieceSide::one, PieceSide::other}) {
+        const auto of_skin = [&](int p) { return side[size_t(p)] == skin && skins[size_t(p)]; };
+        bool any = false;
+        double whole = 0;
+        for (int p = 0; p < pieces.count(); ++p) {
+            any |= of_skin(p) && perhaps[size_t(p)];
+            whole += of_skin(p) ? pieces.area[size_t(p)] : 0;
+        }
+        if (!any || !has_triangles(pieces, skins, side, other_of(skin)))
+            continue;
+        const auto piece = [&](int f) { return pieces.piece[size_t(f)]; };
+        SheetHeights height(
+            mesh, [&](int f) { return skins[size_t(piece(f))] && side[size_t(piece(f))] == other_of(skin); },
+            2 * thickness);
+        std::vector<double> most(size_t(pieces.count()), 0), sum(size_t(pieces.count()), 0);
+        for (int f = 0; f < mesh.triangles(); ++f)
+            for (int k = 0; k < 3 && of_skin(piece(f)) && perhaps[size_t(piece(f))]; ++k) {
+                const double above = height(mesh.triangle(k, f)) - thickness;
+                most[size_t(piece(f))] = std::max(most[size_t(piece(f))], std::abs(above));
+                sum[size_t(piece(f))] += above * normal.col(f).norm() / 3;
+            }
+        constexpr double off = 4 * chords_off_bends, half = 0.5; // of the thickness on average; of the skin's area
+        for (int p = 0; p < pieces.count(); ++p)
+            if (of_skin(p) && perhaps[size_t(p)] && pieces.area[size_t(p)] < half * whole &&
+                most[size_t(p)] <= (deepest_mark + chords_off_bends) * thickness &&
+                std::abs(sum[size_t(p)]) > off * thickness * pieces.area[size_t(p)])
+                main[size_t(p)] = 0;
+    }
+}
+
 /// A skin at its vertices, by the triangles of it around them.
 struct SkinAt {
     Eigen::Matrix3Xd normal; ///< sum of their area vectors; zero: not on the skin
@@ -216,7 +257,8 @@ std::vector<SheetMark> find_marks(const TriMesh& mesh, const Eigen::Matrix3Xd& n
                                   std::vector<PieceSide>& side, double thickness)
 {
     std::vector<SheetMark> marks;
-    const std::vector<char> main = main_parts(pieces, side);
+    std::vector<char> main = main_parts(pieces, side);
+    take_out_floors(mesh, normal, pieces, side, thickness, main);
     for (const PieceSide skin : {PieceSide::one, PieceSide::other})
         find_marks_on(skin, mesh, normal, pieces, main, side, thickness, marks);
     return marks;

@@ -69,6 +69,7 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
             share[p] += at.area / pieces.area[p];
         }
     // Low walls around raised marks lie opposite to each other, too; strips of bends go on smoothly at their sides.
+    // Of a wall along a curve each chord may be a piece, not longer than it is high: its sharp edges alone tell its height.
     constexpr double low = 0.25; // of the thickness, for twice the area over the outline: the height of a wall
     std::vector<double> around(size_t(pieces.count()), 0), smooth(size_t(pieces.count()), 0);
     for (const PieceContact& c : pieces.contact)
@@ -76,9 +77,12 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
             around[size_t(p)] += c.length();
             smooth[size_t(p)] += c.smooth;
         }
-    for (size_t p = 0; p < share.size(); ++p)
-        if (smooth[p] < around[p] / 2 && 2 * pieces.area[p] < low * thickness * around[p])
+    for (size_t p = 0; p < share.size(); ++p) {
+        const bool wall = smooth[p] < around[p] / 2 && 2 * pieces.area[p] < low * thickness * around[p],
+                   chord = 2 * pieces.area[p] < low * thickness * (around[p] - smooth[p]);
+        if (wall || chord)
             share[p] = 0;
+    }
     return share;
 }
 

@@ -181,7 +181,15 @@ void require_connected(Solid& solid, double thickness, double area)
             if (solid.sides.side[size_t(p)] == side && together.root(p) != largest)
                 solid.sides.side[size_t(p)] = PieceSide::rim;
     }
-    // Of the faces across the thickness those that one side alone has are a step, a pocket or a boss.
+    // Of the faces across the thickness those that one side alone has are a step, a pocket or a boss: with its floor, which was taken from
+    // its side above.
+    together = DisjointSets(size_t(pieces.count()));
+    for (const PieceContact& c : pieces.contact)
+        if (solid.sides.side[size_t(c.a)] == solid.sides.side[size_t(c.b)])
+            together.join(c.a, c.b);
+    size.assign(size.size(), 0);
+    for (int p = 0; p < pieces.count(); ++p)
+        size[size_t(together.root(p))] += pieces.area[size_t(p)];
     std::vector<char> touches(size_t(pieces.count()), 0);
     for (const PieceContact& c : pieces.contact)
         for (const auto& [rim, skin] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})

@@ -1,9 +1,12 @@
+#include "engine/mesh/without_marks.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "engine/mesh/closest_point.h"
@@ -22,8 +25,8 @@ namespace {
 /// Takes the marks out of a solid.
 class Flattening {
 public:
-    Flattening(const TriMesh& solid, const ThinSolid& sheet)
-        : solid_(solid), sheet_(sheet), normal_(sheet.flipped * area_vectors(solid)),
+    Flattening(const TriMesh& solid, const ThinSolid& sheet, const std::vector<StatedSurface>& surface)
+        : solid_(solid), sheet_(sheet), surface_(surface), normal_(sheet.flipped * area_vectors(solid)),
           mark_(size_t(solid.triangles()), -1), wall_(size_t(solid.triangles()), 0), floors_(size_t(solid.triangles())),
           around_(size_t(solid.vertices())), level_(size_t(solid.vertices()), 0),
           refilled_(size_t(solid.triangles()), 0), position_(solid.position)
@@ -54,19 +57,21 @@ public:
 private:
     const TriMesh& solid_;
     const ThinSolid& sheet_;
-    Eigen::Matrix3Xd normal_; ///< area vectors, outwards
-    std::vector<int> mark_;   ///< per triangle, -1: none
-    std::vector<char> wall_;  ///< per triangle
-    DisjointSets floors_;     ///< triangles of floors that hang together
+    const std::vector<StatedSurface>& surface_; ///< per triangle; empty: nothing is stated
+    Eigen::Matrix3Xd normal_;                   ///< area vectors, outwards
+    std::vector<int> mark_;                     ///< per triangle, -1: none
+    std::vector<char> wall_;                    ///< per triangle
+    DisjointSets floors_;                       ///< triangles of floors that hang together
     std::vector<std::vector<int>> around_;
-    std::vector<char> level_;    ///< per vertex: on the skin already
-    std::vector<int> target_;    ///< per vertex the one that it becomes
-    std::vector<char> refilled_; ///< per triangle: of a mark that was cut out
-    std::multimap<int, std::vector<Triangle>>
-        fill_; ///< what closes the skin there, by a triangle of the skin beside it
+    std::vector<char> level_;            ///< per vertex: on the skin already
+    std::vector<int> target_;            ///< per vertex the one that it becomes
+    std::vector<char> refilled_;         ///< per triangle: of a mark that was cut out
+    std::multimap<int, Triangle> fill_;  ///< what closes the skin there, by a triangle of the skin beside it
+    std::vector<Eigen::Vector3d> added_; ///< vertices of that, numbered from #V on
+    std::vector<int> added_at_;          ///< vertices of the solid by which they are called
     Eigen::Matrix3Xd position_;
 
-    /// Marks on plane skin are cut out, and the skin is closed over them; on bends, and at the rim, their floors are put back.
+    /// Marks on plane skin and on bends are cut out, and the skin is closed over them; at the rim, and on other skin, their floors are put back.
     void refill()
     {
         constexpr double flat = 1e-3; // of the thickness
@@ -82,17 +87,31 @@ private:
             std::sort(faces.begin(), faces.end());
             for (const int f : faces)
                 of_mark[size_t(f)] = 1;
-            std::optional<RefilledMark> fill =
-                refilled_mark(solid_, normal_, faces, of_mark, skin.at(sheet_.side[size_t(mark.face)]), around_,
-                              flat * sheet_.thickness);
+            const std::optional<RefilledMark> fill =
+                refilled_mark({solid_, normal_, around_, skin.at(sheet_.side[size_t(mark.face)]), of_mark, surface_,
+                               flat * sheet_.thickness},
+                              faces);
             for (const int f : faces)
                 of_mark[size_t(f)] = 0;
             if (!fill)
                 continue;
             for (const int f : faces)
                 refilled_[size_t(f)] = 1;
-            fill_.emplace(fill->beside, std::move(fill->triangle));
+            take(*fill);
         }
+    }
+
+    void take(const RefilledMark& fill)
+    {
+        const int first = solid_.vertices() + int(added_.size()), before = solid_.vertices();
+        for (size_t i = 0; i < fill.triangle.size(); ++i) {
+            Triangle t = fill.triangle[i];
+            for (int& v : t)
+                v += v < before ? 0 : first - before;
+            fill_.emplace(fill.beside[i], t);
+        }
+        added_.insert(added_.end(), fill.added.begin(), fill.added.end());
+        added_at_.resize(added_.size(), fill.vertex);
     }
 
     bool is_floor(int f) const { return mark_[size_t(f)] >= 0 && !wall_[size_t(f)]; }
@@ -264,8 +283,8 @@ private:
         for (int f = 0; f < solid_.triangles(); ++f) {
             const auto [first, last] = fill_.equal_range(f);
             for (auto fill = first; fill != last; ++fill) {
-                triangles.insert(triangles.end(), fill->second.begin(), fill->second.end());
-                source.insert(source.end(), fill->second.size(), f);
+                triangles.push_back(fill->second);
+                source.push_back(f);
             }
             if (refilled_[size_t(f)])
                 continue;
@@ -279,6 +298,7 @@ private:
         std::vector<Eigen::Vector3d> position;
         for (int v = 0; v < solid_.vertices(); ++v)
             position.push_back(position_.col(v));
+        position.insert(position.end(), added_.begin(), added_.end());
         require_surface(triangles, source);
         const FlatRepair repair = repair_flat_triangles(triangles, position);
         PlainSolid result;
@@ -290,12 +310,18 @@ private:
                 for (const int v : triangles[f])
                     number[size_t(v)] = 0;
             }
-        for (size_t v = 0; v < number.size(); ++v)
-            if (number[v] == 0) {
-                number[v] = int(result.source_vertex.size());
-                result.source_vertex.push_back(int(v));
-            }
-        result.mesh.position = position_(Eigen::all, result.source_vertex);
+        // New vertices come after those that they are called by.
+        const auto called = [&](int v) { return v < solid_.vertices() ? v : added_at_[size_t(v - solid_.vertices())]; };
+        std::vector<int> order(number.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::erase_if(order, [&](int v) { return number[size_t(v)] < 0; });
+        std::stable_sort(order.begin(), order.end(), [&](int u, int v) { return called(u) < called(v); });
+        result.mesh.position.resize(3, Eigen::Index(order.size()));
+        for (size_t i = 0; i < order.size(); ++i) {
+            number[size_t(order[i])] = int(i);
+            result.source_vertex.push_back(called(order[i]));
+            result.mesh.position.col(Eigen::Index(i)) = position[size_t(order[i])];
+        }
         result.mesh.triangle.resize(3, Eigen::Index(kept.size()));
         for (size_t f = 0; f < kept.size(); ++f)
             for (int k = 0; k < 3; ++k)
@@ -344,6 +370,11 @@ private:
 
 } // namespace
 
-PlainSolid without_marks(const TriMesh& solid, const ThinSolid& sheet) { return Flattening(solid, sheet).plain(); }
+PlainSolid without_marks(const TriMesh& solid, const ThinSolid& sheet) { return without_marks(solid, sheet, {}); }
+
+PlainSolid without_marks(const TriMesh& solid, const ThinSolid& sheet, const std::vector<StatedSurface>& surface)
+{
+    return Flattening(solid, sheet, surface).plain();
+}
 
 } // namespace spia

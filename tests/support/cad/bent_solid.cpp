@@ -1,16 +1,22 @@
 #include "tests/support/cad/bent_solid.h"
 
+#include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
 #include <Eigen/Core>
 #include <GC_MakeArcOfCircle.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StlAPI_Writer.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
@@ -118,6 +124,23 @@ TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const Cutout
         .Shape();
 }
 
+TopoDS_Shape sunk(TopoDS_Shape shape, const BentSolid& solid, const Profile& profile, const Sink& sink)
+{
+    const Profile::Piece& leg = profile.pieces()[2 * size_t(sink.leg)];
+    const double s = leg.from + sink.centre.x(), h = heading(leg, s), t = solid.thickness, side = sink.left ? 1 : -1;
+    const gp_Vec in = gp_Vec(std::sin(h), 0, -std::cos(h)) * side;
+    const gp_Pnt at = beside(profile, leg, s, side * t / 2).Translated(gp_Vec(0, sink.centre.y(), 0)),
+                 before = at.Translated(in * -t);
+    shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.hole, 3 * t).Shape());
+    if (sink.counterbore)
+        return BRepAlgoAPI_Cut(shape,
+                               BRepPrimAPI_MakeCylinder(gp_Ax2(before, gp_Dir(in)), sink.wide, t + sink.depth).Shape());
+    const double slope = (sink.wide - sink.hole) / sink.depth; // the cone begins outside
+    return BRepAlgoAPI_Cut(
+        shape,
+        BRepPrimAPI_MakeCone(gp_Ax2(before, gp_Dir(in)), sink.wide + slope * t, sink.hole, t + sink.depth).Shape());
+}
+
 gp_Trsf pose(std::uint64_t lot)
 {
     Lots lots(lot);
@@ -130,34 +153,66 @@ gp_Trsf pose(std::uint64_t lot)
     return move * turn;
 }
 
-TopoDS_Shape made(const BentSolid& solid)
+/// What lies between two distances to the left of the middle line.
+TopoDS_Shape layer(const BentSolid& solid, const Profile& profile, double left, double right)
 {
-    const Profile profile = middle_of(solid);
     BRepBuilderAPI_MakeWire wire;
-    const double half = solid.thickness / 2;
-    const auto add = [&](const Profile::Piece& piece, double left, bool back) {
-        const gp_Pnt from = beside(profile, piece, back ? piece.to : piece.from, left),
-                     to = beside(profile, piece, back ? piece.from : piece.to, left);
+    const auto add = [&](const Profile::Piece& piece, double at, bool back) {
+        const gp_Pnt from = beside(profile, piece, back ? piece.to : piece.from, at),
+                     to = beside(profile, piece, back ? piece.from : piece.to, at);
         if (piece.curvature == 0)
             wire.Add(BRepBuilderAPI_MakeEdge(from, to).Edge());
         else {
-            const gp_Pnt middle = beside(profile, piece, (piece.from + piece.to) / 2, left);
+            const gp_Pnt middle = beside(profile, piece, (piece.from + piece.to) / 2, at);
             wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(from, middle, to).Value()).Edge());
         }
     };
     const auto& pieces = profile.pieces();
     for (const auto& piece : pieces)
-        add(piece, half, false);
-    wire.Add(BRepBuilderAPI_MakeEdge(beside(profile, pieces.back(), pieces.back().to, half),
-                                     beside(profile, pieces.back(), pieces.back().to, -half))
+        add(piece, left, false);
+    wire.Add(BRepBuilderAPI_MakeEdge(beside(profile, pieces.back(), pieces.back().to, left),
+                                     beside(profile, pieces.back(), pieces.back().to, right))
                  .Edge());
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
-        add(*piece, -half, true);
+        add(*piece, right, true);
     wire.Add(
-        BRepBuilderAPI_MakeEdge(beside(profile, pieces.front(), 0, -half), beside(profile, pieces.front(), 0, half))
+        BRepBuilderAPI_MakeEdge(beside(profile, pieces.front(), 0, right), beside(profile, pieces.front(), 0, left))
             .Edge());
-    TopoDS_Shape shape =
-        BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, solid.width, 0)).Shape();
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, solid.width, 0)).Shape();
+}
+
+/// Takes the stamp away from the solid, or puts it on.
+TopoDS_Shape stamped(const TopoDS_Shape& shape, const BentSolid& solid, const Profile& profile, const Stamp& stamp)
+{
+    const Profile::Piece& bend = profile.pieces()[2 * size_t(stamp.bend) + 1];
+    const double s = (bend.from + bend.to) / 2, h = heading(bend, s), t = solid.thickness;
+    const double out = bend.curvature > 0 ? -1 : 1; // to the left
+    const gp_Vec along(std::cos(h), 0, std::sin(h)), across = gp_Vec(-std::sin(h), 0, std::cos(h)) * out;
+    const double reach = profile.length();
+    const gp_Pnt from = beside(profile, bend, s, 0).Translated(across * -reach);
+    const auto wire = [&](const std::vector<Eigen::Vector2d>& loop) {
+        BRepBuilderAPI_MakePolygon polygon;
+        for (const Eigen::Vector2d& p : loop)
+            polygon.Add(from.Translated(along * p.x() + gp_Vec(0, p.y(), 0)));
+        polygon.Close();
+        return polygon.Wire();
+    };
+    const auto prism = [&](const std::vector<Eigen::Vector2d>& loop) {
+        return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire(loop), true).Face(), across * (2 * reach)).Shape();
+    };
+    TopoDS_Shape column = prism(stamp.outline.at(0));
+    for (size_t i = 1; i < stamp.outline.size(); ++i)
+        column = BRepAlgoAPI_Cut(column, prism(stamp.outline[i])).Shape();
+    const double level = t / 2 - stamp.depth, beyond = t / 2 + (stamp.depth > 0 ? 0.3 : -0.3) * t; // no faces on faces
+    const TopoDS_Shape mark = BRepAlgoAPI_Common(column, layer(solid, profile, out * level, out * beyond)).Shape();
+    return stamp.depth > 0 ? BRepAlgoAPI_Cut(shape, mark).Shape() : BRepAlgoAPI_Fuse(shape, mark).Shape();
+}
+
+TopoDS_Shape made(const BentSolid& solid)
+{
+    const Profile profile = middle_of(solid);
+    const auto& pieces = profile.pieces();
+    TopoDS_Shape shape = layer(solid, profile, solid.thickness / 2, -solid.thickness / 2);
     if (solid.hole) {
         const Profile::Piece& bend = pieces[1];
         const double s = (bend.from + bend.to) / 2, h = heading(bend, s);
@@ -174,6 +229,10 @@ TopoDS_Shape made(const BentSolid& solid)
     }
     for (const Cutout& cutout : solid.cutout)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cutout)).Shape();
+    for (const Sink& sink : solid.sink)
+        shape = sunk(shape, solid, profile, sink);
+    for (const Stamp& stamp : solid.stamp)
+        shape = stamped(shape, solid, profile, stamp);
     if (solid.pose)
         shape = BRepBuilderAPI_Transform(shape, pose(solid.pose), true).Shape();
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
@@ -249,6 +308,14 @@ void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid,
     const TopoDS_Shape shape = made(solid);
     if (form == CadForm::brep) {
         if (!BRepTools::Write(shape, file.c_str()))
+            throw std::runtime_error("not written: " + file.string());
+        return;
+    }
+    if (form == CadForm::stl) {
+        const BRepMesh_IncrementalMesh meshed(shape, 0.05, false, 0.2);
+        StlAPI_Writer writer;
+        writer.ASCIIMode() = false;
+        if (!writer.Write(shape, file.c_str()))
             throw std::runtime_error("not written: " + file.string());
         return;
     }

@@ -24,6 +24,25 @@ struct Cutout {
     bool halves = false;                              ///< a circle in two edges
 };
 
+/// A round hole through a leg that is wider at one side: a countersink or a counterbore.
+struct Sink {
+    int leg = 0;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, as of a cutout
+    double hole = 3, wide = 6;                        ///< mm, radii
+    double depth = 1;                                 ///< mm, from that side to where the hole has its radius
+    bool counterbore = false;
+    bool left = true; ///< the side at which it is wider
+};
+
+/// A mark of even depth on the outer side of a bend and of the legs beside it.
+struct Stamp {
+    int bend = 0;
+    /// Loops of corners, mm, the first one around the others, which are islands: from the middle of the bend across it and along y from
+    /// y = 0, seen along the half of its angle.
+    std::vector<std::vector<Eigen::Vector2d>> outline = {};
+    double depth = 0.2; ///< mm; below zero: raised
+};
+
 /// A section of straight legs and bends between them, the same all along y.
 struct BentSolid {
     std::string kind;            ///< bracket, Z, channel, hat, hem, knuckle
@@ -35,7 +54,9 @@ struct BentSolid {
     double hole_radius = 0; ///< mm, of it; 0: somewhat broader than the bend
 
     std::vector<Cutout> cutout = {};
-    std::uint64_t pose = 0; ///< turned and moved by this lot; 0: as said
+    std::vector<Sink> sink = {};
+    std::vector<Stamp> stamp = {}; ///< of brackets, which have one bend
+    std::uint64_t pose = 0;        ///< turned and moved by this lot; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;
@@ -44,7 +65,7 @@ struct BentSolid {
 /// One of a family drawn at random: 1 to 8 bends of 1 to 180 degrees, R/t from 0.1 to 20, no section that touches itself.
 BentSolid random_bent_solid(std::uint64_t seed);
 
-enum class CadForm { step, brep };
+enum class CadForm { step, brep, stl }; ///< stl: chords of 0.2 radians at most, within 0.05 mm
 void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form = CadForm::step);
 
 } // namespace spia::shapes

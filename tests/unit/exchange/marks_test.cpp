@@ -305,6 +305,48 @@ TEST(Marks, JustTooDeepOnesInAMeshAreRefusedAsInASolid)
     }
 }
 
+/// A plate with a pocket in its upper side.
+TriMesh pocketed_plate(double length, double width, double z, double depth)
+{
+    const auto box = [](double x0, double x1, double y0, double y1, double at) {
+        return shapes::Loop{{x0, y0, at}, {x1, y0, at}, {x1, y1, at}, {x0, y1, at}};
+    };
+    const auto reversed = [](shapes::Loop l) {
+        std::reverse(l.begin(), l.end());
+        return l;
+    };
+    const shapes::Loop upper = box(0, length, 0, width, z), lower = box(0, length, 0, width, 0);
+    const shapes::Loop top = box(0.3 * length, 0.5 * length, 0.3 * width, 0.6 * width, z);
+    shapes::Loop floor = top;
+    for (auto& corner : floor)
+        corner[2] -= depth;
+    shapes::PlaneFaces faces;
+    faces.add(upper, {reversed(top)});
+    faces.add(reversed(lower));
+    faces.add(floor);
+    for (size_t i = 0; i < 4; ++i) {
+        const size_t j = (i + 1) % 4;
+        faces.add({lower[i], lower[j], upper[j], upper[i]});
+        faces.add({floor[j], floor[i], top[i], top[j]});
+    }
+    return faces.mesh();
+}
+
+TEST(Marks, APocketInAThickPlateIsNoHollowBody)
+{
+    // So thick that without the pocket it would be asked whether it is a closed box; with it only a plate can be meant.
+    const ScratchFolder folder;
+    shapes::write_mesh(folder / "plate.stl", pocketed_plate(100, 60, 3, 0.5));
+    EXPECT_TRUE(read_part(folder / "plate.stl").solid);
+    for (const double depth : {0.7, 1., 2.}) {
+        shapes::write_mesh(folder / "plate.stl", pocketed_plate(100, 60, 3, depth));
+        const PartFile part = examine_part(folder / "plate.stl");
+        EXPECT_FALSE(part.doctor.healthy()) << "not cut open as a hollow body: " << words_of(part);
+        EXPECT_TRUE(part.seam.empty());
+        EXPECT_NE(words_of(part).find(fmt::format("{:.4g} mm off", depth)), std::string::npos) << words_of(part);
+    }
+}
+
 TEST(Marks, DeeperOnesAreRefusedWithTheirDepth)
 {
     const BentSheet sheet = step_sheet();
