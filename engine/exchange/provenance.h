@@ -3,7 +3,7 @@
 
 namespace spia {
 
-/// Name and version of this program as written into files, e.g. "SPIA 0.1.0".
+/// Name and version of this program as written into files, e.g. "SPIA 0.2.0".
 std::string program_name();
 
 /// The time written into a file's header, in UTC: SOURCE_DATE_EPOCH (seconds since 1970) if the environment has it, so

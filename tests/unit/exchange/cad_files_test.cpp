@@ -166,7 +166,7 @@ TEST_P(CadFile, HeaderNamesTheProgramAndNotTheUser)
     GetParam().write(folder / "door.file", samples::curved_surface(500, false), "left door");
     const std::string file = content_of(folder / "door.file");
     EXPECT_EQ(file.find("jane-doe"), std::string::npos);
-    EXPECT_NE(file.find("SPIA 0.1.0"), std::string::npos);
+    EXPECT_NE(file.find("SPIA 0.2.0"), std::string::npos);
     EXPECT_NE(file.find("left door"), std::string::npos);
     EXPECT_NE(file.find("door.file"), std::string::npos);
     EXPECT_TRUE(file.find("15H20231114.221320,") != std::string::npos ||
