@@ -21,4 +21,4 @@ draw window 1280 720 "$(open inner-panel.obj), $run"
 draw results 1000 560 "$(open square-cup.obj), $run, {\"do\": \"set_display\", \"field\": \"thinning\", \"per_face\": true}"
 draw steps 1100 640 "$(open lipped-channel.obj), {\"do\": \"wait\"}, {\"do\": \"propose_steps\"}, {\"do\": \"wait\"}, {\"do\": \"run_steps\"}, {\"do\": \"wait\"}, {\"do\": \"set_view\", \"maximised\": \"part\"}, {\"do\": \"show_step\", \"position\": 4.5}, {\"do\": \"dismiss_messages\"}, {\"do\": \"fit_view\"}"
 draw grid 1000 560 "$(open fender.obj), $run"
-draw surface 720 480 "$(open fender.obj), $run" ', "view": "surface", "width": 720, "height": 480'
+draw surface 1280 720 "$(open fender.obj), $run, {\"do\": \"set_view\", \"maximised\": \"surface\"}, {\"do\": \"fit_view\"}" ', "view": "surface", "width": 720, "height": 480'
