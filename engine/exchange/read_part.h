@@ -77,6 +77,8 @@ struct SolidOrigin {
     bool open = false;                               ///< faces are missing
     std::vector<Eigen::Matrix3Xd> marks =
         {}; ///< outlines of marks that were passed over, mm, on the surface that was taken; a closed one ends where it begins
+    std::vector<StatedSurface> surface = {}; ///< per face of the file: the cylinder that was measured on it; empty:
+                                             ///< none was, or a CAD file states them
 };
 
 /// What a file holds, and what was done to it.

@@ -11,6 +11,8 @@
 
 #include "engine/exchange/tell_holes.h"
 #include "engine/mesh/mark_outlines.h"
+#include "engine/mesh/measured_cylinders.h"
+#include "engine/mesh/onto_surfaces.h"
 #include "engine/mesh/round_border.h"
 #include "engine/mesh/sheet_or_hollow.h"
 #include "engine/mesh/sunk_holes.h"
@@ -58,24 +60,29 @@ Claim claim_of(const PartFile& part, const ReadOptions& options, bool solid)
     return seems_thin_solid(part.mesh) ? Claim::stated : Claim::none;
 }
 
-/// What a triangle of the solid lies on.
-const StatedSurface& surface_of(const PartFile& part, int triangle)
+/// What the triangles of a solid lie on, each; empty: not known.
+using Surfaces = std::vector<StatedSurface>;
+
+/// As a CAD file states it.
+Surfaces stated_by_cad(const PartFile& part)
 {
-    return part.cad->surface[size_t(part.cad->face[size_t(part.source_face[size_t(triangle)])])];
+    Surfaces surface;
+    if (part.cad && !part.cad->surface.empty())
+        for (const int f : part.source_face)
+            surface.push_back(part.cad->surface[size_t(part.cad->face[size_t(f)])]);
+    return surface;
 }
 
-ThinSolidOptions faces_of(const PartFile& part, const CornerNormals* normals)
+ThinSolidOptions faces_of(const PartFile& part, const CornerNormals* normals, const Surfaces& surface)
 {
     ThinSolidOptions options;
+    options.surface = surface;
     if (part.cad)
         for (const int f : part.source_face)
             options.unit.push_back(part.cad->face[size_t(f)]);
-    const bool stated = part.cad && !part.cad->surface.empty();
-    if (stated || normals) // exactly of planes and cylinders
-        options.normal_at = [&part, normals, stated](int f, const Eigen::Vector3d& place, const Eigen::Vector3d& own) {
-            if (stated && surface_of(part, f).kind != StatedSurface::Kind::other)
-                return normal_at(surface_of(part, f), place, own);
-            return normals ? normals->at(part.source_face[size_t(f)], place, own) : own;
+    if (normals)
+        options.normal_at = [&part, normals](int f, const Eigen::Vector3d& place, const Eigen::Vector3d& own) {
+            return normals->at(part.source_face[size_t(f)], place, own);
         };
     options.face_name = [&part](int f) {
         const int in_file = part.source_face[size_t(f)];
@@ -204,26 +211,16 @@ Finding finding_of(const std::vector<SheetMark>& marks, double thickness, const 
     return finding;
 }
 
-/// Per triangle of the solid.
-std::vector<StatedSurface> surfaces_of(const PartFile& part)
-{
-    std::vector<StatedSurface> surface;
-    for (int f = 0; f < part.mesh.triangles(); ++f)
-        surface.push_back(surface_of(part, f));
-    return surface;
-}
-
 /// Measures the solid; its shallow marks are taken out of the part before.
 /// @param marked, found, outlines  set to the part as it was, what was done to it, and of the marks, if it had any
 /// @throws NotASheet
 ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::optional<AsMarked>& marked,
                             std::optional<Finding>& found, std::vector<MarkOutline>& outlines, const Progress& progress)
 {
-    ThinSolid sheet = thin_solid(part.mesh, faces_of(part, normals), progress);
+    ThinSolid sheet = thin_solid(part.mesh, faces_of(part, normals, stated_by_cad(part)), progress);
     if (sheet.marks.empty())
         return sheet;
-    const bool stated = part.cad && !part.cad->surface.empty();
-    PlainSolid plain = without_marks(part.mesh, sheet, stated ? surfaces_of(part) : std::vector<StatedSurface>());
+    PlainSolid plain = without_marks(part.mesh, sheet, stated_by_cad(part));
     outlines = mark_outlines(part.mesh, sheet, plain);
     found = finding_of(sheet.marks, sheet.thickness, part, sheet.side);
     std::vector<int> vertex, face;
@@ -233,7 +230,7 @@ ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::o
         face.push_back(part.source_face[size_t(f)]);
     marked = {std::exchange(part.mesh, std::move(plain.mesh)), std::exchange(part.source_vertex, std::move(vertex)),
               std::exchange(part.source_face, std::move(face))};
-    return thin_solid(part.mesh, faces_of(part, normals), progress);
+    return thin_solid(part.mesh, faces_of(part, normals, stated_by_cad(part)), progress);
 }
 
 /// Says why it is a hollow body, if it may be another thing.
@@ -268,62 +265,15 @@ bool decide(PartFile& part, const ThinSolid& sheet)
     return closed != ClosedSurface::perhaps_hollow;
 }
 
-/// Vertices of a middle surface that lie on one CAD cylinder, exactly onto the middle one. Along faces across the thickness that are slanted
-/// against the bend, as those of a hole through it, they were moved in the tangent plane.
-void onto_cylinders(const PartFile& part, const ThinSolid& sheet, SkinMesh& middle)
-{
-    const auto vertices = size_t(middle.mesh.vertices());
-    std::vector<const StatedSurface*> on(vertices, nullptr);
-    std::vector<char> alone(vertices, 1), hollow(vertices, 0);
-    const Eigen::Matrix3Xd normal = area_vectors(middle.mesh);
-    for (int f = 0; f < middle.mesh.triangles(); ++f) {
-        const StatedSurface& surface = surface_of(part, middle.source_face[size_t(f)]);
-        for (const int v : middle.mesh.triangle.col(f)) {
-            alone[size_t(v)] &= surface.kind == StatedSurface::Kind::cylinder &&
-                                (!on[size_t(v)] || same_cylinder(*on[size_t(v)], surface));
-            on[size_t(v)] = &surface;
-            const Eigen::Vector3d out =
-                middle.mesh.position.col(v) -
-                (surface.point +
-                 (middle.mesh.position.col(v) - surface.point).dot(surface.direction) * surface.direction);
-            hollow[size_t(v)] = normal.col(f).dot(out) < 0;
-        }
-    }
-    for (size_t v = 0; v < vertices; ++v) {
-        if (!alone[v] || !on[v])
-            continue;
-        const StatedSurface& cylinder = *on[v];
-        const auto across = [&](const Eigen::Vector3d& way) {
-            return Eigen::Vector3d(way - way.dot(cylinder.direction) * cylinder.direction);
-        };
-        const Eigen::Vector3d start = part.mesh.position.col(middle.source_vertex[v]);
-        auto place = middle.mesh.position.col(Eigen::Index(v));
-        const Eigen::Vector3d from = across(start - cylinder.point), way = across(place - start);
-        const double radius = cylinder.radius + (hollow[v] ? 1 : -1) * sheet.thickness / 2;
-        // |from + x way| = radius, the solution that is nearest to the move as it was, x = 1.
-        const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - radius * radius;
-        constexpr double on_it = 1e-4; // of the thickness; a shallow mark in a bend was put back to another radius
-        if (std::abs(from.norm() - cylinder.radius) > on_it * sheet.thickness)
-            continue;
-        if (!(radius > 0) || !(a > 0) || !(b * b > a * c))
-            continue;
-        const double root = std::sqrt(b * b - a * c), x = (-b + root) / a, y = (-b - root) / a;
-        const double nearest = std::abs(x - 1) < std::abs(y - 1) ? x : y;
-        constexpr double most = 1; // farther it is another place of the cylinder
-        if (std::abs(nearest - 1) < most)
-            place = start + nearest * (place - start);
-    }
-}
-
 /// The surface that is wanted. Where none was asked for and there is no middle one the outer skin is better than nothing, and a doubt.
 /// @param wanted  set to the one that is taken
 SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, Skin& wanted, bool asked, const ThinSolidOptions& units)
 {
     try {
         SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
-        if (wanted == Skin::middle && part.cad && !part.cad->surface.empty()) {
-            onto_cylinders(part, sheet, skin);
-            round_border(skin, part.mesh, sheet, surfaces_of(part));
+        if (wanted == Skin::middle && !units.surface.empty()) {
+            onto_surfaces(skin, part.mesh, sheet, units);
+            round_border(skin, part.mesh, sheet, units.surface);
         }
         if (skin.straightened > 0)
             part.notes.push_back(fmt::format(
@@ -351,6 +301,18 @@ void doubt_block(PartFile& part, const ThinSolid& sheet)
         doubt(part, fmt::format("the solid is {:.2g} times as thick as it is wide, which is more like a block than a "
                                 "sheet; it is taken as sheet {:.6g} mm thick",
                                 proportion(sheet), sheet.thickness));
+}
+
+/// Of triangles, per face of the file; empty where none is known.
+Surfaces of_file_faces(const PartFile& part, const Surfaces& surface)
+{
+    Surfaces result;
+    for (size_t f = 0; f < surface.size(); ++f)
+        if (surface[f].kind != StatedSurface::Kind::other) {
+            result.resize(size_t(part.file_faces));
+            result[size_t(part.source_face[f])] = surface[f];
+        }
+    return result;
 }
 
 void note_skin(PartFile& part)
@@ -395,9 +357,13 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
         }
         if (solid && !open && !options.skin)
             doubt_block(part, sheet);
-        const ThinSolidOptions units = faces_of(part, normals);
-        if (part.cad && !part.cad->surface.empty())
-            sheet.thickness = stated_thickness(part.mesh, sheet, surfaces_of(part));
+        Surfaces surface = stated_by_cad(part);
+        const bool measured = surface.empty();
+        if (measured)
+            surface = measured_cylinders(part.mesh, sheet);
+        else
+            sheet.thickness = stated_thickness(part.mesh, sheet, surface);
+        const ThinSolidOptions units = faces_of(part, normals, surface);
         Skin wanted = options.skin.value_or(Skin::middle);
         SkinMesh skin = wanted_skin(part, sheet, wanted, options.skin.has_value(), units);
         const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
@@ -417,6 +383,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
                       faces(part, on(SheetSide::outer)),
                       faces(part, on(SheetSide::inner)),
                       open};
+        if (measured)
+            part.solid->surface = of_file_faces(part, surface);
         for (const MarkOutline& outline : outlines)
             part.solid->marks.push_back(on_surface(outline, wanted, sheet.thickness));
         for (const SunkHole& hole : holes)

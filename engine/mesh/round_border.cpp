@@ -229,28 +229,11 @@ private:
         return mesh.position(Eigen::all, mesh.triangle.col(f));
     }
 
-    /// Twice the area on the cylinder unrolled, seen along its normals: chords of it have all the normals of a bend, and do not tell whether
-    /// a triangle near its rim turns over.
-    static double unrolled(const StatedSurface& s, const Eigen::Matrix3d& corner)
-    {
-        const auto off_axis = [&](int k) {
-            const Eigen::Vector3d from = corner.col(k) - s.point;
-            return Eigen::Vector3d(from - from.dot(s.direction) * s.direction);
-        };
-        const auto at = [&](int k) {
-            const Eigen::Vector3d u = off_axis(0), v = off_axis(k);
-            return Eigen::Vector2d(s.radius * std::atan2(u.cross(v).dot(s.direction), u.dot(v)),
-                                   (corner.col(k) - corner.col(0)).dot(s.direction));
-        };
-        const Eigen::Vector2d a = at(1), b = at(2);
-        return a.x() * b.y() - a.y() * b.x();
-    }
-
     /// Whether corners that take the place of the triangle's look the way it did.
     bool upright(int f, const Eigen::Matrix3d& corner) const
     {
         if (under(f).kind == Kind::cylinder)
-            return unrolled(under(f), corner) * unrolled(under(f), corners(outer_, f)) > 0;
+            return unrolled_area(under(f), corner) * unrolled_area(under(f), corners(outer_, f)) > 0;
         return (corner.col(1) - corner.col(0)).cross(corner.col(2) - corner.col(0)).dot(facing_.col(f)) > 0;
     }
     bool both_upright(int f, const Eigen::Vector3i& t) const

@@ -12,7 +12,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
-#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/flip_folds.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -111,6 +111,8 @@ struct MiddleSurface {
         // Of the surfaces at the vertex itself where they are known: triangles of a bend are its chords.
         const auto normal_of = [&](int f) {
             const Eigen::Vector3d own = normal.col(f);
+            if (!options.surface.empty() && options.surface[size_t(f)].kind != StatedSurface::Kind::other)
+                return normal_at(options.surface[size_t(f)], solid.position.col(v), own);
             return options.normal_at ? options.normal_at(f, solid.position.col(v), own) : own;
         };
         Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -206,132 +208,6 @@ struct MiddleSurface {
     }
 };
 
-/// Of the triangle that is the least upright one, seen along a direction; mm2.
-double least_upright(const Eigen::Matrix3Xd& position, const std::array<std::array<int, 3>, 2>& triangles,
-                     const Eigen::Vector3d& along)
-{
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& [a, b, c] : triangles)
-        least = std::min(least,
-                         (position.col(b) - position.col(a)).cross(position.col(c) - position.col(a)).dot(along) / 2);
-    return least;
-}
-
-/// Two triangles at an edge, which takes the other diagonal of both.
-struct Flip {
-    int one = -1, other = -1;
-    std::array<std::array<int, 3>, 2> after{};
-    double gain = 0; ///< mm2, of the least upright triangle of the middle surface
-};
-
-/// The edges of a mesh at one time, for flips.
-class FlipSearch {
-public:
-    FlipSearch(const TriMesh& outer, const SkinMesh& middle, const ThinSolidOptions& options)
-        : outer_(outer), middle_(middle), options_(options), normal_(area_vectors(outer)),
-          uses_(edge_uses(outer.triangle)), use_of_(3 * size_t(outer.triangles()))
-    {
-        for (size_t u = 0; u < uses_.size(); ++u)
-            use_of_[3 * size_t(uses_[u].face) + size_t(uses_[u].corner)] = u;
-    }
-    /// The best one of a triangle: within its CAD face, sound on the outer skin and better on the middle surface.
-    Flip best(int f) const
-    {
-        Flip best;
-        for (int k = 0; k < 3; ++k)
-            if (const Flip flip = at(f, k); flip.gain > best.gain)
-                best = flip;
-        return best;
-    }
-
-private:
-    const TriMesh& outer_;
-    const SkinMesh& middle_;
-    const ThinSolidOptions& options_;
-    Eigen::Matrix3Xd normal_;
-    std::vector<EdgeUse> uses_;
-    std::vector<size_t> use_of_;
-
-    std::optional<EdgeUse> across(int f, int k) const
-    {
-        const size_t u = use_of_[3 * size_t(f) + size_t(k)];
-        for (const size_t other : {u - 1, u + 1}) // u - 1 of 0 is too large
-            if (other < uses_.size() && uses_[other].same_edge(uses_[u]))
-                return uses_[other];
-        return std::nullopt;
-    }
-    bool is_edge(int a, int b) const
-    {
-        const std::pair wanted(std::min(a, b), std::max(a, b));
-        const auto found = std::lower_bound(uses_.begin(), uses_.end(), wanted, [](const EdgeUse& use, const auto& w) {
-            return std::pair(use.low, use.high) < w;
-        });
-        return found != uses_.end() && std::pair(found->low, found->high) == wanted;
-    }
-    bool one_surface(int f, int g) const
-    {
-        constexpr double alike = 0.985; // 10 degrees
-        if (options_.unit.empty())
-            return normal_.col(f).normalized().dot(normal_.col(g).normalized()) > alike;
-        return options_.unit[size_t(middle_.source_face[size_t(f)])] ==
-               options_.unit[size_t(middle_.source_face[size_t(g)])];
-    }
-    Flip at(int f, int k) const
-    {
-        const std::optional<EdgeUse> use = across(f, k);
-        if (!use || !one_surface(f, use->face))
-            return {};
-        const auto corner = [&](int face, int i) { return outer_.triangle(i % 3, face); };
-        const int a = corner(f, k), b = corner(f, k + 1), c = corner(f, k + 2), d = corner(use->face, use->corner + 2);
-        if (c == d || is_edge(c, d))
-            return {};
-        const Flip flip{f, use->face, {{{a, d, c}, {d, b, c}}}, 0};
-        const Eigen::Vector3d along = (normal_.col(f) + normal_.col(use->face)).normalized();
-        constexpr double speck = 1e-6; // of both triangles' area
-        const double size = normal_.col(f).norm() + normal_.col(use->face).norm();
-        if (least_upright(outer_.position, flip.after, along) < speck * size)
-            return {};
-        Flip result = flip;
-        result.gain = least_upright(middle_.mesh.position, flip.after, along) -
-                      least_upright(middle_.mesh.position, {{{a, b, c}, {b, a, d}}}, along);
-        return result;
-    }
-};
-
-/// Along slanted edges, of holes that were drilled through a bend askew, vertices move aside, and can move farther than the triangles of a
-/// strip are broad. In most strips the other diagonals do for both surfaces; both get them.
-void flip_folds(TriMesh& outer, SkinMesh& middle, const ThinSolidOptions& options)
-{
-    constexpr int rounds = 30; // a fan of needles at one vertex takes one for each
-    for (int round = 0; round < rounds; ++round) {
-        const Eigen::Matrix3Xd was = area_vectors(outer), is = area_vectors(middle.mesh);
-        std::vector<int> turned;
-        for (int f = 0; f < outer.triangles(); ++f)
-            if (was.col(f).dot(is.col(f)) <= 0)
-                turned.push_back(f);
-        if (turned.empty())
-            return;
-        const FlipSearch search(outer, middle, options);
-        std::vector<char> done(size_t(outer.vertices()), 0); // around them edges are no longer those of the search
-        bool any = false;
-        for (const int f : turned) {
-            const Flip flip = search.best(f);
-            if (flip.one < 0 || std::ranges::any_of(flip.after, [&](const auto& t) {
-                    return std::ranges::any_of(t, [&](int v) { return done[size_t(v)] != 0; });
-                }))
-                continue;
-            for (const auto& [face, t] : {std::pair(flip.one, flip.after[0]), {flip.other, flip.after[1]}})
-                for (size_t k = 0; k < 3; ++k) {
-                    outer.triangle(Eigen::Index(k), face) = middle.mesh.triangle(Eigen::Index(k), face) = t[k];
-                    done[size_t(t[k])] = 1;
-                }
-            any = true;
-        }
-        if (!any)
-            return;
-    }
-}
-
 /// Where triangles still turn over, vertices of slanted edges go straight in.
 /// @returns how many did
 int straighten_folds(const TriMesh& before, const MiddleSurface& middle, SkinMesh& result)
@@ -339,16 +215,14 @@ int straighten_folds(const TriMesh& before, const MiddleSurface& middle, SkinMes
     constexpr int rounds = 100; // each may bare a triangle beside it, as far as the rim of a hole
     std::vector<char> straight(result.source_vertex.size(), 0);
     for (int round = 0; round < rounds; ++round) {
-        const Eigen::Matrix3Xd was = area_vectors(before), is = area_vectors(result.mesh);
         bool any = false;
-        for (int f = 0; f < before.triangles(); ++f)
-            if (was.col(f).dot(is.col(f)) <= 0)
-                for (const int i : before.triangle.col(f))
-                    if (!std::exchange(straight[size_t(i)], char(1))) {
-                        result.mesh.position.col(i) =
-                            before.position.col(i) + middle.move(result.source_vertex[size_t(i)], false);
-                        any = true;
-                    }
+        for (const int f : turned_over(before, result, middle.options))
+            for (const int i : before.triangle.col(f))
+                if (!std::exchange(straight[size_t(i)], char(1))) {
+                    result.mesh.position.col(i) =
+                        before.position.col(i) + middle.move(result.source_vertex[size_t(i)], false);
+                    any = true;
+                }
         if (!any)
             break;
     }
@@ -358,15 +232,14 @@ int straighten_folds(const TriMesh& before, const MiddleSurface& middle, SkinMes
 /// @throws NotASheet if triangles turned over that have more than a speck of the area
 void require_unfolded(const TriMesh& before, const SkinMesh& middle, const ThinSolidOptions& options)
 {
-    const Eigen::Matrix3Xd was = area_vectors(before), is = area_vectors(middle.mesh);
+    const Eigen::Matrix3Xd was = area_vectors(before);
     double turned = 0;
     int worst = -1;
-    for (int f = 0; f < before.triangles(); ++f)
-        if (was.col(f).dot(is.col(f)) <= 0) {
-            turned += was.col(f).norm();
-            if (worst < 0 || was.col(f).norm() > was.col(worst).norm())
-                worst = f;
-        }
+    for (const int f : turned_over(before, middle, options)) {
+        turned += was.col(f).norm();
+        if (worst < 0 || was.col(f).norm() > was.col(worst).norm())
+            worst = f;
+    }
     constexpr double speck = 1e-4;
     if (turned <= speck * was.colwise().norm().sum())
         return;

@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/mesh/thin_solid.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -48,6 +49,17 @@ Eigen::Vector3d normal_at(const StatedSurface& surface, const Eigen::Vector3d& p
     const Eigen::Vector3d normal =
         surface.kind == Kind::plane ? surface.direction : off_axis(surface, place).normalized();
     return normal.dot(towards) < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+double unrolled_area(const StatedSurface& cylinder, const Eigen::Matrix3d& corner)
+{
+    const auto at = [&](int k) {
+        const Eigen::Vector3d u = off_axis(cylinder, corner.col(0)), v = off_axis(cylinder, corner.col(k));
+        return Eigen::Vector2d(cylinder.radius * std::atan2(u.cross(v).dot(cylinder.direction), u.dot(v)),
+                               (corner.col(k) - corner.col(0)).dot(cylinder.direction));
+    };
+    const Eigen::Vector2d a = at(1), b = at(2);
+    return (a.x() * b.y() - a.y() * b.x()) / 2;
 }
 
 bool same_cylinder(const StatedSurface& a, const StatedSurface& b)

@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
 #include "engine/mesh/sheet_marks.h"
+#include "engine/mesh/stated_surface.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
@@ -17,6 +18,7 @@ enum class SheetSide : char { outer, inner, rim };
 struct ThinSolidOptions {
     std::vector<int> unit = {}; ///< per triangle: the CAD face it lies on, which belongs to one side as a whole; empty:
                                 ///< pieces of surface are found
+    std::vector<StatedSurface> surface = {}; ///< per triangle: what it is a chord of; empty: not known
     /// Of a triangle, at a place of it, mm: the normal of the surface that it is a chord of, towards the triangle's own, outwards
     /// from the solid; not given: the triangle's.
     std::function<Eigen::Vector3d(int face, const Eigen::Vector3d& place, const Eigen::Vector3d& own)> normal_at = {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
+#include <numbers>
 
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/blank_marks.h"
@@ -128,8 +129,8 @@ std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vecto
     return result;
 }
 
-/// Bends of the map that are parts of what the table has as whole ones: pieces between a hole and the side of a bend, and the edges
-/// between its chords where a rim crosses them.
+/// Bends of the map that are parts of what the table has as whole ones: pieces between a hole and the side of a bend, the edges
+/// between its chords where a rim crosses them, and those of narrow triangles between a bend and the rim of a hole beside it.
 std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const BendTable& table)
 {
     constexpr double mostly = 0.5, small = 0.1; // of the area, and of that of the bend beside it
@@ -156,13 +157,18 @@ std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const 
                 beside[size_t(k)] = std::max(beside[size_t(k)], size[size_t(j)]);
     }
     // A sharp bend has no faces: it lies between those of its two regions, one of which is a piece of a bend.
-    std::vector<double> region(map.regions.size(), 0), in_bend(map.regions.size(), 0);
+    std::vector<double> region(map.regions.size(), 0), in_bend(region), by_region(region);
     for (int f = 0; f < part.triangles(); ++f)
-        if (map.label[f] < int(region.size())) {
-            region[size_t(map.label[f])] += area[f];
-            in_bend[size_t(map.label[f])] += bend_of[size_t(f)] >= 0 ? area[f] : 0;
+        if (const auto r = size_t(map.label[f]); r < region.size()) {
+            region[r] += area[f];
+            in_bend[r] += bend_of[size_t(f)] >= 0 ? area[f] : 0;
+            for (const int v : part.triangle.col(f))
+                if (const int j = at[size_t(v)]; j >= 0)
+                    by_region[r] = std::max(by_region[r], size[size_t(j)]);
         }
-    const auto of_bend = [&](int r) { return in_bend[size_t(r)] > mostly * region[size_t(r)]; };
+    const auto of_bend = [&](int r) {
+        return in_bend[size_t(r)] > mostly * region[size_t(r)] || region[size_t(r)] < small * by_region[size_t(r)];
+    };
     std::vector<char> result;
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
@@ -190,9 +196,10 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
     const std::vector<char> part_of_known =
         table ? parts_of_table(part.mesh, map, *table) : std::vector<char>(map.bends.size(), 0);
     for (size_t k = 0; k < map.bends.size(); ++k) {
-        if (known[k] < 0 && part_of_known[k])
-            continue;
         const Bend& bend = map.bends[k];
+        constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that the rim of a hole tilts turn by less
+        if (known[k] < 0 && (part_of_known[k] || (table && std::abs(bend.angle) < least)))
+            continue;
         const SheetBend* stated =
             known[k] >= 0 && !table->bends[size_t(known[k])].line.empty() ? &table->bends[size_t(known[k])] : nullptr;
         const std::string name = map.name(int(map.regions.size() + k));

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 #include <fmt/core.h>
+#include <numbers>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/exchange/file_content.h"
@@ -26,6 +28,30 @@ SheetLayers layers_of(const PartFile& part, double thickness, const std::optiona
     return layers;
 }
 
+/// Zones on the cylinders that were measured on both skins of a solid; of those that were fitted to its middle surface the rest, as a bend
+/// without an inner radius.
+std::vector<BendZone> with_measured(const PartFile& part, std::vector<BendZone> fitted)
+{
+    std::vector<StatedSurface> surface;
+    for (const int f : part.source_face)
+        surface.push_back(part.solid->surface[size_t(f)]);
+    std::vector<BendZone> zones = stated_zones(part.mesh, surface);
+    std::vector<char> known(size_t(part.mesh.vertices()), 0);
+    for (const BendZone& zone : zones)
+        for (const int f : zone.face)
+            for (const int v : part.mesh.triangle.col(f))
+                known[size_t(v)] = 1;
+    // What touches one is what a rim has left of its border.
+    const auto beside = [&](int f) {
+        return std::ranges::any_of(part.mesh.triangle.col(f), [&](int v) { return known[size_t(v)] != 0; });
+    };
+    constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that a rim tilts turn by less
+    for (BendZone& zone : fitted)
+        if (zone.to - zone.from > least && std::ranges::none_of(zone.face, beside))
+            zones.push_back(std::move(zone));
+    return zones;
+}
+
 std::vector<BendZone> zones_of(const PartFile& part)
 {
     if (part.cad && !part.cad->surface.empty()) {
@@ -34,7 +60,8 @@ std::vector<BendZone> zones_of(const PartFile& part)
             surface.push_back(part.cad->surface[size_t(part.cad->face[size_t(f)])]);
         return stated_zones(part.mesh, surface);
     }
-    return fitted_zones(part.mesh, find_bends(part.mesh));
+    std::vector<BendZone> zones = fitted_zones(part.mesh, find_bends(part.mesh));
+    return part.solid && !part.solid->surface.empty() ? with_measured(part, std::move(zones)) : zones;
 }
 
 } // namespace

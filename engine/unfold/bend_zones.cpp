@@ -8,10 +8,10 @@
 #include <optional>
 #include <set>
 
+#include "engine/mesh/cylinder_fit.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/cylinder_fit.h"
 #include "engine/unfold/strip_cylinders.h"
 
 namespace spia {
@@ -20,6 +20,57 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 double nearest_turn(double angle, double to) { return angle - 2 * pi * std::round((angle - to) / (2 * pi)); }
+
+/// Faces outside a zone that go on from it nearly as it ends.
+std::vector<int> faces_beyond(const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour, const BendZone& zone)
+{
+    constexpr double level =
+        0.98; // of the cosine, 11 degrees: a vertex of the rim that lies off the flat tilts triangles beside it
+    std::vector<int> reached;
+    std::set<int> seen(zone.face.begin(), zone.face.end());
+    const auto level_with = [&](int f, int g) {
+        return normal.col(f).dot(normal.col(g)) > level * normal.col(f).norm() * normal.col(g).norm();
+    };
+    for (const int f : zone.face)
+        for (int k = 0; k < 3; ++k)
+            if (const int g = neighbour(k, f); g >= 0 && seen.insert(g).second)
+                reached.push_back(g);
+    for (size_t i = 0; i < reached.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (const int g = neighbour(k, reached[i]); g >= 0 && level_with(reached[i], g) && seen.insert(g).second)
+                reached.push_back(g);
+    return reached;
+}
+
+/// Between two holes that cross its end askew no corner may lie where a bend ends, but the flat beside it tells: it touches the cylinder there.
+void end_on_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& zone)
+{
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
+    const double middle = (zone.from + zone.to) / 2;
+    Eigen::Vector2d end(zone.from, zone.to), largest = Eigen::Vector2d::Zero(); // that tells of each end
+    for (const int f : faces_beyond(normal, neighbour, zone)) {
+        const Eigen::Vector3d n = normal.col(f).normalized();
+        const double from_axis = (part.position.col(part.triangle(0, f)) - zone.point).dot(n);
+        constexpr double touches = 1e-9; // of the radius: a triangle that is tilted by 4e-5 rad is farther off
+        if (std::abs(std::abs(from_axis) - zone.radius) > touches * zone.radius + 2 * zone.measured ||
+            std::abs(n.dot(zone.axis)) > touches + 2 * zone.measured / zone.radius)
+            continue;
+        const Eigen::Vector2d to_it = frame.transpose() * (from_axis > 0 ? n : Eigen::Vector3d(-n));
+        const double angle = nearest_turn(std::atan2(to_it.y(), to_it.x()), middle), size = normal.col(f).norm();
+        const int which = angle < middle ? 0 : 1;
+        if (size > largest[which]) {
+            largest[which] = size;
+            end[which] = angle;
+        }
+    }
+    constexpr double near = 0.3; // of the angle: as far as rims go past the end of the smallest bends
+    const double much = near * (zone.to - zone.from);
+    if (std::abs(end[0] - zone.from) < much)
+        zone.from = end[0];
+    if (std::abs(end[1] - zone.to) < much)
+        zone.to = end[1];
+}
 
 /// Angles of all corners without jumps, from face to face; and what follows from them.
 void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& zone)
@@ -79,7 +130,8 @@ void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& z
     zone.turn.resize(kept);
     // Where the slanted rim of a hole crosses the border of the bend, corners lie beside the cylinder, or on it beyond the border. Where
     // it ends is what corners on it say that it has in common with the sheet beside it; at a free edge any.
-    const double on = 4 * middle_off + 1e-7 * zone.radius; // a corner that is 4e-4 rad beyond the border is farther off
+    const double on = 4 * middle_off + 1e-7 * zone.radius +
+                      2 * zone.measured; // a corner that is 4e-4 rad beyond the border is farther off
     std::set<int> common;
     for (const int f : zone.face)
         for (int k = 0; k < 3; ++k)
@@ -105,6 +157,7 @@ void measure(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, BendZone& z
     const double much = near * (zone.to - zone.from);
     zone.from = from - zone.from < much ? from : zone.from;
     zone.to = zone.to - to < much ? to : zone.to;
+    end_on_flats(part, neighbour, zone);
 }
 
 /// Whether the faces' own normals point away from the axis.
@@ -178,7 +231,8 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
             BendZone fresh{};
             fresh.point = s.point;
             fresh.axis = s.direction;
-            fresh.stated = s.radius;
+            fresh.stated = s.off > 0 ? 0 : s.radius;
+            fresh.measured = s.off;
             zones.push_back(fresh);
         }
         zones[size_t(zone)].face.push_back(f);

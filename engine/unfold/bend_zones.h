@@ -14,6 +14,7 @@ struct BendZone {
     Eigen::Vector3d axis;  ///< unit
     double radius;         ///< mm, of the cylinder on which the corners lie
     double stated = 0;     ///< mm, radius of the CAD face; 0: none states it
+    double measured = 0;   ///< mm, how far corners may lie off what was measured; 0: it was not, or is stated
     bool bulging;          ///< on the outer side of the faces
     std::vector<int> face; ///< ascending
     std::vector<Eigen::Vector3d>

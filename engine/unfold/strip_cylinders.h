@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "engine/mesh/tri_mesh.h"
-#include "engine/unfold/cylinder_fit.h"
+#include "engine/mesh/cylinder_fit.h"
 
 namespace spia {
 

@@ -141,6 +141,35 @@ TopoDS_Shape sunk(TopoDS_Shape shape, const BentSolid& solid, const Profile& pro
         BRepPrimAPI_MakeCone(gp_Ax2(before, gp_Dir(in)), sink.wide + slope * t, sink.hole, t + sink.depth).Shape());
 }
 
+const Profile::Piece& piece_at(const Profile& profile, double s)
+{
+    for (const Profile::Piece& piece : profile.pieces())
+        if (s <= piece.to)
+            return piece;
+    return profile.pieces().back();
+}
+
+/// mm, how far from the middle of the prism its outline goes.
+double reach_of(const Cutout& outline) { return std::hypot(outline.length, outline.width) / 2; }
+
+/// What is taken away.
+TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const BendCut& cut)
+{
+    const Profile::Piece& bend = profile.pieces()[2 * size_t(cut.bend) + 1];
+    const double s = bend.from + cut.share * (bend.to - bend.from), t = solid.thickness;
+    const Profile::Piece& piece = piece_at(profile, s);
+    const double h = heading(piece, s), turn = cut.outline.turn;
+    const gp_Vec along(std::cos(h), 0, std::sin(h)), out(-std::sin(h), 0, std::cos(h)), y(0, 1, 0);
+    const gp_Vec way = out * std::cos(cut.lean) + y * std::sin(cut.lean);
+    const gp_Vec side = y * std::cos(cut.lean) - out * std::sin(cut.lean);
+    const double reach = 1.5 * t + reach_of(cut.outline);
+    const gp_Pnt from = beside(profile, piece, s, 0).Translated(y * cut.y - way * reach);
+    const gp_Ax2 frame(from, gp_Dir(way), gp_Dir(along * std::cos(turn) + side * std::sin(turn)));
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline_of(cut.outline, frame), true).Face(),
+                                 way * (2 * reach))
+        .Shape();
+}
+
 gp_Trsf pose(std::uint64_t lot)
 {
     Lots lots(lot);
@@ -233,6 +262,8 @@ TopoDS_Shape made(const BentSolid& solid)
         shape = sunk(shape, solid, profile, sink);
     for (const Stamp& stamp : solid.stamp)
         shape = stamped(shape, solid, profile, stamp);
+    for (const BendCut& cut : solid.bend_cut)
+        shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cut)).Shape();
     if (solid.pose)
         shape = BRepBuilderAPI_Transform(shape, pose(solid.pose), true).Shape();
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
@@ -282,6 +313,52 @@ BentSolid drawn(Lots& lots)
     return solid;
 }
 
+/// Small enough for the prism to leave the legs' ends and the other bends alone.
+BendCut drawn_cut(Lots& lots, const BentSolid& solid, int bend)
+{
+    const SolidBend& at = solid.bend[size_t(bend)];
+    const double t = solid.thickness, width = solid.width, outer = at.inner_radius + t;
+    const double most = std::min(0.25 * width, 0.6 * outer + t);
+    BendCut cut;
+    cut.bend = bend;
+    cut.share = lots.coin() ? lots.between(0, 1) : lots.coin() ? lots.between(-0.1, 0.1) : lots.between(0.9, 1.1);
+    cut.y = lots.between(0.3, 0.7) * width;
+    const double size = even_in_logarithm(lots, 0.3 * most, most);
+    const auto outlined = [&](double length, double across, double radius) {
+        cut.outline.length = length;
+        cut.outline.width = across;
+        cut.outline.radius = radius;
+    };
+    switch (lots.whole(0, 5)) {
+    case 0: outlined(size, size, size / 2); break;
+    case 1: outlined(size, 1.8 * size, size / 2); break; // along the bend
+    case 2: outlined(1.5 * size, 0.8 * size, 0.4 * size); break;
+    case 3:
+        outlined(size, size, size / 2);
+        cut.lean = lots.between(-0.5, 0.5);
+        break;
+    case 4:
+        outlined(size, size, 0);
+        cut.y = lots.coin() ? 0 : width;
+        break;
+    default:
+        outlined(size, size, 0);
+        cut.outline.turn = 45 * degree;
+        cut.y = lots.coin() ? 0 : width;
+    }
+    return cut;
+}
+
+/// @param deflection  mm; @param angle radians
+void write_stl(const std::filesystem::path& file, const TopoDS_Shape& shape, double deflection, double angle)
+{
+    const BRepMesh_IncrementalMesh meshed(shape, deflection, false, angle);
+    StlAPI_Writer writer;
+    writer.ASCIIMode() = false;
+    if (!writer.Write(shape, file.c_str()))
+        throw std::runtime_error("not written: " + file.string());
+}
+
 } // namespace
 
 double BentSolid::developed(double k) const
@@ -302,6 +379,41 @@ BentSolid random_bent_solid(std::uint64_t seed)
             return solid;
 }
 
+BentSolid random_cut_bends(std::uint64_t seed)
+{
+    Lots lots(seed);
+    for (;;) {
+        BentSolid solid;
+        solid.kind = "cut bends";
+        solid.thickness = even_in_logarithm(lots, 0.5, 4);
+        const int bends = lots.whole(1, 3);
+        double way = lots.coin() ? 1 : -1, largest = 0;
+        for (int b = 0; b < bends; ++b) {
+            solid.bend.push_back(
+                {solid.thickness * even_in_logarithm(lots, 0.3, 10), way * degree * lots.between(20, 110)});
+            largest = std::max(largest, solid.bend.back().inner_radius + solid.thickness);
+            way = lots.coin() ? way : -way;
+        }
+        for (int b = 0; b <= bends; ++b) // clear of the prisms through the bends beside it
+            solid.leg.push_back(largest * lots.between(3, 6));
+        solid.width = largest * lots.between(4, 10);
+        for (int b = 0; b < bends; ++b)
+            solid.bend_cut.push_back(drawn_cut(lots, solid, b));
+        solid.pose = seed;
+        if (clear(solid))
+            return solid;
+    }
+}
+
+void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord)
+{
+    const OcctSession session;
+    double largest = 0;
+    for (const SolidBend& bend : solid.bend)
+        largest = std::max(largest, bend.inner_radius + solid.thickness);
+    write_stl(file, made(solid), largest * (1 - std::cos(chord / 2)), chord);
+}
+
 void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form)
 {
     const OcctSession session;
@@ -312,11 +424,7 @@ void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid,
         return;
     }
     if (form == CadForm::stl) {
-        const BRepMesh_IncrementalMesh meshed(shape, 0.05, false, 0.2);
-        StlAPI_Writer writer;
-        writer.ASCIIMode() = false;
-        if (!writer.Write(shape, file.c_str()))
-            throw std::runtime_error("not written: " + file.string());
+        write_stl(file, shape, 0.05, 0.2);
         return;
     }
     STEPControl_Writer writer;

@@ -43,6 +43,16 @@ struct Stamp {
     double depth = 0.2; ///< mm; below zero: raised
 };
 
+/// What is milled through a bend once it is bent: a straight prism whose outline is a Cutout's.
+struct BendCut {
+    int bend = 0;
+    double share =
+        0.5; ///< of the bend's arc: where the middle of the prism crosses the middle of the sheet; outside 0 to 1 on a leg
+    double y = 0;        ///< mm
+    Cutout outline = {}; ///< its length, width, radius and turn; its length across the bend
+    double lean = 0;     ///< radians, of the prism against the sheet's normal there, along the bend
+};
+
 /// A section of straight legs and bends between them, the same all along y.
 struct BentSolid {
     std::string kind;            ///< bracket, Z, channel, hat, hem, knuckle
@@ -56,7 +66,8 @@ struct BentSolid {
     std::vector<Cutout> cutout = {};
     std::vector<Sink> sink = {};
     std::vector<Stamp> stamp = {}; ///< of brackets, which have one bend
-    std::uint64_t pose = 0;        ///< turned and moved by this lot; 0: as said
+    std::vector<BendCut> bend_cut = {};
+    std::uint64_t pose = 0; ///< turned and moved by this lot; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;
@@ -64,6 +75,13 @@ struct BentSolid {
 
 /// One of a family drawn at random: 1 to 8 bends of 1 to 180 degrees, R/t from 0.1 to 20, no section that touches itself.
 BentSolid random_bent_solid(std::uint64_t seed);
+
+/// 1 to 3 bends of 20 to 110 degrees, R/t from 0.3 to 10, each with a hole, a slot, an oblique hole, a notch or a V notch through it or over
+/// one of its ends, of which its legs' free ends keep clear: length and width of the blank are those without them.
+BentSolid random_cut_bends(std::uint64_t seed);
+
+/// The solid's surface as a mesher makes it, in binary STL. @param chord  radians, at most, of bends and holes
+void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord);
 
 enum class CadForm { step, brep, stl }; ///< stl: chords of 0.2 radians at most, within 0.05 mm
 void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form = CadForm::step);

@@ -23,6 +23,18 @@ Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis);
 std::optional<FittedCylinder> cylinder_of(const TriMesh& part, const Eigen::Matrix3Xd& normal,
                                           const Eigen::Matrix3Xi& neighbour, const std::vector<int>& faces);
 
+/// Vertices of some faces, ascending.
+std::vector<int> corners(const TriMesh& part, const std::vector<int>& faces);
+
+/// The cylinder nearest to some places by least squares of the distances from it, five unknowns by Gauss-Newton steps from a first one.
+/// Its axis goes through the middle of the places. Nothing if that ends nowhere, or farther than the places are wide.
+/// @param shift  mm, per place: how much farther from the axis than the radius it is to be, as places of the other side of a sheet are
+std::optional<FittedCylinder> fitted(const FittedCylinder& from, const Eigen::Matrix3Xd& place,
+                                     const Eigen::VectorXd& shift);
+
+/// mm, from the axis
+double distance_from_axis(const FittedCylinder& cylinder, const Eigen::Vector3d& place);
+
 /// @param within  mm, from the cylinder
 bool lies_on(const TriMesh& part, const FittedCylinder& cylinder, int face, double within);
 
