@@ -11,6 +11,7 @@
 #include "engine/exchange/mesh_file.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
+#include "engine/exchange/stated_curvature.h"
 #include "engine/exchange/take_skin.h"
 #include "engine/mesh/corner_seam.h"
 #include "engine/mesh/topology.h"
@@ -289,7 +290,7 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
     constexpr double unrolls = 0.02; // bent parts measured have 0 to rounding, the flattest of the drawn ones 0.9
     if (triangle_quality(part.mesh).least_angle_of_99 > needle)
         return;
-    if (total_curvature(part.mesh) < unrolls) {
+    if (curvature_off_bends(part) < unrolls) {
         if (std::erase_if(part.doctor.findings, [](const Finding& f) { return f.fault == Fault::sliver; }))
             part.notes.push_back(
                 "the long narrow triangles lie along the rulings of a developable surface and do not affect the strains");

@@ -21,20 +21,20 @@ struct Flat {
     double area = 0;
 };
 
+/// By its corners: the normal of a sliver says nothing.
 bool lies_in(const MarkedSkin& marked, int f, const StatedSurface& plane)
 {
-    constexpr double parallel = 1 - 1e-7; // cosine, 0.03 degrees
-    const Eigen::Vector3d n = marked.normal.col(f);
-    return std::abs(n.dot(plane.direction)) >= parallel * n.norm() &&
+    return marked.normal.col(f).dot(plane.direction) > 0 &&
            std::ranges::all_of(marked.solid.triangle.col(f), [&](int v) {
                return std::abs((marked.solid.position.col(v) - plane.point).dot(plane.direction)) <= marked.flat;
            });
 }
 
 /// Planes of some triangles, those first that most of all the skin lies in.
-std::vector<Flat> flats_of(const MarkedSkin& marked, const std::vector<int>& faces)
+std::vector<Flat> flats_of(const MarkedSkin& marked, std::vector<int> faces)
 {
     std::vector<Flat> flats;
+    std::ranges::stable_sort(faces, std::greater(), [&](int f) { return marked.normal.col(f).norm(); });
     for (const int f : faces) {
         if (std::ranges::any_of(flats, [&](const Flat& flat) { return lies_in(marked, f, flat.plane); }))
             continue;
@@ -157,34 +157,86 @@ std::vector<Polygon> cut_along(const std::vector<Eigen::Vector2d>& at, const Pol
     return pieces;
 }
 
-/// Halves edges between two triangles, those that turn most first, until none turns by more than 3 degrees, or than an edge of the polygon:
-/// those stay.
+/// Triangles of a polygon in the unrolled skin. Three corners in a row across a bend are no triangle there, but stand upright in space: so
+/// edges are turned until each triangle has the corners next to it (Delaunay), then halved where they turn by more than 3 degrees and than
+/// any edge of the polygon. Those stay, and so do the lines where planes touch the cylinder.
 class Refinement {
 public:
-    /// @param at  first the corners of the polygon, around it
-    Refinement(const UnrolledSkin& skin, std::vector<Eigen::Vector2d>& at, std::vector<Triangle>& triangle)
-        : skin_(skin), at_(at), triangle_(triangle)
+    /// @param at  first the corners of the polygon, around it @param on  mm, within which a corner is on a seam
+    Refinement(const UnrolledSkin& skin, std::vector<Eigen::Vector2d>& at, std::vector<Triangle>& triangle, double on)
+        : skin_(skin), at_(at), triangle_(triangle), on_(on)
     {
         for (size_t i = 0; i < at.size(); ++i)
             most_ = std::max(most_, skin.turn(at[i].x(), at[(i + 1) % at.size()].x()));
     }
     void refine()
     {
-        constexpr int most_rounds = 40;
-        for (int round = 0; round < most_rounds && halve_once(); ++round) {
-        }
+        constexpr int most_rounds = 20; // a half turn is halved six times
+        turn_edges();
+        for (int round = 0; round < most_rounds && halve_edges(); ++round)
+            turn_edges();
     }
 
 private:
     const UnrolledSkin& skin_;
     std::vector<Eigen::Vector2d>& at_;
     std::vector<Triangle>& triangle_;
+    double on_;
     double most_ = 3 * std::numbers::pi / 180;
 
     double turn(const EdgeUse& use) const { return skin_.turn(at_[size_t(use.low)].x(), at_[size_t(use.high)].x()); }
+    bool along_seam(const EdgeUse& use) const
+    {
+        return std::ranges::any_of(skin_.seams(), [&](double u) {
+            return std::abs(at_[size_t(use.low)].x() - u) <= on_ && std::abs(at_[size_t(use.high)].x() - u) <= on_;
+        });
+    }
+    double cross(int a, int b, int c) const
+    {
+        const Eigen::Vector2d u = at_[size_t(b)] - at_[size_t(a)], v = at_[size_t(c)] - at_[size_t(a)];
+        return u.x() * v.y() - u.y() * v.x();
+    }
+    double angle(int at, int a, int b) const
+    {
+        return std::atan2(std::abs(cross(at, a, b)),
+                          (at_[size_t(a)] - at_[size_t(at)]).dot(at_[size_t(b)] - at_[size_t(at)]));
+    }
+
+    /// Each triangle once at most. @returns whether one was turned
+    bool turn_some()
+    {
+        constexpr double rounding = 1e-9;
+        const std::vector<EdgeUse> uses = edge_uses(triangle_);
+        std::vector<char> done(triangle_.size(), 0);
+        bool any = false;
+        for_each_edge(uses, [&](size_t begin, size_t end) {
+            if (end != begin + 2 || along_seam(uses[begin]) || done[size_t(uses[begin].face)] ||
+                done[size_t(uses[begin + 1].face)])
+                return;
+            Triangle &one = triangle_[size_t(uses[begin].face)], &other = triangle_[size_t(uses[begin + 1].face)];
+            const auto k = size_t(uses[begin].corner);
+            const int p = one[k], q = one[(k + 1) % 3], r = one[(k + 2) % 3],
+                      s = other[(size_t(uses[begin + 1].corner) + 2) % 3];
+            const double first = cross(p, s, r), second = cross(s, q, r), all = cross(p, q, r) + cross(q, p, s);
+            if (angle(r, p, q) + angle(s, p, q) <= std::numbers::pi + rounding ||
+                !(first * all > rounding * all * all) || !(second * all > rounding * all * all))
+                return;
+            one = {p, s, r};
+            other = {s, q, r};
+            done[size_t(uses[begin].face)] = done[size_t(uses[begin + 1].face)] = 1;
+            any = true;
+        });
+        return any;
+    }
+    void turn_edges()
+    {
+        constexpr int most_rounds = 200;
+        for (int round = 0; round < most_rounds && turn_some(); ++round) {
+        }
+    }
 
     /// Each triangle once at most. @returns whether an edge was halved
-    bool halve_once()
+    bool halve_edges()
     {
         constexpr double rounding = 1e-9;
         const std::vector<EdgeUse> uses = edge_uses(triangle_);
@@ -263,7 +315,7 @@ std::optional<RefilledMark> refilled_bend(const MarkedSkin& marked, const std::v
         for (const std::array<int, 3>& t : split)
             triangles.push_back({piece[size_t(t[0])], piece[size_t(t[1])], piece[size_t(t[2])]});
     }
-    Refinement(*skin, at, triangles).refine();
+    Refinement(*skin, at, triangles, 2 * marked.flat).refine();
 
     RefilledMark result;
     const std::array<int, 3> source = sources(*skin, marked, beside);

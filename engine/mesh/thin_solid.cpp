@@ -144,6 +144,38 @@ template <class Counts> std::string how_deep(const Solid& solid, PieceSide side,
                      : "";
 }
 
+/// Of a mesh slivers along an arc stand upright on their skin, where they have no area to speak of: what has no vertex of its own between
+/// those of one skin is part of it.
+void give_slivers_to_their_skin(Solid& solid)
+{
+    const SurfacePieces& pieces = solid.pieces;
+    const auto rim = [&](int p) { return solid.sides.side[size_t(p)] == PieceSide::rim; };
+    const auto bit = [](PieceSide side) { return side == PieceSide::rim ? 0 : side == PieceSide::one ? 1 : 2; };
+    DisjointSets together(size_t(pieces.count()));
+    std::vector<int> touches(size_t(pieces.count()), 0), at(size_t(solid.mesh.vertices()), 0);
+    for (const PieceContact& c : pieces.contact)
+        if (rim(c.a) && rim(c.b))
+            together.join(c.a, c.b);
+    for (const PieceContact& c : pieces.contact)
+        for (const auto& [p, q] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+            if (rim(p))
+                touches[size_t(together.root(p))] |= bit(solid.sides.side[size_t(q)]);
+    for (int f = 0; f < solid.mesh.triangles(); ++f)
+        for (const int v : solid.mesh.triangle.col(f))
+            at[size_t(v)] |= bit(solid.side(f));
+    std::vector<char> own(size_t(pieces.count()), 0);
+    for (int f = 0; f < solid.mesh.triangles(); ++f)
+        for (const int v : solid.mesh.triangle.col(f))
+            if (const auto group = size_t(together.root(solid.piece(f))); rim(solid.piece(f)))
+                own[group] |= (at[size_t(v)] & touches[group]) == 0;
+    std::vector<PieceSide> side = solid.sides.side;
+    for (int p = 0; p < pieces.count(); ++p)
+        if (const auto group = size_t(together.root(p));
+            rim(p) && !own[group] && (touches[group] == 1 || touches[group] == 2))
+            side[size_t(p)] = touches[group] == 1 ? PieceSide::one : PieceSide::other;
+    solid.sides.side = std::move(side);
+}
+
 /// Each side in one piece, the faces across the thickness between both.
 void require_connected(Solid& solid, double thickness, double area)
 {
@@ -181,6 +213,8 @@ void require_connected(Solid& solid, double thickness, double area)
             if (solid.sides.side[size_t(p)] == side && together.root(p) != largest)
                 solid.sides.side[size_t(p)] = PieceSide::rim;
     }
+    if (solid.closed)
+        give_slivers_to_their_skin(solid);
     // Of the faces across the thickness those that one side alone has are a step, a pocket or a boss: with its floor, which was taken from
     // its side above.
     together = DisjointSets(size_t(pieces.count()));

@@ -70,8 +70,7 @@ std::optional<StatedSurface> cylinder_through(const Eigen::Matrix3Xd& points, co
 {
     // The normals of a cylinder are in a plane across its axis.
     constexpr double turns = 1e-3; // of the normals' squares: they turn by 2 degrees or so
-    const Eigen::Matrix3Xd unit = normal.colwise().normalized();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(unit * unit.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(normal * normal.colwise().normalized().transpose());
     constexpr Eigen::Index unknowns = 5;
     if (points.cols() <= unknowns || spread.eigenvalues()[1] < turns * spread.eigenvalues()[2])
         return std::nullopt;
@@ -88,8 +87,12 @@ std::optional<StatedSurface> cylinder_through(const Eigen::Matrix3Xd& points, co
 UnrolledSkin::UnrolledSkin(const StatedSurface& cylinder, const Eigen::Matrix3Xd& points, double within)
     : cylinder_(cylinder), within_(within)
 {
-    const Eigen::Vector3d middle = off_axis(cylinder, points.rowwise().mean());
-    x_ = middle.norm() > within ? Eigen::Vector3d(middle.normalized()) : cylinder.direction.unitOrthogonal();
+    // Those beside the bend may lie on all sides of its axis.
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& p : points.colwise())
+        if (const Eigen::Vector3d out = off_axis(cylinder, p); std::abs(out.norm() - cylinder.radius) <= within)
+            middle += out.normalized();
+    x_ = middle.isZero(1e-6) ? cylinder.direction.unitOrthogonal() : Eigen::Vector3d(middle.normalized());
     y_ = cylinder.direction.cross(x_);
 }
 
