@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -223,12 +224,15 @@ Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& s
               const IncrementalOptions& options, const Progress& progress)
 {
     constexpr int most_repairs = 8;         // two or three are usual
+    constexpr int most_in_vain = 2;         // in a row: faces that are turned over may stay so however small they are
     constexpr double most_at_fault = 0.1;   // of the vertices; where most are the sizes are wrong
     constexpr double all_rounds = 0.7, share_of_making = 0.7;
     const SurfaceType type = surface_type(given.part);
     IncrementalRemesh remesh(given.even, given.lines, size, given.on_even, options, progress.part(0, 0));
     TwoWayDistance distance(given.part, given.on_part, result.tolerance);
     double least = limits.least;
+    int in_vain = 0;
+    Eigen::Index before = std::numeric_limits<Eigen::Index>::max(); // vertices at fault
     remesh.run(progress.part(0, share_of_making * all_rounds));
     for (int repair = 0;; ++repair) {
         const auto from = [&](double within) {
@@ -244,8 +248,11 @@ Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& s
         Fault fault = fault_of(result.mesh, distance, given.part, size, result.tolerance);
         if (fault.text.empty())
             lead_back(result, given.part, given.on_part, distance.to_part().nearest);
-        const bool local = (fault.share.array() < 1).count() < most_at_fault * double(result.mesh.vertices());
-        if (fault.text.empty() || repair == most_repairs || !local)
+        const Eigen::Index at_fault = (fault.share.array() < 1).count();
+        in_vain = at_fault < before ? 0 : in_vain + 1;
+        before = at_fault;
+        if (fault.text.empty() || repair == most_repairs || in_vain == most_in_vain ||
+            double(at_fault) >= most_at_fault * double(result.mesh.vertices()))
             return fault;
         least /= 2;
         const double next = all_rounds + (1 - all_rounds) * repair / most_repairs;
