@@ -303,14 +303,14 @@ void remesh_needles(PartFile& part, std::optional<double> deflection, const Prog
                 std::clamp(*deflection, 1e-6 * bounding_diagonal(part.mesh), 1e-3 * bounding_diagonal(part.mesh));
         remesh_part(part, remesh, progress);
         part.notes.push_back(
-            "needle triangles on doubly curved CAD faces were remeshed, because they falsify the strains; they can be kept (--no-remesh)");
+            "needle triangles were remeshed, because the part does not unroll and they would falsify its strains; they can be kept (--no-remesh)");
     } catch (const InputError& error) {
         for (Finding& finding : part.doctor.findings)
             if (finding.fault == Fault::sliver)
                 finding.advice =
                     "strains there are unreliable; remeshing failed (see the notes), but may work with another size or tolerance (--remesh-size or --remesh-tolerance)";
         part.notes.push_back(fmt::format(
-            "needle triangles on doubly curved CAD faces make the strains there unreliable; they were not remeshed: {}",
+            "needle triangles make the strains of this part unreliable, which does not unroll; they were not remeshed: {}",
             error.what()));
     }
 }

@@ -51,18 +51,21 @@ double quality(const Vector2d& a, const Vector2d& b, const Vector2d& c)
 
 constexpr double flat = 1e-9; // sine of an angle that counts as zero; far above rounding, far below a usable triangle
 
+constexpr double needle = 0.0175; // of 1 degree: below it the doctor warns (DoctorOptions::sliver_angle_deg)
+
 Triangles split_quad(std::span<const Vector3d> corners, const std::vector<Vector2d>& p)
 {
     const Triangles by02 = {{0, 1, 2}, {0, 2, 3}}, by13 = {{0, 1, 3}, {1, 2, 3}};
-    const auto unfolded = [&](const Triangles& triangles) {
+    const auto better_than = [&](double least, const Triangles& triangles) {
         return std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-            return quality(p[size_t(t[0])], p[size_t(t[1])], p[size_t(t[2])]) > flat;
+            return quality(p[size_t(t[0])], p[size_t(t[1])], p[size_t(t[2])]) > least;
         });
     };
     const bool shorter02 = (corners[2] - corners[0]).norm() <= (corners[3] - corners[1]).norm();
-    for (const Triangles& choice : {shorter02 ? by02 : by13, shorter02 ? by13 : by02})
-        if (unfolded(choice))
-            return choice;
+    for (const double least : {needle, flat})
+        for (const Triangles& choice : {shorter02 ? by02 : by13, shorter02 ? by13 : by02})
+            if (better_than(least, choice))
+                return choice;
     return {};
 }
 
@@ -117,6 +120,43 @@ Triangles clip_ears(const std::vector<Vector2d>& p)
     return triangles;
 }
 
+/// Of all ways to divide a polygon that does not cross itself, the one whose least angle is largest (G. Klincsek, Minimal triangulations of
+/// polygonal domains, 1980). Triangles none of which is turned over do not overlap then.
+Triangles best_triangles(const std::vector<Vector2d>& p)
+{
+    const size_t n = p.size();
+    std::vector<double> least(n * n, 1); // of the corners i to j with their chord
+    std::vector<size_t> third(n * n, 0);
+    for (size_t span = 2; span < n; ++span)
+        for (size_t i = 0; i + span < n; ++i) {
+            const size_t j = i + span;
+            double best = -2;
+            for (size_t k = i + 1; k < j; ++k) {
+                const double value = std::min({least[i * n + k], least[k * n + j], quality(p[i], p[k], p[j])});
+                if (value > best) {
+                    best = value;
+                    third[i * n + j] = k;
+                }
+            }
+            least[i * n + j] = best;
+        }
+    if (!(least[n - 1] > flat))
+        return {};
+    Triangles triangles;
+    std::vector<std::array<size_t, 2>> open{{0, n - 1}};
+    while (!open.empty()) {
+        const auto [i, j] = open.back();
+        open.pop_back();
+        if (j < i + 2)
+            continue;
+        const size_t k = third[i * n + j];
+        triangles.push_back({int(i), int(k), int(j)});
+        open.push_back({i, k});
+        open.push_back({k, j});
+    }
+    return triangles;
+}
+
 } // namespace
 
 std::vector<std::array<int, 3>> split_polygon(std::span<const Eigen::Vector3d> corners)
@@ -137,7 +177,12 @@ std::vector<std::array<int, 3>> split_polygon(std::span<const Eigen::Vector3d> c
         return fan;
     }
     const std::vector<Vector2d> plane = project(corners, normal.normalized());
-    return n == 4 ? split_quad(corners, plane) : clip_ears(plane);
+    if (n == 4)
+        return split_quad(corners, plane);
+    const Triangles ears = clip_ears(plane); // none if it crosses itself
+    constexpr int few = 32;                  // corners; the work grows with their third power, here to 0.1 ms
+    const Triangles best = !ears.empty() && n <= few ? best_triangles(plane) : Triangles{};
+    return best.empty() ? ears : best;
 }
 
 } // namespace spia

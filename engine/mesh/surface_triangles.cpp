@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <numeric>
+#include <optional>
 
+#include "engine/mesh/edge_vertices.h"
 #include "engine/mesh/split_polygon.h"
 #include "engine/mesh/weld.h"
 
@@ -47,11 +49,43 @@ void note_cracks(const PolygonSoup& soup, const std::vector<int>& same_as, Docto
     report.findings.back().weld_gap = cracks->tolerance;
 }
 
-/// Per vertex the one that stands for it.
-std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& options, DoctorReport& report)
+/// mm, up to which gaps are closed
+double widest_gap(const PolygonSoup& soup, const DoctorOptions& options)
 {
-    const double gap = options.weld_gap.value_or(options.weld_tolerance * diagonal_of_faces(soup));
-    const Weld found = weld(soup, options.weld ? gap : 0);
+    return options.weld ? options.weld_gap.value_or(options.weld_tolerance * diagonal_of_faces(soup)) : 0;
+}
+
+/// Faces on both sides of a line need not have their vertices at the same places of it.
+/// @returns nothing where all are joined as they are
+std::optional<PolygonSoup> join_edges(const PolygonSoup& soup, const std::vector<int>& same_as, double gap,
+                                      DoctorReport& report)
+{
+    const std::vector<EdgeVertex> vertices_on_edges = edge_vertices(soup, same_as, gap);
+    if (vertices_on_edges.empty())
+        return std::nullopt;
+    std::vector<EdgeVertex> taken;
+    PolygonSoup result = with_corners(soup, same_as, vertices_on_edges, taken);
+    if (taken.empty())
+        return std::nullopt;
+    Tally vertices;
+    double widest = 0;
+    std::sort(taken.begin(), taken.end(), [](const auto& v, const auto& w) { return v.vertex < w.vertex; });
+    for (const EdgeVertex& v : taken) {
+        vertices.add(v.vertex);
+        widest = std::max(widest, v.gap);
+    }
+    report.add(Fault::coincident_vertex, Severity::repaired, vertices,
+               fmt::format("{} on an edge of another face{} (first: vertex {}); that face was divided there",
+                           counted(vertices.count, "vertex lies", "vertices lie"),
+                           widest > 0 ? fmt::format(", up to {:.3g} mm beside it", widest) : "", vertices.first),
+               "");
+    return result;
+}
+
+/// Per vertex the one that stands for it.
+std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& options, double gap, DoctorReport& report)
+{
+    const Weld found = weld(soup, gap);
     Tally joined;
     for (int v = 0; v < soup.vertices(); ++v)
         if (found.same_as[size_t(v)] != v)
@@ -65,10 +99,8 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                                 found.near, found.widest);
         report.add(Fault::coincident_vertex, Severity::repaired, joined, text, "");
     }
-    if (options.weld) {
-        note_cracks(soup, found.same_as, report);
+    if (options.weld)
         return found.same_as;
-    }
     if (joined.count > 0)
         report.add(Fault::coincident_vertex, Severity::note, joined,
                    fmt::format("{} at the place of another (first: vertex {}) and {} left there",
@@ -77,8 +109,6 @@ std::vector<int> join_vertices(const PolygonSoup& soup, const DoctorOptions& opt
                    "if faces that should be connected are not, weld vertices at the same place (--weld)");
     std::vector<int> themselves(size_t(soup.vertices()));
     std::iota(themselves.begin(), themselves.end(), 0);
-    if (joined.count == 0) // else welding comes first
-        note_cracks(soup, themselves, report);
     return themselves;
 }
 
@@ -158,7 +188,8 @@ Polygons without_duplicates(const Polygons& polygons, DoctorReport& report)
     return kept;
 }
 
-SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector3d>& position, DoctorReport& report,
+/// @param soup  as the file has it
+SurfaceTriangles split(const Polygons& polygons, const PolygonSoup& soup, DoctorReport& report,
                        const Progress& progress)
 {
     constexpr size_t most_corners = 1000; // splitting takes time with the square of it
@@ -171,13 +202,13 @@ SurfaceTriangles split(const Polygons& polygons, const std::vector<Eigen::Vector
             progress.checkpoint(double(p) / double(polygons.number.size()), "splitting polygons");
         points.clear();
         for (const int v : corners)
-            points.push_back(position[size_t(v)]);
+            points.push_back(soup.position[size_t(v)]);
         const auto parts = corners.size() > most_corners ? std::vector<Triangle>{} : split_polygon(points);
         if (parts.empty()) {
             crossing.add(polygons.number[p]);
             continue;
         }
-        if (parts.size() > 1)
+        if (parts.size() > 1 && soup.polygon(polygons.number[p]).size() > 3)
             many_corners.add(polygons.number[p]);
         for (const Triangle& t : parts) {
             result.triangle.push_back({corners[size_t(t[0])], corners[size_t(t[1])], corners[size_t(t[2])]});
@@ -204,10 +235,17 @@ SurfaceTriangles surface_triangles(const PolygonSoup& soup, const DoctorOptions&
                                    const Progress& progress)
 {
     progress.checkpoint(0, "joining vertices");
-    const std::vector<int> same_as = join_vertices(soup, options, report);
+    const double gap = widest_gap(soup, options);
+    const std::vector<int> same_as = join_vertices(soup, options, gap, report);
+    std::optional<PolygonSoup> divided;
+    if (gap > 0)
+        divided = join_edges(soup, same_as, gap, report);
+    const PolygonSoup& joined = divided ? *divided : soup;
+    if (options.weld || !report.find(Fault::coincident_vertex)) // else welding comes first
+        note_cracks(joined, same_as, report);
     progress.checkpoint(0.4, "looking for duplicates");
-    const Polygons polygons = without_duplicates(without_repeated_corners(soup, same_as, report), report);
-    SurfaceTriangles result = split(polygons, soup.position, report, progress.part(0.6, 1));
+    const Polygons polygons = without_duplicates(without_repeated_corners(joined, same_as, report), report);
+    SurfaceTriangles result = split(polygons, soup, report, progress.part(0.6, 1));
     result.same_as = same_as;
     return result;
 }

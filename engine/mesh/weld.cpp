@@ -9,6 +9,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "engine/mesh/edge_vertices.h"
+
 namespace spia {
 namespace {
 
@@ -32,27 +34,7 @@ std::vector<int> join_equal(const std::vector<Vector3d>& position)
     return same_as;
 }
 
-/// Edges that one polygon uses alone, the lower end first, in increasing order.
-std::vector<std::array<int, 2>> open_edges(const PolygonSoup& soup, const std::vector<int>& same_as)
-{
-    std::vector<std::array<int, 2>> edges;
-    for (int p = 0; p < soup.polygons(); ++p) {
-        const auto corners = soup.polygon(p);
-        for (size_t k = 0; k < corners.size(); ++k) {
-            const int a = same_as[size_t(corners[k])], b = same_as[size_t(corners[(k + 1) % corners.size()])];
-            if (a != b)
-                edges.push_back({std::min(a, b), std::max(a, b)});
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    std::vector<std::array<int, 2>> open;
-    for (size_t i = 0; i < edges.size(); ++i)
-        if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1]))
-            open.push_back(edges[i]);
-    return open;
-}
-
-/// Their ends, in increasing order.
+/// The ends of open edges, in increasing order.
 std::vector<int> open_vertices(const PolygonSoup& soup, const std::vector<int>& same_as)
 {
     std::vector<int> open;
@@ -243,13 +225,25 @@ std::optional<Cracks> find_cracks(const PolygonSoup& soup, const std::vector<int
         cracks.vertex.push_back(b);
         cracks.widest = std::max(cracks.widest, gap.width);
     }
+    for (const EdgeVertex& v : edge_vertices(soup, same_as, widest)) {
+        const auto corners = soup.polygon(v.polygon);
+        const Vector3d& from = soup.position[size_t(same_as[size_t(corners[size_t(v.corner)])])];
+        const Vector3d& to = soup.position[size_t(same_as[size_t(corners[size_t(v.corner + 1) % corners.size()])])];
+        if (v.gap > narrow * std::min(shortest.at(v.vertex), (to - from).norm()))
+            continue;
+        cracks.vertex.push_back(v.vertex);
+        cracks.widest = std::max(cracks.widest, v.gap);
+    }
     if (cracks.vertex.empty())
         return std::nullopt;
     std::sort(cracks.vertex.begin(), cracks.vertex.end());
     cracks.vertex.erase(std::unique(cracks.vertex.begin(), cracks.vertex.end()), cracks.vertex.end());
     const double digit = std::pow(10, std::floor(std::log10(std::max(cracks.widest, 1e-300))) - 1);
     cracks.tolerance = std::ceil(cracks.widest / digit * (1 + 1e-9)) * digit;
-    if (open_edges(soup, weld(soup, cracks.tolerance).same_as).size() + 1 >= edges.size()) // two edges become one
+    const std::vector<int> closed = weld(soup, cracks.tolerance).same_as;
+    std::vector<EdgeVertex> taken;
+    const PolygonSoup whole = with_corners(soup, closed, edge_vertices(soup, closed, cracks.tolerance), taken);
+    if (open_edges(whole, closed).size() + 1 >= edges.size()) // two edges become one
         return std::nullopt;
     return cracks;
 }

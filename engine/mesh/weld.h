@@ -29,7 +29,8 @@ struct Cracks {
     double tolerance = 0;    ///< mm, that closes them all: `widest`, rounded up to two digits
 };
 
-/// Looks for gaps narrower than 2 % of the shortest open edge at both of their ends; those that would join no edges do not count.
+/// Looks for gaps narrower than 2 % of the shortest open edge at both of their ends, between vertices or from a vertex to the inside of
+/// an edge (with_corners()); those that would join no edges do not count.
 /// @param same_as  as weld() gave it, or all themselves
 /// @returns nothing where there are none
 std::optional<Cracks> find_cracks(const PolygonSoup& soup, const std::vector<int>& same_as);

@@ -89,38 +89,60 @@ void show_buttons(Frame& frame, int number, const Finding& finding)
 }
 
 /// What this program can do about a fault itself.
+enum class Fix { none, keep_largest, weld, close_crack, cut_corners };
+
+Fix fix_of(Frame& frame, const Finding& finding)
+{
+    if (finding.weld_gap)
+        return Fix::close_crack;
+    switch (finding.fault) {
+    case Fault::several_components:
+    case Fault::crowded_edge: return read_options(frame).doctor.keep_largest ? Fix::none : Fix::keep_largest;
+    case Fault::coincident_vertex: return finding.severity == spia::Severity::note ? Fix::weld : Fix::none;
+    case Fault::closed_corner: return Fix::cut_corners;
+    default: return Fix::none;
+    }
+}
+
 void fix_button(Frame& frame, const Finding& finding)
 {
-    const ReadOptions& read = read_options(frame);
-    const bool cut = (finding.fault == Fault::several_components || finding.fault == Fault::crowded_edge) &&
-                     !read.doctor.keep_largest;
-    const bool apart = finding.fault == Fault::coincident_vertex && finding.severity == spia::Severity::note;
-    const std::optional<double> gap = finding.weld_gap;
-    const bool corners = finding.fault == Fault::closed_corner;
-    if (!cut && !apart && !gap && !corners)
+    const Fix fix = fix_of(frame, finding);
+    if (fix == Fix::none)
         return;
     if (!finding.place.empty())
         ImGui::SameLine();
     ImGui::BeginDisabled(frame.model.busy());
-    if (cut && small_button(frame, "Keep the largest piece"))
-        read_with(frame, [](Reading& reading) { reading.keep_largest = true; });
-    if (apart && small_button(frame, "Weld vertices"))
-        read_with(frame, [](Reading& reading) { reading.weld = true; });
-    if (gap && small_button(frame, "Close the crack"))
-        read_with(frame, [&](Reading& reading) {
-            reading.weld = true;
-            reading.weld_gap_mm = gap;
-        });
-    if (corners && small_button(frame, "Cut the corners"))
-        frame.actions.push(SetSeam{{SeamOptions::Mode::corners}});
+    std::string hint;
+    switch (fix) {
+    case Fix::keep_largest:
+        if (small_button(frame, "Keep the largest piece"))
+            read_with(frame, [](Reading& reading) { reading.keep_largest = true; });
+        hint =
+            "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them.";
+        break;
+    case Fix::weld:
+        if (small_button(frame, "Weld vertices"))
+            read_with(frame, [](Reading& reading) { reading.weld = true; });
+        hint = "Reads the part again and welds vertices at the same place. Undo separates them again.";
+        break;
+    case Fix::close_crack:
+        if (small_button(frame, "Close the crack"))
+            read_with(frame, [&](Reading& reading) {
+                reading.weld = true;
+                reading.weld_gap_mm = finding.weld_gap;
+            });
+        hint = fmt::format("Reads the part again and joins open edges up to {} apart. Undo separates them again.",
+                           length_text(*finding.weld_gap, frame.lengths()));
+        break;
+    case Fix::cut_corners:
+        if (small_button(frame, "Cut the corners"))
+            frame.actions.push(SetSeam{{SeamOptions::Mode::corners}});
+        hint = "Reads the part again and cuts it from these corners to its border. Undo joins them again.";
+        break;
+    case Fix::none: break;
+    }
     ImGui::EndDisabled();
-    tooltip(
-        corners ? "Reads the part again and cuts it from these corners to its border. Undo joins them again."
-        : gap   ? fmt::format("Reads the part again and joins open edges up to {} apart. Undo separates them again.",
-                              length_text(*gap, frame.lengths()))
-        : cut
-            ? "Reads the part again with the largest connected piece only; faces attached at edges of three faces are left out too. Undo restores them."
-            : "Reads the part again and welds vertices at the same place. Undo separates them again.");
+    tooltip(hint);
 }
 
 /// Which faces of a CAD file are read: of a solid those of one skin.
@@ -305,17 +327,23 @@ void doctor_panel(Frame& frame)
         refused      ? fmt::format("Refused: {}", fatal == 1 ? "1 mesh fault" : fmt::format("{} mesh faults", fatal))
              : count == 1 ? "1 note on the file"
                      : fmt::format("{} notes on the file", count);
+    // What can be done better with one click is not hidden behind another.
+    const auto has_fix = [&](const Finding& f) { return fix_of(frame, f) != Fix::none; };
+    const bool fixes = std::any_of(findings.begin(), findings.end(), has_fix);
     ImGui::PushStyleColor(ImGuiCol_Text, refused ? p.error : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-    const bool open =
-        ImGui::TreeNodeEx(refused ? "refused" : "doctor",
-                          refused ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None, "%s", title.c_str());
+    const bool open = ImGui::TreeNodeEx(refused ? "refused"
+                                        : fixes ? "fixes"
+                                                : "doctor",
+                                        refused || fixes ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None,
+                                        "%s", title.c_str());
     ImGui::PopStyleColor();
     if (open) {
         std::vector<int> order(findings.size());
         for (size_t i = 0; i < order.size(); ++i)
             order[i] = int(i);
         std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-            return findings[size_t(a)].severity > findings[size_t(b)].severity; // the grave ones first
+            const Finding &f = findings[size_t(a)], &g = findings[size_t(b)]; // the grave ones first
+            return std::pair(f.severity, has_fix(f)) > std::pair(g.severity, has_fix(g));
         });
         for (const int i : order) {
             const Finding& finding = findings[size_t(i)];

@@ -146,7 +146,7 @@ TEST_F(BendsByHand, TheCornersOfATrayAreCutAndItUnrolls)
     const shapes::LippedBox box;
     shapes::write_mesh(folder / "tray.obj", shapes::lipped_box(box));
     start((folder / "tray.obj").string());
-    click_left("1 note on the file");
+    hands->see("1 note on the file"); // open, for something can be done
     click_left("Cut the corners");
     const Json now = hands->see_that("a blank with cuts", [](const Json& r) {
         return r["part"].is_object() && r["part"]["seam"].size() == 4 && r["stages"]["solve"] == true &&
