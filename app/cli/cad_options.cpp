@@ -1,20 +1,17 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cctype>
 #include <numbers>
 
 #include "app/cli/commands.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/read_cad.h"
 
 namespace spia::cli {
 
 CadOptions cad_options(const CadArguments& arguments, const std::filesystem::path& part)
 {
-    std::string extension = part.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = lower_case(part.extension().string());
     const bool any = arguments.sewing || arguments.deflection || arguments.angle_deg || arguments.skip_bad_faces;
     if (any && !is_cad(extension))
         throw InputError(

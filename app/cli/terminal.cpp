@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "engine/core/text.h"
+
 namespace spia::cli {
 namespace {
 
@@ -20,23 +22,6 @@ std::shared_ptr<std::atomic<bool>>& flag()
     return cancel;
 }
 std::atomic<bool>* flag_of_handler = nullptr; // a handler may touch nothing but lock-free atomics
-
-/// Bytes of the character at the beginning; 0: none of UTF-8.
-size_t utf8_length(std::string_view text)
-{
-    const auto first = static_cast<unsigned char>(text[0]);
-    const size_t length = first < 0x80                    ? 1
-                          : first >= 0xc2 && first < 0xe0 ? 2
-                          : first >= 0xe0 && first < 0xf0 ? 3
-                          : first >= 0xf0 && first < 0xf5 ? 4
-                                                          : 0;
-    if (length == 0 || length > text.size())
-        return 0;
-    for (size_t k = 1; k < length; ++k)
-        if ((static_cast<unsigned char>(text[k]) & 0xc0) != 0x80)
-            return 0;
-    return length;
-}
 
 extern "C" void on_signal(int signal)
 {

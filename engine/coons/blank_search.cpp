@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 
 namespace {
 
 using Eigen::Vector2d;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Whether one layer can explain all these faces at one point: they meet in a vertex, and it is inside at most one.
 bool one_layer(const std::vector<MeshPoint>& found, const Eigen::Matrix3Xi& triangle)

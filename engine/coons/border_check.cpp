@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/mesh/vectors.h"
+
 namespace spia {
 
 namespace {
@@ -30,8 +32,6 @@ std::vector<Eigen::Vector2d> border_polygon(const QuadGrid& grid)
         add(0, j);
     return border;
 }
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// How often a closed polygon turns around, counter-clockwise positive. Only 1 can bound unfolded cells.
 int turns(const std::vector<Eigen::Vector2d>& polygon)

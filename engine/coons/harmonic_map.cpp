@@ -8,6 +8,7 @@
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 
@@ -17,8 +18,6 @@ namespace {
 // conditioned.
 constexpr double smallest_weight = 0.1;
 constexpr double largest_weight = 100;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Bit k is set for a vertex on side k; a corner is on two sides.
 std::vector<char> sides_of_vertices(const BlankBoundary& boundary, int vertices)

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "engine/core/text.h"
 #include "engine/mesh/disjoint_sets.h"
 
 namespace spia {
@@ -311,8 +312,7 @@ void name_pieces(const CadContent& cad, PartFile& part)
 /// As IGES files call it, and STEP files.
 bool is_mm(const std::string& unit)
 {
-    std::string small = unit;
-    std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string small = lower_case(unit);
     return small == "mm" || small == "millimetre" || small == "millimeter";
 }
 

@@ -12,12 +12,12 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
-#include <cctype>
 #include <fmt/core.h>
 #include <sstream>
 #include <stdexcept>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/brep_check.h"
 #include "engine/exchange/cad_damage.h"
 #include "engine/exchange/cad_names.h"
@@ -145,9 +145,7 @@ CadNames read_iges(const std::filesystem::path& path, CadShape& result, const Pr
 
 CadShape read_cad_shape(const std::filesystem::path& path, const Progress& progress)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = lower_case(path.extension().string());
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     CadShape result;
     CadNames names;

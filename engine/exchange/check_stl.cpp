@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/text_lines.h"
 
@@ -24,13 +24,6 @@ static_assert(std::endian::native == std::endian::little, "binary STL is read as
 float without_dust(float value) { return std::abs(value) < 1e-30f ? 0.0f : value; }
 
 bool corners_coincide(const std::array<Point, 3>& p) { return p[0] == p[1] || p[1] == p[2] || p[2] == p[0]; }
-
-std::string lower(std::string_view word)
-{
-    std::string result(word);
-    std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return result;
-}
 
 CheckedFile check_binary(std::string_view file, uint32_t claimed)
 {
@@ -75,7 +68,7 @@ CheckedFile check_text(std::string_view file)
     bool ended = false;
     std::array<Point, 3> corner{};
     while (lines.next()) {
-        const std::string word = lower(lines.words()[0]);
+        const std::string word = lower_case(lines.words()[0]);
         ended = word == "endsolid";
         if (word == "outer") {
             if (corners >= 0)
@@ -117,7 +110,7 @@ CheckedFile check_stl(std::string_view file)
     // Some binary files begin with "solid", so an exact length decides first.
     const bool exact = file.size() >= header_bytes && file.size() == header_bytes + facet_bytes * size_t(claimed);
     const size_t start = std::min(file.find_first_not_of(" \t\r\n"), file.size());
-    const bool text = lower(file.substr(start, 5)) == "solid" && file.substr(0, 1000).find('\0') == file.npos;
+    const bool text = lower_case(file.substr(start, 5)) == "solid" && file.substr(0, 1000).find('\0') == file.npos;
     if (!exact && text)
         return check_text(file);
     if (file.size() < header_bytes)

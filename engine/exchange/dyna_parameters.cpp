@@ -4,19 +4,12 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "engine/core/text.h"
 #include "engine/exchange/deck_number.h"
 #include "engine/exchange/dyna_expression.h"
 
 namespace spia {
 namespace {
-
-std::string small_letters(std::string_view text)
-{
-    std::string result(text);
-    for (char& c : result)
-        c = char(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
 
 /// Of a number; it may have a sign already.
 std::string negative(const std::string& value)
@@ -30,8 +23,7 @@ std::string negative(const std::string& value)
 void DynaParameters::set(std::string_view name, std::string_view value, bool local)
 {
     if (name.size() > 1)
-        (local ? values_.back() : values_.front())[small_letters(trimmed(name.substr(1)))] =
-            std::string(trimmed(value));
+        (local ? values_.back() : values_.front())[lower_case(trimmed(name.substr(1)))] = std::string(trimmed(value));
 }
 
 void DynaParameters::define(const DeckFields& card, bool local)
@@ -53,7 +45,7 @@ void DynaParameters::define_expression(std::string_view line, int width, bool lo
         return;
     }
     const std::optional<double> value =
-        dyna_expression(text, [&](const std::string& of) { return known(small_letters(of)); });
+        dyna_expression(text, [&](const std::string& of) { return known(lower_case(of)); });
     if (value)
         set(name, fmt::format("{:.17g}", std::tolower(name.front()) == 'i' ? std::trunc(*value) : *value), local);
 }
@@ -69,7 +61,7 @@ std::optional<std::string> DynaParameters::known(const std::string& name) const
 std::optional<std::string> DynaParameters::find(std::string_view field)
 {
     const bool minus = field.starts_with('-');
-    const std::string name = small_letters(trimmed(field.substr(minus ? 2 : 1)));
+    const std::string name = lower_case(trimmed(field.substr(minus ? 2 : 1)));
     if (const std::optional<std::string> value = known(name))
         return minus ? negative(*value) : value;
     undefined_.insert(std::string(field.substr(minus ? 1 : 0)));

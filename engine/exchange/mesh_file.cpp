@@ -1,10 +1,9 @@
 #include "engine/exchange/mesh_file.h"
 
-#include <algorithm>
-#include <cctype>
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/checked_file.h"
 #include "engine/exchange/file_content.h"
 #include "engine/exchange/read_cad.h"
@@ -30,9 +29,7 @@ CheckedFile check(std::string_view extension, std::string_view content)
 
 std::string part_extension(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = lower_case(path.extension().string());
     for (const char* known : {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"})
         if (extension == known)
             return extension.substr(1);

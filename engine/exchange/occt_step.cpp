@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/occt_session.h"
 #include "engine/exchange/provenance.h"
 
@@ -58,33 +59,25 @@ void fill_header(const Handle(StepData_StepModel) & model, const std::string& fi
         }
 }
 
-/// Length of the UTF-8 character that starts with this byte, 0 if none can.
-int utf8_length(unsigned char lead)
-{
-    return lead < 0x80 ? 1 : lead >> 5 == 0x6 ? 2 : lead >> 4 == 0xe ? 3 : lead >> 3 == 0x1e ? 4 : 0;
-}
-
 /// Names beyond ASCII as ISO 10303-21 wants them, e.g. \X2\00FC\X0\ for a u umlaut; OpenCASCADE passes UTF-8
 /// through.
 std::string with_encoded_names(const std::string& utf8)
 {
     std::string result;
     result.reserve(utf8.size());
-    for (size_t at = 0; at < utf8.size();) {
-        const int length = utf8_length(static_cast<unsigned char>(utf8[at]));
-        if (length == 1) {
-            result += utf8[at++];
-            continue;
-        }
-        unsigned code = length ? static_cast<unsigned char>(utf8[at]) & (0x7fu >> length) : 0;
-        int used = 1;
-        for (; used < length && at + size_t(used) < utf8.size() && (utf8[at + size_t(used)] & 0xc0) == 0x80; ++used)
-            code = code << 6 | (static_cast<unsigned char>(utf8[at + size_t(used)]) & 0x3fu);
-        if (length == 0 || used < length)
+    for (std::string_view rest = utf8; !rest.empty();) {
+        const size_t length = utf8_length(rest);
+        if (length == 0) {
             result += '?';
-        else
+        } else if (length == 1) {
+            result += rest[0];
+        } else {
+            unsigned code = static_cast<unsigned char>(rest[0]) & (0x7fu >> length);
+            for (size_t k = 1; k < length; ++k)
+                code = code << 6 | (static_cast<unsigned char>(rest[k]) & 0x3fu);
             result += code > 0xffff ? fmt::format("\\X4\\{:08X}\\X0\\", code) : fmt::format("\\X2\\{:04X}\\X0\\", code);
-        at += size_t(used);
+        }
+        rest.remove_prefix(std::max<size_t>(length, 1));
     }
     return result;
 }

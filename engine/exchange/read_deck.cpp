@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "engine/core/text.h"
 
 namespace spia {
 namespace {
@@ -34,9 +35,7 @@ bool is_deck(std::string_view extension) { return format_of(extension) != nullpt
 
 Deck read_deck(const std::filesystem::path& file, std::string content, const Progress& progress)
 {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        c = char(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = lower_case(file.extension().string());
     DeckLines lines(file, std::move(content), progress);
     return format_of(extension)->read(lines);
 }

@@ -4,11 +4,10 @@
 #include <numbers>
 
 #include "engine/mesh/orient2d.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 bool flipped(const Eigen::Vector3i& face, const Eigen::Matrix2Xd& X)
 {

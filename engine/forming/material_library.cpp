@@ -8,20 +8,12 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 
 namespace spia {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Only ASCII letters change: the result must not depend on the user's locale.
-std::string lower_case(std::string text)
-{
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z')
-            c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
 
 /// The letters and digits alone, since "AA6016-T4" is meant to be as close to "aa6016_t4" as can be.
 std::string squeezed(const std::string& text)

@@ -9,6 +9,7 @@
 
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 
@@ -30,8 +31,6 @@ constexpr int most_rounds = 200;
 constexpr double longest_arc = 4; ///< over its distance from the rest of the border
 constexpr double least_piece =
     1. / 40; ///< of the blank's size, of cuts and edges: they may run as close to others as they like
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// How far a ray goes until it meets a segment, over the length of `way`; infinite if it does not.
 double reach_of(const Point& from, const Point& way, const Point& a, const Point& b)

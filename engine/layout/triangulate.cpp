@@ -6,6 +6,7 @@
 #include "engine/layout/plane_graph.h"
 #include "engine/layout/plane_lines.h"
 #include "engine/mesh/orient2d.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 
@@ -54,9 +55,10 @@ bool blocks(const Wall& wall, const PlaneGraph& graph, const Line& line)
     return same_direction(shared, other, shared == p ? q : p);
 }
 
-double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+/// Radians between two vectors of the plane, 0 to pi.
+double plane_angle(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
-    return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
+    return std::abs(std::atan2(cross(a, b), a.dot(b)));
 }
 
 /// Per vertex the points to which the border and the lines that are kept lead from it.
@@ -81,7 +83,7 @@ double angle_to_fixed(const PlaneGraph& graph, const std::vector<std::vector<Eig
     for (const auto& [v, w] : {std::pair(from, to), std::pair(to, from)}) {
         const Eigen::Vector2d at = graph.vertex[size_t(v)], d = graph.vertex[size_t(w)] - at;
         for (const Eigen::Vector2d& way : ways[size_t(v)])
-            least = std::min(least, angle_between(d, way - at));
+            least = std::min(least, plane_angle(d, way - at));
     }
     return least;
 }

@@ -11,14 +11,13 @@
 #include "engine/core/error.h"
 #include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 
 namespace {
 
 constexpr double largest_cotangent = 1e3; // of a sliver: keeps one bad triangle from ruling the equations
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double loop_area(const std::vector<int>& loop, const Eigen::Matrix2Xd& plane)
 {

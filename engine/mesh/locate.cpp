@@ -6,6 +6,8 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
+#include "engine/mesh/vectors.h"
+
 namespace spia {
 
 namespace {
@@ -16,8 +18,6 @@ using Box = bg::model::box<Corner>;
 using Entry = std::pair<Box, int>;
 
 constexpr double relative_tolerance = 1e-10;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The nearest point of the segment a b, as the weight of b.
 double nearest_on_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)

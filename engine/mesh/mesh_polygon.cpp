@@ -6,6 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "engine/mesh/vectors.h"
+
 namespace spia {
 
 namespace {
@@ -17,7 +19,6 @@ constexpr double growth = 1.25;          // of the spacing from one ring of poin
 constexpr double flip_tolerance = 1e-10; // sine of what the angles against an edge exceed pi: keeps flips from cycling
 constexpr int most_passes = 60;
 
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 double doubled_area(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
 
 /// Doubled area over the squared longest edge: 0.87 for an equilateral triangle, 0 or less for a flat or turned one.

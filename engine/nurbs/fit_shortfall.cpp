@@ -8,15 +8,11 @@
 
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 
 namespace {
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {

@@ -1,9 +1,9 @@
 #include "engine/pipeline/line_file.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/atomic_file.h"
 #include "engine/exchange/write_lines.h"
 #include "engine/pipeline/file_members.h"
@@ -68,8 +68,7 @@ std::vector<SheetLine> lines_of_json(const std::filesystem::path& file, LengthUn
 
 DxfLines read_line_file(const std::filesystem::path& file, LengthUnit otherwise)
 {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string ending = lower_case(file.extension().string());
     DxfLines read;
     if (ending == ".dxf")
         read = read_dxf(file, otherwise);

@@ -1,13 +1,12 @@
 #include "engine/pipeline/part_bends.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <fmt/core.h>
 #include <numbers>
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/exchange/file_content.h"
 #include "engine/unfold/relaid_blank.h"
 
@@ -92,8 +91,7 @@ void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& 
 
 KFactor k_factor(const std::string& text)
 {
-    std::string lower = text;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string lower = lower_case(text);
     if (lower == "din6935")
         return din6935_k();
     double value = 0;

@@ -5,14 +5,10 @@
 
 #include "engine/mesh/edge_graph.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 namespace {
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 std::vector<char> kept_edges(const TriMesh& mesh, const EdgeGraph& graph, std::span<const int> label, double angle)
 {

@@ -8,14 +8,10 @@
 #include "engine/core/error.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 namespace {
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// Per vertex: the greatest angle between neighbours of its faces, theirs across the edge opposite to it among them. Where they turn
 /// as far as no facet of a bend does there is a sharp edge, which is no chord.

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <set>
 
+#include "engine/mesh/vectors.h"
+
 namespace spia {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 /// Of a symmetric, positive definite matrix. [Cayley and Hamilton]
 Eigen::Matrix2d root(const Eigen::Matrix2d& A)

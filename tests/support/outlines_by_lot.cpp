@@ -12,6 +12,7 @@
 
 #include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/vectors.h"
 #include "tests/support/lots.h"
 
 namespace spia::shapes {
@@ -25,8 +26,6 @@ constexpr double pi = std::numbers::pi;
 constexpr int pieces_of_outline = 260; // about
 
 Point polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Points star(Lots& lots)
 {

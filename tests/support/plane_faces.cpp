@@ -7,10 +7,10 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/mesh/vectors.h"
+
 namespace spia::shapes {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {

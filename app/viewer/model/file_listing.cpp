@@ -1,8 +1,8 @@
 #include "app/viewer/model/file_listing.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "engine/core/text.h"
 #include "engine/exchange/deck_number.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
@@ -56,8 +56,7 @@ ListedFile look_into(const std::filesystem::path& file, const Progress& progress
 
 bool has_choices(const std::filesystem::path& file)
 {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string ending = lower_case(file.extension().string());
     return is_cad(ending) || is_deck(ending);
 }
 

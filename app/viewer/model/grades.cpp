@@ -6,6 +6,7 @@
 
 #include "app/viewer/model/recent_files.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/forming/fit_hardening.h"
 #include "engine/forming/material_library.h"
 
@@ -13,14 +14,6 @@ namespace fs = std::filesystem;
 
 namespace spia::viewer {
 namespace {
-
-std::string lower_case(std::string text)
-{
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z')
-            c = char(c - 'A' + 'a');
-    return text;
-}
 
 Grade read_grade(const fs::path& file, bool own)
 {

@@ -1,7 +1,6 @@
 #include "app/viewer/model/manual.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/core.h>
 #include <fstream>
 #include <md4c.h>
@@ -9,19 +8,12 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 
 namespace fs = std::filesystem;
 
 namespace spia::viewer {
 namespace {
-
-std::string lower(std::string_view text)
-{
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return char(c < 0x80 ? std::tolower(c) : c); });
-    return result;
-}
 
 std::string words_of(const ManualText& text)
 {
@@ -227,7 +219,7 @@ Manual read_manual(const fs::path& folder)
 std::vector<ManualPlace> places_of(const Manual& manual, std::string_view words)
 {
     std::vector<std::string> wanted;
-    std::istringstream each(lower(words));
+    std::istringstream each(lower_case(words));
     for (std::string word; each >> word;)
         wanted.push_back(word);
     constexpr size_t least = 2;
@@ -237,7 +229,7 @@ std::vector<ManualPlace> places_of(const Manual& manual, std::string_view words)
     for (size_t c = 0; c < manual.chapters.size(); ++c)
         for (size_t b = 0; b < manual.chapters[c].blocks.size(); ++b) {
             const ManualBlock& block = manual.chapters[c].blocks[b];
-            const std::string text = block.plain(), searched = lower(text);
+            const std::string text = block.plain(), searched = lower_case(text);
             if (!std::all_of(wanted.begin(), wanted.end(),
                              [&](const std::string& word) { return searched.find(word) != std::string::npos; }))
                 continue;

@@ -11,6 +11,7 @@
 #include "app/viewer/model/lengths.h"
 #include "app/viewer/model/names.h"
 #include "engine/core/error.h"
+#include "engine/mesh/vectors.h"
 #include "engine/unfold/fit_binder.h"
 
 namespace spia::viewer {
@@ -27,8 +28,6 @@ Vector3d normal(const TriMesh& part, int face)
     const Eigen::Matrix3d c = corners(part, face);
     return (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).normalized();
 }
-
-double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 std::vector<double> numbers(const Vector3d& at) { return {at[0] + 0., at[1] + 0., at[2] + 0.}; }
 

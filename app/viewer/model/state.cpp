@@ -8,7 +8,6 @@
 namespace spia::viewer {
 
 std::string_view name(View view) { return name_in_table(view); }
-View view_by_name(std::string_view name) { return value_by_name<View>(name); }
 
 const char* title(View view)
 {
@@ -22,7 +21,6 @@ const char* title(View view)
 }
 
 std::string_view name(Tool tool) { return name_in_table(tool); }
-Tool tool_by_name(std::string_view name) { return value_by_name<Tool>(name); }
 
 const PartFile* examined(const ViewerState& state)
 {

@@ -36,7 +36,6 @@ enum class Tool {
     measure
 };
 std::string_view name(Tool tool);
-Tool tool_by_name(std::string_view name); ///< @throws InputError
 
 /// What is dragged of the surface with the tool shape.
 enum class HandleKind { control, lattice };

@@ -6,7 +6,6 @@ namespace spia::viewer {
 /// The four pictures of the window.
 enum class View { part, blank, quads, surface };
 inline constexpr View all_views[] = {View::part, View::blank, View::quads, View::surface};
-std::string_view name(View view);         ///< "part", ...
-View view_by_name(std::string_view name); ///< @throws InputError
+std::string_view name(View view); ///< "part", ...
 
 } // namespace spia::viewer

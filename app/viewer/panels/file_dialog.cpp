@@ -11,6 +11,7 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -63,12 +64,6 @@ const Wording& wording(FileDialog::Purpose purpose)
     case P::save_steps: return save_steps;
     }
     return part;
-}
-
-std::string lower(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
 }
 
 std::string size_text(std::uintmax_t bytes)
@@ -144,7 +139,7 @@ void FileDialog::go_to(const fs::path& folder)
             continue;
         std::error_code ignored;
         const bool is_folder = file.is_directory(ignored);
-        const std::string ending = lower(file.path().extension().string());
+        const std::string ending = lower_case(file.path().extension().string());
         if (!is_folder && words.folders)
             continue;
         if (!is_folder && std::find(words.endings.begin(), words.endings.end(), ending) == words.endings.end()) {
@@ -156,7 +151,8 @@ void FileDialog::go_to(const fs::path& folder)
         entries_.push_back({file.path(), is_folder, ignored ? 0 : size}); // a broken link has no size
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-        return a.folder != b.folder ? a.folder : lower(a.path.filename().string()) < lower(b.path.filename().string());
+        return a.folder != b.folder ? a.folder
+                                    : lower_case(a.path.filename().string()) < lower_case(b.path.filename().string());
     });
 }
 
@@ -224,8 +220,8 @@ std::optional<fs::path> FileDialog::take()
             name_.clear();
         return std::nullopt;
     }
-    if (words.saves &&
-        std::find(words.endings.begin(), words.endings.end(), lower(path.extension().string())) == words.endings.end())
+    if (words.saves && std::find(words.endings.begin(), words.endings.end(), lower_case(path.extension().string())) ==
+                           words.endings.end())
         path += words.endings[0];
     const bool there = fs::exists(path, ignored);
     if (words.saves && there && !std::exchange(confirm_, true))

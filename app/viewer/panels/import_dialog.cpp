@@ -2,7 +2,6 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
@@ -15,6 +14,7 @@
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/view_tools.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/core/text.h"
 
 namespace spia::viewer {
 namespace {
@@ -86,9 +86,9 @@ std::string size_words(const ListedFile& listed, LengthUnit lengths)
 }
 
 /// What the file calls its unit, as people write it.
-std::string unit_words(std::string unit)
+std::string unit_words(const std::string& as_written)
 {
-    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string unit = lower_case(as_written);
     return unit == "millimetre" || unit == "millimeter" ? "mm" : unit == "metre" || unit == "meter" ? "m" : unit;
 }
 
