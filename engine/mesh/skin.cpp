@@ -127,8 +127,9 @@ struct MiddleSurface {
         const Eigen::Vector3d first = normal_of(farthest_from(mean));
         // Above 50 degrees it is an edge, above 40 degrees an edge or a coarse bend, where the inner skin may tell.
         constexpr double edge = 0.643, smooth = 0.766;
-        const double turn = first.dot(normal_of(farthest_from(first)));
-        const std::optional<Eigen::Vector3d> told = turn < edge ? std::nullopt : from_inner(v, mean);
+        const Eigen::Vector3d second = normal_of(farthest_from(first));
+        const double turn = first.dot(second);
+        const std::optional<Opposite> told = turn < edge ? std::nullopt : from_inner(v, mean, first, second);
         const bool sharp = turn < smooth && !told;
 
         const double half = sheet.thickness / 2;
@@ -137,7 +138,7 @@ struct MiddleSurface {
             for (const int f : skin)
                 planes.add(normal_of(f), -half);
         else
-            planes.add(told.value_or(mean), -half);
+            planes.add(told ? told->outwards : mean, told ? -told->distance / 2 : -half);
         constexpr double slanted = 0.8; // a face that goes on from the skin more than down from it gives no direction
         bool at_rim = false;
         for (const int f : others)
@@ -184,26 +185,45 @@ struct MiddleSurface {
         return planes.move();
     }
 
-    /// Outwards. Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not.
-    std::optional<Eigen::Vector3d> from_inner(int v, const Eigen::Vector3d& mean) const
+    /// The place of the inner skin that is opposite to a vertex of the outer one.
+    struct Opposite {
+        Eigen::Vector3d outwards; ///< unit, from there to the vertex
+        double distance;          ///< mm
+    };
+
+    /// Where the inner skin is the thickness away at its nearest place or a vertex there, that is where it is not. Flats that are folded
+    /// without a radius are mitred: their corners are farther apart.
+    /// @param first, second  normals of the faces at the vertex that turn most from each other
+    std::optional<Opposite> from_inner(int v, const Eigen::Vector3d& mean, const Eigen::Vector3d& first,
+                                       const Eigen::Vector3d& second) const
     {
-        constexpr double equal = 1e-4, aside = 0.8;
+        constexpr double equal = 1e-4, aside = 0.8, straight = 0.999,
+                         farthest = 1.15; // beyond it turns by 50 degrees and more
         const Eigen::Vector3d here = solid.position.col(v);
-        const ClosestPoint near = nearest_inner.nearest(here, 1.1 * sheet.thickness);
+        const ClosestPoint near = nearest_inner.nearest(here, farthest * sheet.thickness);
         if (near.face < 0)
             return std::nullopt;
-        std::vector<Eigen::Vector3d> opposite{near.position};
+        const auto at = [&](const Eigen::Vector3d& place) {
+            const double distance = (here - place).norm();
+            return Opposite{(here - place) / distance, distance};
+        };
+        std::vector<Opposite> opposite{at(near.position)};
         for (int k = 0; k < 3; ++k)
-            opposite.push_back(inner.position.col(inner.triangle(k, near.face)));
-        std::optional<Eigen::Vector3d> best;
+            opposite.push_back(at(inner.position.col(inner.triangle(k, near.face))));
+        const Eigen::Vector3d between = (first + second).normalized();
+        const double mitred = sheet.thickness / between.dot(first);
+        for (size_t k = 1; k < opposite.size() && mitred > (1 + 2 * equal) * sheet.thickness; ++k)
+            if (std::abs(opposite[k].distance - mitred) < equal * sheet.thickness &&
+                opposite[k].outwards.dot(between) > straight)
+                return opposite[k];
+        std::optional<Opposite> best;
         double off = equal * sheet.thickness;
-        for (const Eigen::Vector3d& place : opposite) {
-            const double distance = (here - place).norm(), from = std::abs(distance - sheet.thickness);
-            if (from <= off && (here - place).dot(mean) > aside * distance) {
+        for (const Opposite& place : opposite)
+            if (const double from = std::abs(place.distance - sheet.thickness);
+                from <= off && place.outwards.dot(mean) > aside) {
                 off = from;
-                best = (here - place) / distance;
+                best = {place.outwards, sheet.thickness};
             }
-        }
         return best;
     }
 };

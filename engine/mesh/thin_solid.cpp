@@ -304,8 +304,30 @@ std::vector<char> turning_vertices(const Solid& solid)
     return turns;
 }
 
+/// Vertices at which the border of a skin turns, as at both ends of a free edge; where a section is cut into chords it does not.
+std::vector<char> border_corners(const Solid& solid)
+{
+    constexpr double turn = 0.5; // the sine of 30 degrees
+    const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3d> way(size_t(solid.mesh.vertices()), none);
+    std::vector<char> corner(way.size(), 0);
+    const std::vector<EdgeUse> uses = edge_uses(solid.mesh.triangle);
+    for_each_edge(uses, [&](size_t begin, size_t end) {
+        if (end - begin != 2 || solid.side(uses[begin].face) == solid.side(uses[begin + 1].face))
+            return;
+        const int a = uses[begin].low, b = uses[begin].high;
+        const Eigen::Vector3d along = (solid.mesh.position.col(b) - solid.mesh.position.col(a)).normalized();
+        for (const int v : {a, b}) {
+            corner[size_t(v)] |= way[size_t(v)].cross(along).norm() > turn;
+            way[size_t(v)] = along;
+        }
+    });
+    return corner;
+}
+
 /// The thickness between curved skins. Rays meet chords there, not the surfaces; vertices lie on them, so the thickness is
-/// the distance of vertices that lie straight opposite to each other: of those where the skins turn, if there are enough.
+/// the distance of vertices that lie straight opposite to each other: of those where the skins turn, if there are enough. Of flats that
+/// are folded without a radius those lie on the mitre, farther apart than the flats are: there rays are right, as the ends of free edges say.
 /// @param by_rays mm, and what is returned where too few vertices lie so
 /// @param marks  do not count
 double between_vertices(const Solid& solid, double by_rays, const std::vector<SheetMark>& marks)
@@ -317,8 +339,8 @@ double between_vertices(const Solid& solid, double by_rays, const std::vector<Sh
                 marked[size_t(f)] = 1;
     constexpr double exact = 1e-4, alike = 1e-3;
     constexpr double nearer = 0.02, farther = 0.1; // chords of 50 degrees are nearer to each other by that
-    std::vector<double> distance, turning;
-    const std::vector<char> turns = turning_vertices(solid);
+    std::vector<double> distance, turning, ends;
+    const std::vector<char> turns = turning_vertices(solid), corners = border_corners(solid);
     int asked = 0;
     for (const PieceSide side : {PieceSide::one, PieceSide::other}) {
         const ClosestPointSearch opposite(only(solid, side == PieceSide::one ? PieceSide::other : PieceSide::one));
@@ -336,13 +358,19 @@ double between_vertices(const Solid& solid, double by_rays, const std::vector<Sh
                 distance.push_back(near.distance);
                 if (turns[size_t(v)])
                     turning.push_back(near.distance);
+                else if (corners[size_t(v)])
+                    ends.push_back(near.distance);
             }
     }
-    constexpr size_t enough = 8;
+    constexpr size_t enough = 8, one_edge = 4; // has so many ends on both skins
     std::sort(turning.begin(), turning.end());
     if (turning.size() >= enough)
-        if (const std::optional<double> same = agreed(turning))
-            return *same;
+        if (const std::optional<double> same = agreed(turning)) {
+            const auto by_rays_too = [&](double d) { return std::abs(d - by_rays) < exact * by_rays; };
+            const bool mitred = *same > (1 + alike) * by_rays && ends.size() >= one_edge &&
+                                std::all_of(ends.begin(), ends.end(), by_rays_too);
+            return mitred ? by_rays : *same;
+        }
     if (distance.size() < std::max(enough, size_t(asked / 50)))
         return by_rays;
     std::sort(distance.begin(), distance.end());

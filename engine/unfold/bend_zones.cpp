@@ -254,7 +254,7 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
     return zones;
 }
 
-std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map)
+std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map, bool of_solid)
 {
     constexpr double most_off = 2e-3; // of the radius: vertices of meshes are rounded
     const Eigen::Matrix3Xi neighbour = face_neighbours(part.triangles(), edge_uses(part.triangle));
@@ -273,7 +273,7 @@ std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map)
         measure(part, neighbour, zone);
         zones.push_back(std::move(zone));
     };
-    for (StripCylinder& strips : strip_cylinders(part, normal, neighbour))
+    for (StripCylinder& strips : strip_cylinders(part, normal, neighbour, of_solid))
         take(strips.cylinder, std::move(strips.face));
     for (size_t b = 0; b < map.bends.size(); ++b) {
         if (map.bends[b].faces == 0 || map.bends[b].b < 0)

@@ -29,6 +29,8 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
 
 /// Zones of a mesh that nothing is known of: the chords of cylinders however large (strip_cylinders()); then of each bend of the map
 /// the circle through its vertices, if they lie on one, and all faces of the bend and beside it with their corners on it.
-std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map);
+/// @param of_solid  a surface of a solid both of whose skins were searched (measured_cylinders()): flats around a circle that are on none
+///                  found there are folds
+std::vector<BendZone> fitted_zones(const TriMesh& part, const BendMap& map, bool of_solid = false);
 
 } // namespace spia

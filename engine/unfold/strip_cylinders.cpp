@@ -29,9 +29,9 @@ struct Ruling {
 
 class Strips {
 public:
-    Strips(const TriMesh& part, const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour)
-        : part_(part), normal_(normal), neighbour_(neighbour), facet_(size_t(part.triangles())), faces_(facet_.size()),
-          beside_(facet_.size()), taken_(facet_.size(), 0)
+    Strips(const TriMesh& part, const Eigen::Matrix3Xd& normal, const Eigen::Matrix3Xi& neighbour, bool tangential)
+        : part_(part), normal_(normal), neighbour_(neighbour), tangential_(tangential),
+          facet_(size_t(part.triangles())), faces_(facet_.size()), beside_(facet_.size()), taken_(facet_.size(), 0)
     {
         join_planes();
         find_rulings();
@@ -240,7 +240,7 @@ private:
         }
         if (most > most_turn)
             return false;
-        if (facets.size() >= many && most - least < alike * most)
+        if (!tangential_ && facets.size() >= many && most - least < alike * most)
             return true;
         bool tangent = false;
         for (const int facet : facets)
@@ -261,6 +261,7 @@ private:
     const TriMesh& part_;
     const Eigen::Matrix3Xd& normal_;
     const Eigen::Matrix3Xi& neighbour_;
+    bool tangential_;
     std::vector<int> facet_;              ///< per face, its plane piece: the number of the first face of that
     std::vector<std::vector<int>> faces_; ///< per facet, ascending
     std::vector<Ruling> ruling_;
@@ -271,9 +272,9 @@ private:
 } // namespace
 
 std::vector<StripCylinder> strip_cylinders(const TriMesh& part, const Eigen::Matrix3Xd& normal,
-                                           const Eigen::Matrix3Xi& neighbour)
+                                           const Eigen::Matrix3Xi& neighbour, bool tangential)
 {
-    return Strips(part, normal, neighbour).cylinders();
+    return Strips(part, normal, neighbour, tangential).cylinders();
 }
 
 } // namespace spia

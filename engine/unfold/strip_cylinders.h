@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "engine/mesh/tri_mesh.h"
 #include "engine/mesh/cylinder_fit.h"
+#include "engine/mesh/tri_mesh.h"
 
 namespace spia {
 
@@ -16,9 +16,10 @@ struct StripCylinder {
 /// or more edges lie on some circle anyway; it is the cylinder that was tessellated if the sheet goes on tangentially from its last
 /// chords, which then turn by half their own angle there, or if there are four and more strips as wide as each other. The size of the
 /// cylinder does not matter.
-/// @param normal     area_vectors() of the part
-/// @param neighbour  face_neighbours() of its faces
+/// @param normal      area_vectors() of the part
+/// @param neighbour   face_neighbours() of its faces
+/// @param tangential  only where the sheet goes on tangentially, however many strips there are
 std::vector<StripCylinder> strip_cylinders(const TriMesh& part, const Eigen::Matrix3Xd& normal,
-                                           const Eigen::Matrix3Xi& neighbour);
+                                           const Eigen::Matrix3Xi& neighbour, bool tangential = false);
 
 } // namespace spia

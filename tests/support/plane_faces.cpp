@@ -268,6 +268,24 @@ PlaneLoop sheet_section(const std::vector<ProfilePiece>& pieces, double thicknes
     return result;
 }
 
+PlaneLoop folded_section(int flats, double width, double angle, double thickness)
+{
+    PlaneLoop left, right;
+    Eigen::Vector2d at(0, 0);
+    for (int i = 0; i <= flats; ++i) {
+        const auto heading = [&](double turned) { return Eigen::Vector2d(std::cos(turned), std::sin(turned)); };
+        const bool end = i == 0 || i == flats;
+        const double turned = angle * (i == 0 ? 0 : i == flats ? flats - 1 : i - 0.5);
+        const Eigen::Vector2d h = heading(turned), aside(-h.y(), h.x());
+        const double half = thickness / 2 / (end ? 1 : std::cos(angle / 2));
+        left.push_back(at + half * aside);
+        right.push_back(at - half * aside);
+        at += width * heading(angle * i);
+    }
+    right.insert(right.end(), left.rbegin(), left.rend());
+    return right;
+}
+
 PlaneLoop circle(const Eigen::Vector2d& middle, double radius, int corners, bool clockwise)
 {
     PlaneLoop result;

@@ -46,6 +46,10 @@ struct ProfilePiece {
 };
 PlaneLoop sheet_section(const std::vector<ProfilePiece>& pieces, double thickness, int chords);
 
+/// The section of flats of one width that are folded without a radius by one angle, which is theirs on the middle line: mitred.
+/// @param angle  radians, positive to the left
+PlaneLoop folded_section(int flats, double width, double angle, double thickness);
+
 PlaneLoop circle(const Eigen::Vector2d& middle, double radius, int corners, bool clockwise);
 
 /// A meridian from pole to pole, (radius, height), turned around the z axis; its first and last radius are 0.

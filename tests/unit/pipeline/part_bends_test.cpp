@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <random>
 
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
@@ -306,6 +307,30 @@ TEST_F(PartBends, FlatsAroundACircleAreNoCylinder)
             for (const SheetBend& bend : session.bends->bends)
                 EXPECT_LT(bend.inner_radius, 1) << angle << " " << folds;
         }
+}
+
+TEST_F(PartBends, EqualFoldsOfASolidAreNoCylinder)
+{
+    // Their corners lie on two circles as those of chords do, but farther apart than the flats are thick.
+    std::mt19937 draw(57);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
+    for (int i = 0; i < 20; ++i) {
+        const int flats = 3 + int(draw() % 6);
+        const double thickness = between(0.5, 2), width = between(8, 12) * thickness, length = between(30, 80),
+                     angle = between(10, std::min(40., 300. / flats)) * pi / 180;
+        SCOPED_TRACE(fmt::format("{} flats of {:.4g} mm, {:.4g} degrees, {:.3g} mm thick", flats, width,
+                                 angle * 180 / pi, thickness));
+        const fs::path file = folder_ / "folded.stl";
+        shapes::write_mesh(file, shapes::extruded(shapes::folded_section(flats, width, angle, thickness), {}, length));
+        const Session session = solved(file);
+        EXPECT_NEAR(*session.part->thickness_mm, thickness, 1e-5);
+        for (const SheetBend& bend : session.bends->bends)
+            EXPECT_LT(bend.inner_radius, thickness) << "a flat with its folds";
+        const Eigen::Matrix2Xd& X = session.blank->blank.position;
+        const Eigen::Vector2d size = X.rowwise().maxCoeff() - X.rowwise().minCoeff();
+        EXPECT_NEAR(size.maxCoeff(), std::max(flats * width, length), 1e-4);
+        EXPECT_NEAR(size.minCoeff(), std::min(flats * width, length), 1e-4);
+    }
 }
 
 TEST_F(PartBends, AlongTheRollingDirectionTheBlankLiesStraight)
