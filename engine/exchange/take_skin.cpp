@@ -267,13 +267,18 @@ bool decide(PartFile& part, const ThinSolid& sheet)
 
 /// The surface that is wanted. Where none was asked for and there is no middle one the outer skin is better than nothing, and a doubt.
 /// @param wanted  set to the one that is taken
-SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, Skin& wanted, bool asked, const ThinSolidOptions& units)
+SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes, Skin& wanted,
+                     bool asked, const ThinSolidOptions& units)
 {
     try {
         SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
-        if (wanted == Skin::middle && !units.surface.empty()) {
-            onto_surfaces(skin, part.mesh, sheet, units);
-            round_border(skin, part.mesh, sheet, units.surface);
+        if (wanted == Skin::middle) {
+            if (!units.surface.empty())
+                onto_surfaces(skin, part.mesh, sheet, units);
+            straighten_holes(skin, part.mesh, holes, sheet.thickness);
+            if (!units.surface.empty())
+                round_border(skin, part.mesh, sheet, units.surface);
+            narrow_holes(skin, holes);
         }
         if (skin.straightened > 0)
             part.notes.push_back(fmt::format(
@@ -365,10 +370,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             sheet.thickness = stated_thickness(part.mesh, sheet, surface);
         const ThinSolidOptions units = faces_of(part, normals, surface);
         Skin wanted = options.skin.value_or(Skin::middle);
-        SkinMesh skin = wanted_skin(part, sheet, wanted, options.skin.has_value(), units);
         const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
-        if (wanted == Skin::middle)
-            narrow_holes(skin, holes);
+        SkinMesh skin = wanted_skin(part, sheet, holes, wanted, options.skin.has_value(), units);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
         part.solid = {wanted,
                       sheet.thickness,

@@ -10,6 +10,7 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/round_edge.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -77,71 +78,26 @@ std::vector<Wall> walls_of(const TriMesh& solid, const ThinSolid& sheet)
     return walls;
 }
 
-struct Circle {
-    Eigen::Vector3d centre, outwards; ///< outwards: unit length, normal of the skin around it
-    double radius = 0;
-
-    Eigen::Vector3d off_axis(const Eigen::Vector3d& p) const
-    {
-        return p - centre - (p - centre).dot(outwards) * outwards;
-    }
-};
-
-/// Whether directions go all around as the corners of a circle do: it has chords of 30 degrees at most, a polygon with eight corners is one.
-bool all_around(std::vector<double> angle)
+/// The circle that an edge is on plane skin which lies around it, its axis outwards; none: it is another thing.
+std::optional<RoundEdge> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Edge& edge,
+                                        double thickness)
 {
-    constexpr double gap = 35 * std::numbers::pi / 180; // as find_curves() has it
-    if (angle.empty())
-        return false;
-    std::sort(angle.begin(), angle.end());
-    double widest = angle.front() + 2 * std::numbers::pi - angle.back();
-    for (size_t i = 0; i + 1 < angle.size(); ++i)
-        widest = std::max(widest, angle[i + 1] - angle[i]);
-    return widest <= gap;
-}
-
-/// The circle that an edge is on plane skin which lies around it; none: it is another thing.
-std::optional<Circle> circle_through(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Edge& edge,
-                                     double thickness)
-{
-    constexpr size_t least_vertices = 8;
     constexpr double plane = 1 - 1e-6, same = 1e-3; // 0.1 degrees; of the thickness
-    if (edge.vertex.size() < least_vertices)
-        return std::nullopt;
-    Circle circle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    Eigen::Vector3d outwards = Eigen::Vector3d::Zero();
     double size = 0;
     for (const int f : edge.skin) {
-        circle.outwards += normal.col(f);
+        outwards += normal.col(f);
         size += normal.col(f).norm();
     }
-    if (circle.outwards.norm() < plane * size)
+    if (edge.skin.empty() || outwards.norm() < plane * size)
         return std::nullopt;
-    circle.outwards.normalize();
-    // x^2 + y^2 = 2 a x + 2 b y + c in the plane, least squares.
-    const Eigen::Vector3d x = circle.outwards.unitOrthogonal(), y = circle.outwards.cross(x);
-    const Eigen::Matrix3Xd at = solid.position(Eigen::all, edge.vertex);
-    const Eigen::Vector3d mean = at.rowwise().mean();
-    const Eigen::Matrix3Xd from = at.colwise() - mean;
-    Eigen::MatrixX3d a(at.cols(), 3);
-    a << 2 * (x.transpose() * from).transpose(), 2 * (y.transpose() * from).transpose(),
-        Eigen::VectorXd::Ones(at.cols());
-    const Eigen::VectorXd b = a.leftCols<2>().rowwise().squaredNorm() / 4;
-    const Eigen::Vector3d fit = a.colPivHouseholderQr().solve(b);
-    circle.centre = mean + fit[0] * x + fit[1] * y;
-    circle.radius = std::sqrt(std::max(fit[2] + fit.head<2>().squaredNorm(), 0.));
-    std::vector<double> angle;
-    for (Eigen::Index i = 0; i < at.cols(); ++i) {
-        const Eigen::Vector3d way = at.col(i) - circle.centre;
-        angle.push_back(std::atan2(way.dot(y), way.dot(x)));
-        if (std::abs(circle.off_axis(at.col(i)).norm() - circle.radius) > same * thickness ||
-            std::abs(way.dot(circle.outwards)) > same * thickness)
-            return std::nullopt;
-    }
+    const auto circle = round_edge(solid.position(Eigen::all, edge.vertex), outwards, same * thickness);
     double beyond = 0; // of the sheet's own outline the skin is within
     for (const int f : edge.skin)
-        beyond +=
-            circle.off_axis(solid.position(Eigen::all, solid.triangle.col(f)).rowwise().mean()).norm() - circle.radius;
-    return beyond > 0 && all_around(angle) ? std::optional(circle) : std::nullopt;
+        if (circle)
+            beyond += circle->off_axis(solid.position(Eigen::all, solid.triangle.col(f)).rowwise().mean()).norm() -
+                      circle->radius;
+    return beyond > 0 ? circle : std::nullopt;
 }
 
 std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& normal, const Wall& wall, SheetSide side,
@@ -150,7 +106,7 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
     constexpr double same = 1e-3,
                      wider = 0.02; // of the thickness; a hole that was punched is wider at one side by less
     const Edge& edge = side == SheetSide::outer ? wall.outer : wall.inner;
-    const std::optional<Circle> circle = circle_through(solid, normal, edge, thickness);
+    const std::optional<RoundEdge> circle = circle_through(solid, normal, edge, thickness);
     if (!circle)
         return std::nullopt;
     double least = std::numeric_limits<double>::infinity();
@@ -159,21 +115,21 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
     if (least > circle->radius - wider * thickness)
         return std::nullopt;
     double depth = std::numeric_limits<double>::infinity();
-    std::vector<double> angle;
-    const Eigen::Vector3d x = circle->outwards.unitOrthogonal(), y = circle->outwards.cross(x);
+    std::vector<int> narrowest;
     for (const int v : wall.vertex)
-        if (const Eigen::Vector3d out = circle->off_axis(solid.position.col(v));
-            out.norm() <= least + same * thickness) {
-            depth = std::min(depth, (circle->centre - solid.position.col(v)).dot(circle->outwards));
-            angle.push_back(std::atan2(out.dot(y), out.dot(x)));
+        if (circle->off_axis(solid.position.col(v)).norm() <= least + same * thickness) {
+            depth = std::min(depth, -circle->height(solid.position.col(v)));
+            narrowest.push_back(v);
         }
+    if (!circle->surrounded(solid.position(Eigen::all, narrowest)))
+        least = 0;
     double along = 0, size = 0;
     for (const int f : edge.wall) {
-        along += std::abs(normal.col(f).dot(circle->outwards));
+        along += std::abs(normal.col(f).dot(circle->axis));
         size += normal.col(f).norm();
     }
     constexpr double square = 0.1; // 6 degrees
-    return SunkHole{side,  circle->centre,         -circle->outwards, 2 * circle->radius, 2 * least,
+    return SunkHole{side,  circle->centre,         -circle->axis,     2 * circle->radius, 2 * least,
                     depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
 }
 
@@ -191,6 +147,16 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
                 holes.push_back(std::move(*hole));
     }
     return holes;
+}
+
+void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<SunkHole>& holes, double thickness)
+{
+    for (const SunkHole& hole : holes)
+        for (int v = 0; v < middle.mesh.vertices(); ++v)
+            if (const int source = middle.source_vertex[size_t(v)];
+                std::binary_search(hole.outer.begin(), hole.outer.end(), source))
+                middle.mesh.position.col(v) = solid.position.col(source) +
+                                              (hole.skin == SheetSide::outer ? 1 : -1) * thickness / 2 * hole.inwards;
 }
 
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)

@@ -24,6 +24,10 @@ struct SunkHole {
 /// @param solid  without its marks: a shallow counterbore is one
 std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet);
 
+/// Puts the border of these holes in a middle surface straight below their edges on the outer skin. Halfway along the edges of their
+/// walls it lies unevenly: those cross floors of counterbores, and end at any corner of a circle there.
+void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<SunkHole>& holes, double thickness);
+
 /// Gives round holes of a middle surface their least diameter, as they are cut before they are sunk.
 /// @returns how many vertices were moved
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);

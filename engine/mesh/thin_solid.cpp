@@ -10,6 +10,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/mesh/counterbores.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/pick.h"
@@ -176,6 +177,18 @@ void give_slivers_to_their_skin(Solid& solid)
     solid.sides.side = std::move(side);
 }
 
+constexpr double speck = 0.005; // of the surface: what is smaller is no piece of a side
+
+/// Counterbores are of the outline of their holes.
+void give_counterbores_to_the_rim(Solid& solid, double thickness, double area)
+{
+    const std::vector<char> floor =
+        counterbore_floors(solid.mesh, solid.normal, solid.pieces, solid.sides.side, thickness, speck * area);
+    for (size_t p = 0; p < floor.size(); ++p)
+        if (floor[p])
+            solid.sides.side[p] = PieceSide::rim;
+}
+
 /// Each side in one piece, the faces across the thickness between both.
 void require_connected(Solid& solid, double thickness, double area)
 {
@@ -200,7 +213,6 @@ void require_connected(Solid& solid, double thickness, double area)
             }
         if (largest < 0)
             solid.refuse("it has one side only: nothing lies opposite to it", solid.largest([](int) { return true; }));
-        constexpr double speck = 0.005; // of the surface
         if (second >= 0 && size[size_t(second)] > speck * area)
             solid.refuse(
                 fmt::format("one of its sides is in several pieces that only faces across the {:.4g} mm of "
@@ -530,6 +542,7 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     std::vector<SheetMark> marks;
     if (solid.closed)
         marks = find_marks(mesh, solid.normal, solid.pieces, solid.sides.side, thickness);
+    give_counterbores_to_the_rim(solid, thickness, area);
     require_connected(solid, thickness, area);
     if (!solid.closed)
         require_rim(solid);

@@ -1,10 +1,13 @@
 // Countersinks and counterbores of sheet solids: what is cut is the least diameter, what is sunk is told and drawn.
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 
 #include "engine/forming/material_library.h"
+#include "engine/mesh/round_edge.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/session.h"
@@ -18,6 +21,7 @@ namespace {
 
 using shapes::BentSolid;
 using shapes::CadForm;
+using shapes::Cutout;
 using shapes::Sink;
 
 Session blank_of(const std::filesystem::path& file)
@@ -59,15 +63,141 @@ BentSolid drawn_by_lot(std::uint64_t seed)
     return solid;
 }
 
+/// Plates and brackets with one to four counterbores of catalogue's sizes, tenths of a millimetre, from both sides.
+BentSolid counterbored_by_lot(std::uint64_t seed)
+{
+    shapes::Lots lots(seed + 1000);
+    const auto tenths = [&](double low, double high) { return std::round(10 * lots.between(low, high)) / 10; };
+    BentSolid solid;
+    solid.kind = fmt::format("counterbored, seed {}", seed);
+    solid.thickness = tenths(2, 12);
+    solid.width = tenths(50, 80);
+    solid.pose = seed;
+    solid.leg = {tenths(100, 140)};
+    if (solid.thickness < 5 && lots.coin()) {
+        solid.leg.push_back(40);
+        solid.bend.push_back({lots.between(1, 3) * solid.thickness, lots.coin() ? 1.2 : -1.2});
+    }
+    const int count = lots.whole(1, 4);
+    for (int i = 0; i < count; ++i) {
+        Sink sink;
+        sink.centre = {solid.leg[0] * (i + 0.5) / count, solid.width * lots.between(0.4, 0.6)};
+        sink.hole = tenths(1.5, 5);
+        sink.wide = sink.hole + tenths(2, 4.5);
+        sink.counterbore = true;
+        sink.left = lots.coin();
+        sink.depth = tenths(0.25 * solid.thickness, 0.9 * solid.thickness); // shallower ones are marks
+        solid.sink.push_back(sink);
+    }
+    return solid;
+}
+
+/// One of given diameters in the middle of a plate.
+BentSolid counterbored(double length, double width, double thickness, double wide, double hole, double depth)
+{
+    BentSolid solid;
+    solid.kind = fmt::format("M, {} x {}", length, width);
+    solid.thickness = thickness;
+    solid.width = width;
+    solid.leg = {length};
+    Sink sink;
+    sink.centre = {length / 2, width / 2};
+    sink.hole = hole / 2;
+    sink.wide = wide / 2;
+    sink.depth = depth;
+    sink.counterbore = true;
+    solid.sink = {sink};
+    return solid;
+}
+
+/// Of a counterbore's floor in the surface of the solid, roughly.
+double floor_share(const BentSolid& solid, const Sink& sink)
+{
+    return std::numbers::pi * (sink.wide * sink.wide - sink.hole * sink.hole) /
+           (2 * solid.developed(0.5) * (solid.width + solid.thickness));
+}
+
 struct Round {
     double radius, off; ///< mm; of the points at most
 };
 
+/// Of a closed row of points, which need not lie evenly around it.
 Round round_of(const Eigen::Matrix3Xd& points)
 {
     const Eigen::Vector3d middle = points.rowwise().mean();
-    const Eigen::RowVectorXd far = (points.colwise() - middle).colwise().norm();
-    return {far.mean(), (far.array() - far.mean()).abs().maxCoeff()};
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+        axis += (points.col(i) - middle).cross(points.col((i + 1) % points.cols()) - middle);
+    const auto circle = round_edge(points, axis, bounding_diagonal({points, {}}));
+    if (!circle)
+        return {std::numeric_limits<double>::infinity(), 0};
+    double off = 0;
+    for (const auto& p : points.colwise())
+        off = std::max(off, std::abs((p - circle->centre).norm() - circle->radius));
+    return {circle->radius, off};
+}
+
+/// Of a plate: that of its outline less its holes, whose chords of up to 0.2 radians take 0.7 % of a hole.
+void expect_area(const BentSolid& solid, const TriMesh& blank)
+{
+    if (!solid.bend.empty())
+        return;
+    double holes = 0;
+    for (const Sink& sink : solid.sink)
+        holes += std::numbers::pi * sink.hole * sink.hole;
+    EXPECT_NEAR(area(blank), solid.leg[0] * solid.width - holes, 0.01 * holes);
+}
+
+void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm form)
+{
+    const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+    shapes::write_bent_solid(file, solid, form);
+    SCOPED_TRACE(file.extension().string());
+    const Session session = blank_of(file);
+    const PartFile& part = *session.part;
+    ASSERT_TRUE(part.solid);
+    EXPECT_EQ(part.solid->skin, Skin::middle);
+    // STL files hold single precision; vertices of chords lie on the circles.
+    const double same = form == CadForm::step ? 1e-6 : 1e-4;
+    expect_area(solid, part.mesh);
+    std::vector<double> holes, marks, expected_holes, expected_marks;
+    const auto loops = boundary_loops(part.mesh);
+    ASSERT_EQ(loops.size(), 1 + solid.sink.size());
+    for (const std::vector<int>& loop : loops)
+        if (const Round round = round_of(part.mesh.position(Eigen::all, loop)); round.radius < 12) {
+            EXPECT_LT(round.off, same);
+            holes.push_back(round.radius);
+        }
+    for (const Eigen::Matrix3Xd& mark : part.solid->marks) {
+        const Round round = round_of(mark.leftCols(mark.cols() - 1));
+        EXPECT_LT(round.off, same);
+        marks.push_back(round.radius);
+    }
+    for (const Sink& sink : solid.sink) {
+        expected_holes.push_back(sink.hole);
+        expected_marks.push_back(sink.wide);
+    }
+    for (std::vector<double>* values : {&holes, &marks, &expected_holes, &expected_marks})
+        std::sort(values->begin(), values->end());
+    ASSERT_EQ(holes.size(), expected_holes.size());
+    ASSERT_EQ(marks.size(), expected_marks.size());
+    for (size_t i = 0; i < holes.size(); ++i) {
+        EXPECT_NEAR(holes[i], expected_holes[i], same * expected_holes[i]);
+        EXPECT_NEAR(marks[i], expected_marks[i], same * expected_marks[i]);
+    }
+    const Finding* told = part.doctor.find(Fault::mark);
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->count, int(solid.sink.size()));
+    for (const Sink& sink : solid.sink)
+        EXPECT_TRUE(std::ranges::any_of(told->what, [&](const std::string& what) {
+            return what.starts_with(fmt::format("{} {:.4g} mm wide, {:.4g} mm deep, of a hole of {:.4g} mm",
+                                                sink.counterbore ? "counterbore" : "countersink", 2 * sink.wide,
+                                                sink.depth, 2 * sink.hole));
+        })) << told->what.front();
+    EXPECT_TRUE(part.doubts.empty());
+    const BlankDrawing drawing =
+        drawn_blank(part, find_bends(part.mesh), session.blank->blank, session.blank->face, true, session.bends.get());
+    EXPECT_EQ(drawing.marks.size(), solid.sink.size());
 }
 
 } // namespace
@@ -77,53 +207,58 @@ TEST(SunkHoles, HaveTheirLeastDiameterAndAreTold)
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 24; ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
-            const BentSolid solid = drawn_by_lot(seed);
-            const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
-            shapes::write_bent_solid(file, solid, form);
-            SCOPED_TRACE(fmt::format("seed {}, {}", seed, file.extension().string()));
-            const Session session = blank_of(file);
-            const PartFile& part = *session.part;
-            ASSERT_TRUE(part.solid);
-            EXPECT_EQ(part.solid->skin, Skin::middle);
-            // STL files hold single precision; vertices of chords lie on the circles.
-            const double same = form == CadForm::step ? 1e-6 : 1e-4;
-            std::vector<double> holes, marks, expected_holes, expected_marks;
-            const auto loops = boundary_loops(part.mesh);
-            ASSERT_EQ(loops.size(), 1 + solid.sink.size());
-            for (const std::vector<int>& loop : loops)
-                if (const Round round = round_of(part.mesh.position(Eigen::all, loop)); round.radius < 12)
-                    holes.push_back(round.radius);
-            for (const Eigen::Matrix3Xd& mark : part.solid->marks) {
-                const Round round = round_of(mark.leftCols(mark.cols() - 1));
-                EXPECT_LT(round.off, same);
-                marks.push_back(round.radius);
-            }
-            for (const Sink& sink : solid.sink) {
-                expected_holes.push_back(sink.hole);
-                expected_marks.push_back(sink.wide);
-            }
-            for (std::vector<double>* values : {&holes, &marks, &expected_holes, &expected_marks})
-                std::sort(values->begin(), values->end());
-            ASSERT_EQ(holes.size(), expected_holes.size());
-            ASSERT_EQ(marks.size(), expected_marks.size());
-            for (size_t i = 0; i < holes.size(); ++i) {
-                EXPECT_NEAR(holes[i], expected_holes[i], same * expected_holes[i]);
-                EXPECT_NEAR(marks[i], expected_marks[i], same * expected_marks[i]);
-            }
-            const Finding* told = part.doctor.find(Fault::mark);
-            ASSERT_TRUE(told);
-            EXPECT_EQ(told->count, int(solid.sink.size()));
-            for (const Sink& sink : solid.sink)
-                EXPECT_TRUE(std::ranges::any_of(told->what, [&](const std::string& what) {
-                    return what.starts_with(fmt::format("{} {:.4g} mm wide, {:.4g} mm deep, of a hole of {:.4g} mm",
-                                                        sink.counterbore ? "counterbore" : "countersink", 2 * sink.wide,
-                                                        sink.depth, 2 * sink.hole));
-                })) << told->what.front();
-            EXPECT_TRUE(part.doubts.empty());
-            const BlankDrawing drawing = drawn_blank(part, find_bends(part.mesh), session.blank->blank,
-                                                     session.blank->face, true, session.bends.get());
-            EXPECT_EQ(drawing.marks.size(), solid.sink.size());
+            SCOPED_TRACE(fmt::format("seed {}", seed));
+            expect_right(folder, drawn_by_lot(seed), form);
         }
+}
+
+TEST(SunkHoles, AreNoStepsHoweverLargeTheFloorsOfCounterboresAre)
+{
+    const ScratchFolder folder;
+    std::vector<BentSolid> solids = {counterbored(100, 60, 12, 15, 9, 8.6), counterbored(60, 40, 3, 11, 6.6, 1.5)};
+    for (std::uint64_t seed = 1; seed <= 24; ++seed)
+        solids.push_back(counterbored_by_lot(seed));
+    int large = 0;
+    for (const BentSolid& solid : solids) {
+        large += std::ranges::any_of(solid.sink, [&](const Sink& sink) { return floor_share(solid, sink) > 0.005; });
+        for (const CadForm form : {CadForm::step, CadForm::stl}) {
+            SCOPED_TRACE(fmt::format("{}, {:.1f} mm thick", solid.kind, solid.thickness));
+            expect_right(folder, solid, form);
+        }
+    }
+    EXPECT_GE(2 * large, int(solids.size())) << "others were never refused";
+}
+
+TEST(SunkHoles, ArePocketsAndRefusedWhereNothingRoundGoesThroughTheirMiddle)
+{
+    const auto cut = [](double wide, double radius, double aside, double depth) {
+        Cutout cutout;
+        cutout.centre = {30 + aside, 20};
+        cutout.length = cutout.width = wide;
+        cutout.radius = radius;
+        cutout.depth = depth;
+        return cutout;
+    };
+    const ScratchFolder folder;
+    const auto taken = [&](const std::vector<Cutout>& cutout, CadForm form) {
+        BentSolid solid;
+        solid.leg = {60};
+        solid.width = 40;
+        solid.thickness = 3;
+        solid.cutout = cutout;
+        const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+        shapes::write_bent_solid(file, solid, form);
+        const PartFile part = examine_part(file);
+        return part.doctor.healthy() && part.solid;
+    };
+    for (const CadForm form : {CadForm::step, CadForm::stl}) {
+        EXPECT_TRUE(taken({cut(15, 7.5, 0, 1.5), cut(8, 4, 0, 0)}, form)) << "a counterbore, to compare with";
+        EXPECT_FALSE(taken({cut(15, 7.5, 0, 1)}, form)) << "no hole";
+        EXPECT_FALSE(taken({cut(15, 7.5, 0, 1), cut(8, 4, 0, 2.5)}, form)) << "a blind hole";
+        EXPECT_FALSE(taken({cut(15, 7.5, 0, 1), cut(8, 4, 2, 0)}, form)) << "a hole beside the middle";
+        EXPECT_FALSE(taken({cut(15, 7.5, 0, 1), cut(8, 1, 0, 0)}, form)) << "a square hole";
+        EXPECT_FALSE(taken({cut(15, 2, 0, 1), cut(8, 4, 0, 0)}, form)) << "a square pocket";
+    }
 }
 
 TEST(SunkHoles, AreNoneWherePlainHolesAre)
@@ -133,7 +268,7 @@ TEST(SunkHoles, AreNoneWherePlainHolesAre)
     solid.leg = {60, 40};
     solid.bend = {{3, 1}};
     solid.width = 50;
-    shapes::Cutout round;
+    Cutout round;
     round.centre = {20, 20};
     round.length = round.width = 8;
     round.radius = 4;
