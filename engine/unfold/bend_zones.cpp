@@ -208,6 +208,24 @@ void join_pieces(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, std::ve
     zones = std::move(joined);
 }
 
+/// Whether it goes over into the sheet beside it along its axis, for the most part. Walls of drawn sheet are cylinders, too, but end all
+/// around them.
+bool ends_straight(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const BendZone& zone)
+{
+    constexpr double parallel = 0.09; // the sine of 5 degrees: of edges whose vertices are a little off
+    double straight = 0, askew = 0;
+    for (const int f : zone.face)
+        for (int k = 0; k < 3; ++k) {
+            const int g = neighbour(k, f);
+            if (g < 0 || std::binary_search(zone.face.begin(), zone.face.end(), g))
+                continue;
+            const Eigen::Vector3d edge =
+                part.position.col(part.triangle((k + 1) % 3, f)) - part.position.col(part.triangle(k, f));
+            (edge.cross(zone.axis).norm() > parallel * edge.norm() ? askew : straight) += edge.norm();
+        }
+    return askew <= straight;
+}
+
 } // namespace
 
 std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface)
@@ -250,6 +268,7 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
         zone.radius = radius[radius.size() / 2];
         measure(part, neighbour, zone);
     }
+    std::erase_if(zones, [&](const BendZone& zone) { return !ends_straight(part, neighbour, zone); });
     join_pieces(part, neighbour, zones);
     return zones;
 }
