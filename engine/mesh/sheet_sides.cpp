@@ -14,6 +14,7 @@ namespace {
 constexpr double sure = 0.8; // of a piece's area lies opposite to another: it belongs to a skin
 constexpr double likely = 0.5;
 constexpr double least_facing = 0.72;                       // 44 degrees: not chamfers
+constexpr double steepest = 0.5;                            // 60 degrees: a countersink, if it is askew all over
 constexpr double least_distance = 0.6, most_distance = 1.7; // of the thickness
 constexpr double parallel = 0.94;      // 20 degrees: chords of one bend on both sides are askew by less
 constexpr double mostly_sloped = 0.75; // of a piece; of sharp bends' outer sides a half
@@ -87,12 +88,13 @@ std::vector<double> opposite_shares(const SurfacePieces& pieces, const std::vect
 }
 
 /// Of each piece the share of its area that lies askew to the other side, as of countersinks and wide chamfers.
-std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
+/// @param least  the cosine of the steepest slope
+std::vector<double> sloped_shares(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
+                                  double least)
 {
     std::vector<double> share(size_t(pieces.count()), 0);
     for (const Opposite& at : places)
-        if (at.hit >= 0 && at.facing > least_facing && at.facing < parallel &&
-            at.distance < most_distance * thickness) {
+        if (at.hit >= 0 && at.facing > least && at.facing < parallel && at.distance < most_distance * thickness) {
             const auto p = size_t(pieces.piece[size_t(at.face)]);
             share[p] += at.area / pieces.area[p];
         }
@@ -262,14 +264,17 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
 {
     SheetSides result;
     result.opposite_area = opposite_shares(pieces, places, thickness);
-    std::vector<double> sloped = sloped_shares(pieces, places, thickness);
+    std::vector<double> sloped = sloped_shares(pieces, places, thickness, least_facing);
     keep_bends(pieces, sloped);
+    // Chords of a countersink of 90 degrees are on both sides of that: the bit of it that faces the other side says nothing.
+    std::vector<double> steep = sloped_shares(pieces, places, thickness, steepest);
+    keep_bends(pieces, steep);
     for (size_t p = 0; p < sloped.size(); ++p)
         if (sloped[p] > mostly_sloped)
             result.opposite_area[p] = 0;
     const std::vector<double>& share = result.opposite_area;
     Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
-    while (settle_faced(pieces, places, sloped, thickness, side) || settle_groups(pieces, share, sloped, side)) {
+    while (settle_faced(pieces, places, steep, thickness, side) || settle_groups(pieces, share, sloped, side)) {
     }
 
     double whole = 0, same = 0, most = 0;

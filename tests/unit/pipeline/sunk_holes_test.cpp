@@ -212,6 +212,29 @@ TEST(SunkHoles, HaveTheirLeastDiameterAndAreTold)
         }
 }
 
+TEST(SunkHoles, OfNinetyDegreesAreNoSkinWhereverTheyAre)
+{
+    // Their walls are askew by 45 degrees: no skin, but by some of their chords nearly one.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        SCOPED_TRACE(fmt::format("seed {}", seed));
+        shapes::Lots lots(seed + 900);
+        BentSolid solid;
+        solid.kind = "plate";
+        solid.thickness = lots.between(1.5, 4);
+        solid.width = 120;
+        solid.leg = {150};
+        Sink sink;
+        sink.centre = {lots.between(20, 130), lots.between(20, 100)};
+        sink.hole = lots.between(1.5, 4);
+        sink.depth = solid.thickness * lots.between(0.5, 0.95);
+        sink.wide = sink.hole + sink.depth;
+        sink.left = lots.coin();
+        solid.sink = {sink};
+        expect_right(folder, solid, CadForm::step);
+    }
+}
+
 TEST(SunkHoles, AreNoStepsHoweverLargeTheFloorsOfCounterboresAre)
 {
     const ScratchFolder folder;
