@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/exchange/tell_holes.h"
+#include "engine/mesh/holes_over_bends.h"
 #include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/measured_cylinders.h"
 #include "engine/mesh/onto_surfaces.h"
@@ -276,8 +277,10 @@ SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<S
             if (!units.surface.empty())
                 onto_surfaces(skin, part.mesh, sheet, units);
             straighten_holes(skin, part.mesh, holes, sheet.thickness);
-            if (!units.surface.empty())
-                round_border(skin, part.mesh, sheet, units.surface);
+            if (!units.surface.empty()) {
+                const std::vector<int> done = holes_over_bends(skin, part.mesh, sheet, units.surface);
+                round_border(skin, part.mesh, sheet, units.surface, done);
+            }
             narrow_holes(skin, holes);
         }
         if (skin.straightened > 0)

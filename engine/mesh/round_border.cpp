@@ -89,10 +89,10 @@ void divide(int a, int b, int c, Added between, std::vector<Eigen::Vector3i>& in
 class Border {
 public:
     Border(SkinMesh& middle, TriMesh& outer, const TriMesh& solid, const ThinSolid& sheet,
-           const std::vector<StatedSurface>& surface)
+           const std::vector<StatedSurface>& surface, const std::vector<int>& done)
         : middle_(middle), outer_(outer), half_(sheet.thickness / 2), surface_(surface)
     {
-        find_border(solid, sheet);
+        find_border(solid, sheet, done);
         facing_ = area_vectors(outer);
     }
 
@@ -176,7 +176,7 @@ private:
     std::vector<Eigen::Vector3d> new_outer_, new_middle_;
     std::vector<int> new_source_;
 
-    void find_border(const TriMesh& solid, const ThinSolid& sheet)
+    void find_border(const TriMesh& solid, const ThinSolid& sheet, const std::vector<int>& done)
     {
         const std::vector<EdgeUse> uses = edge_uses(solid.triangle);
         for_each_edge(uses, [&](size_t begin, size_t end) {
@@ -185,7 +185,8 @@ private:
             int one = uses[begin].face, other = uses[begin + 1].face;
             if (sheet.side[size_t(one)] != SheetSide::outer)
                 std::swap(one, other);
-            if (sheet.side[size_t(one)] == SheetSide::outer && sheet.side[size_t(other)] == SheetSide::rim)
+            if (sheet.side[size_t(one)] == SheetSide::outer && sheet.side[size_t(other)] == SheetSide::rim &&
+                !std::ranges::binary_search(done, other))
                 rim_[{uses[begin].low, uses[begin].high}] = other;
         });
     }
@@ -332,10 +333,10 @@ private:
 } // namespace
 
 int round_border(SkinMesh& middle, const TriMesh& solid, const ThinSolid& sheet,
-                 const std::vector<StatedSurface>& surface)
+                 const std::vector<StatedSurface>& surface, const std::vector<int>& done)
 {
     TriMesh outer{solid.position(Eigen::all, middle.source_vertex), middle.mesh.triangle};
-    Border border(middle, outer, solid, sheet, surface);
+    Border border(middle, outer, solid, sheet, surface, done);
     border.place_vertices();
     return border.divide_chords();
 }

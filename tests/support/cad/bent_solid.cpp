@@ -405,6 +405,33 @@ BentSolid random_cut_bends(std::uint64_t seed)
     }
 }
 
+BentSolid random_wide_hole(std::uint64_t seed)
+{
+    Lots lots(seed);
+    for (;;) {
+        BentSolid solid;
+        solid.kind = "wide hole";
+        const double t = solid.thickness = even_in_logarithm(lots, 0.5, 4);
+        solid.bend.push_back(
+            {t * even_in_logarithm(lots, 0.2, 1), (lots.coin() ? 1 : -1) * degree * lots.between(30, 125)});
+        const double radius = solid.bend[0].inner_radius + t / 2,
+                     chord = 2 * radius * std::sin(std::abs(solid.bend[0].angle) / 2),
+                     d = chord * lots.between(0.6, 1.6);
+        for (int leg = 0; leg < 2; ++leg)
+            solid.leg.push_back((d + 2 * t) * lots.between(3, 6));
+        solid.width = (d + t) * lots.between(3, 8);
+        BendCut cut;
+        cut.share = lots.between(0.35, 0.65);
+        cut.y = lots.between(0.35, 0.65) * solid.width;
+        cut.outline.length = cut.outline.width = d;
+        cut.outline.radius = d / 2;
+        solid.bend_cut.push_back(cut);
+        solid.pose = seed;
+        if (clear(solid))
+            return solid;
+    }
+}
+
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord)
 {
     const OcctSession session;

@@ -80,6 +80,10 @@ BentSolid random_bent_solid(std::uint64_t seed);
 /// one of its ends, of which its legs' free ends keep clear: length and width of the blank are those without them.
 BentSolid random_cut_bends(std::uint64_t seed);
 
+/// A bend of 30 to 125 degrees, R/t from 0.2 to 1, with a round hole through it that is 0.6 to 1.6 times as wide as its arc in the middle of
+/// the sheet: on one skin, on both or on none the hole is wider than the bend.
+BentSolid random_wide_hole(std::uint64_t seed);
+
 /// The solid's surface as a mesher makes it, in binary STL. @param chord  radians, at most, of bends and holes
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord);
 

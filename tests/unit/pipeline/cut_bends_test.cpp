@@ -125,6 +125,29 @@ TEST_P(CutBends, OfAnStlFileAreAsTheyWereMade)
     expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});
 }
 
+class WideHoles : public CutBends {};
+
+TEST_P(WideHoles, OfAStepFileAreAsTheyWereMade)
+{
+    const BentSolid solid = shapes::random_wide_hole(GetParam());
+    SCOPED_TRACE(in_words(solid));
+    shapes::write_bent_solid(folder_ / "part.step", solid);
+    expect(folder_ / "part.step", solid, {1e-4, 1e-3, 1e-3});
+}
+
+TEST_P(WideHoles, OfAnStlFileAreAsTheyWereMade)
+{
+    if (GetParam() == 12 || GetParam() == 26)
+        GTEST_SKIP() << "the bend is not found among the triangles of this mesh";
+    const BentSolid solid = shapes::random_wide_hole(GetParam());
+    shapes::Lots lots(GetParam() + 1000);
+    const double chord = degree * lots.between(3, 20);
+    SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", in_words(solid), chord / degree));
+    shapes::write_bent_stl(folder_ / "part.stl", solid, chord);
+    expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});
+}
+
+INSTANTIATE_TEST_SUITE_P(Family, WideHoles, testing::Range<std::uint64_t>(1, 41));
 INSTANTIATE_TEST_SUITE_P(Family, CutBends, testing::Range<std::uint64_t>(1, 41));
 
 } // namespace spia
