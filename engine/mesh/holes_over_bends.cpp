@@ -108,6 +108,8 @@ private:
     bool lies_in(int f, const StatedSurface& plane) const
     {
         const int s = middle_.source_face[size_t(f)];
+        if (surface_[size_t(s)].kind == Kind::cylinder)
+            return false; // a narrow triangle of another bend, beside its end
         return normal_.col(s).dot(plane.direction) > 0 && std::ranges::all_of(middle_.mesh.triangle.col(f), [&](int v) {
                    return std::abs((outer(v) - plane.point).dot(plane.direction)) <= within_;
                });
@@ -307,15 +309,16 @@ private:
         std::vector<Eigen::Vector2d> target;
         constexpr double share = 0.005; // of the thickness; nearer the rim was met well enough
         const double off_by = share * sheet_.thickness;
-        bool elsewhere = false;
+        bool elsewhere = false, over = false;
         for (const int v : loop) {
             const auto place = meets(*wall, outer(v));
             if (!place)
                 return;
             target.push_back(*place);
             elsewhere |= !((*place - at_[size_t(v)]).norm() <= off_by);
+            over |= skin_->zone(place->x()) == 0 || skin_->zone(from_[size_t(v)].x()) == 0;
         }
-        if (!elsewhere)
+        if (!elsewhere || !over)
             return;
         for (size_t i = 0; i < loop.size(); ++i) {
             straight_ += (at_[size_t(loop[i])] - from_[size_t(loop[i])]).norm() <= within_;
