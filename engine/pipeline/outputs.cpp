@@ -16,6 +16,7 @@
 #include "engine/exchange/write_step.h"
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
+#include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/iga_outputs.h"
@@ -87,26 +88,11 @@ Tessellation tessellation_of(const MultiPatch& patches, const Progress& progress
     return whole;
 }
 
-/// Where a CAD file states that all faces are planes and cylinders, any edge between two planes is a fold; of other parts it may be one
-/// between chords.
-BendLimits limits_for_shop(const PartFile& part)
-{
-    BendLimits limits;
-    constexpr double fold = std::numbers::pi / 180; // radians; a press brake is set no finer
-    const bool stated =
-        part.cad && !part.cad->surface.empty() && std::ranges::all_of(part.source_face, [&](int f) {
-            return part.cad->surface[size_t(part.cad->face[size_t(f)])].kind != StatedSurface::Kind::other;
-        });
-    if (stated)
-        limits.sharp = fold;
-    return limits;
-}
-
 /// Also the straight bends of a bracket; what a drawn part has in their place is no matter for a press brake.
 BlankDrawing drawing_for_shop(const Session& session)
 {
-    return drawn_blank(*session.part, find_bends(session.part->mesh, limits_for_shop(*session.part)),
-                       session.blank->blank, session.blank->face, true, session.bends.get());
+    return drawn_blank(*session.part, bends_for_shop(*session.part), session.blank->blank, session.blank->face, true,
+                       session.bends.get());
 }
 
 DxfOptions dxf_options(const OutputOptions& options)

@@ -208,8 +208,8 @@ void join_pieces(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, std::ve
     zones = std::move(joined);
 }
 
-/// Whether it goes over into the sheet beside it along its axis, for the most part. Walls of drawn sheet are cylinders, too, but end all
-/// around them.
+/// Whether it goes over into the sheet beside it along its axis, at one of its ends at least. Walls of drawn sheet are cylinders, too, but
+/// end all around them.
 bool ends_straight(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const BendZone& zone)
 {
     constexpr double parallel = 0.09; // the sine of 5 degrees: of edges whose vertices are a little off
@@ -223,7 +223,8 @@ bool ends_straight(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const
                 part.position.col(part.triangle((k + 1) % 3, f)) - part.position.col(part.triangle(k, f));
             (edge.cross(zone.axis).norm() > parallel * edge.norm() ? askew : straight) += edge.norm();
         }
-    return askew <= straight;
+    constexpr double one_end = 0.25; // of both; a notch there may leave the other one to triangles that are askew
+    return straight >= one_end * (straight + askew);
 }
 
 } // namespace
