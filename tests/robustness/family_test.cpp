@@ -4,6 +4,7 @@
 
 #include "engine/forming/material_library.h"
 #include "tests/robustness/shape_run.h"
+#include "tests/support/mesh_tools.h"
 #include "tests/support/shape_family.h"
 
 namespace spia {
@@ -33,7 +34,7 @@ TEST_P(Family, EndsWithAValidBlankOrAHelpfulRefusal)
     options.doctor.keep_largest = shape.keep_largest;
     FlattenOptions flattening;
     flattening.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    const ShapeRun run = run_shape(soup_of(shape.make()), options, flattening);
+    const ShapeRun run = run_shape(shapes::soup_of(shape.make()), options, flattening);
     ASSERT_NE(run.end, ShapeRun::End::failure) << run.why;
     if (shape.expected != Expected::either) {
         EXPECT_EQ(run.end == ShapeRun::End::blank, shape.expected == Expected::blank) << run.why;

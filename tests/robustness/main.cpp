@@ -11,6 +11,7 @@
 #include "tests/robustness/shape_run.h"
 #include "tests/robustness/unfold_run.h"
 #include "tests/support/check_grid.h"
+#include "tests/support/mesh_tools.h"
 #include "tests/support/shape_family.h"
 
 namespace {
@@ -194,7 +195,7 @@ int main(int argc, char** argv)
             continue;
         ReadOptions options;
         options.doctor.keep_largest = shape.keep_largest;
-        const ShapeRun run = run_shape(soup_of(shape.make()), options, flattening);
+        const ShapeRun run = run_shape(shapes::soup_of(shape.make()), options, flattening);
         const bool fits = shape.expected == shapes::Expected::either
                               ? run.end != ShapeRun::End::failure
                               : run.end == (shape.expected == shapes::Expected::blank ? ShapeRun::End::blank

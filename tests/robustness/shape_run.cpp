@@ -66,16 +66,4 @@ ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options
     return run([&] { return examine_part(file, options); }, flattening);
 }
 
-PolygonSoup soup_of(const TriMesh& mesh)
-{
-    PolygonSoup soup;
-    for (const auto& x : mesh.position.colwise())
-        soup.position.emplace_back(x);
-    for (const auto& t : mesh.triangle.colwise()) {
-        const std::array<int, 3> corner = {t[0], t[1], t[2]};
-        soup.add_polygon(corner);
-    }
-    return soup;
-}
-
 } // namespace spia

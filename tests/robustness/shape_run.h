@@ -29,6 +29,4 @@ struct ShapeRun {
 ShapeRun run_shape(const PolygonSoup& soup, const ReadOptions& options, const FlattenOptions& flattening);
 ShapeRun run_shape(const std::filesystem::path& file, const ReadOptions& options, const FlattenOptions& flattening);
 
-PolygonSoup soup_of(const TriMesh& mesh);
-
 } // namespace spia

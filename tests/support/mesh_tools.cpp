@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -92,6 +93,16 @@ Eigen::VectorXd edge_lengths(const TriMesh& mesh)
     for (size_t e = 0; e < edges.size(); ++e)
         length[Eigen::Index(e)] = (mesh.position.col(edges[e].first) - mesh.position.col(edges[e].second)).norm();
     return length;
+}
+
+PolygonSoup soup_of(const TriMesh& mesh)
+{
+    PolygonSoup soup;
+    for (int v = 0; v < mesh.vertices(); ++v)
+        soup.position.push_back(mesh.position.col(v));
+    for (int f = 0; f < mesh.triangles(); ++f)
+        soup.add_polygon(std::array{mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f)});
+    return soup;
 }
 
 double mean_edge(const TriMesh& mesh) { return edge_lengths(mesh).mean(); }

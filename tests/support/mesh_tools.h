@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/mesh/soup.h"
 #include "engine/mesh/tri_mesh.h"
 
 /// What tests do to meshes, and what they measure on them.
@@ -28,6 +29,8 @@ Eigen::Matrix3d random_rotation(std::uint64_t seed);
 
 /// Both in one mesh, not connected; the vertices and faces of b come after those of a.
 TriMesh joined(const TriMesh& a, const TriMesh& b);
+
+PolygonSoup soup_of(const TriMesh& mesh); ///< what a file of it is read as
 
 double mean_edge(const TriMesh& mesh);             ///< mm, every edge counted once
 Eigen::VectorXd edge_lengths(const TriMesh& mesh); ///< mm, every edge once

@@ -195,16 +195,6 @@ TriMesh divided(TriMesh mesh, int times)
     return mesh;
 }
 
-PolygonSoup soup_of(const TriMesh& mesh)
-{
-    PolygonSoup soup;
-    for (int v = 0; v < mesh.vertices(); ++v)
-        soup.position.push_back(mesh.position.col(v));
-    for (int f = 0; f < mesh.triangles(); ++f)
-        soup.add_polygon(std::array{mesh.triangle(0, f), mesh.triangle(1, f), mesh.triangle(2, f)});
-    return soup;
-}
-
 TriMesh extruded(const PlaneLoop& outer, const std::vector<PlaneLoop>& holes, double length)
 {
     PlaneFaces faces;

@@ -4,7 +4,6 @@
 #include <map>
 #include <vector>
 
-#include "engine/mesh/soup.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia::shapes {
@@ -33,8 +32,6 @@ private:
 
 /// Each triangle in four, so many times.
 TriMesh divided(TriMesh mesh, int times);
-
-PolygonSoup soup_of(const TriMesh& mesh);
 
 /// A section and its holes in the xz plane, extruded from y = 0 to the length. @param outer  counter-clockwise with z up and x to the right
 TriMesh extruded(const PlaneLoop& outer, const std::vector<PlaneLoop>& holes, double length);

@@ -359,6 +359,57 @@ void write_stl(const std::filesystem::path& file, const TopoDS_Shape& shape, dou
         throw std::runtime_error("not written: " + file.string());
 }
 
+/// The first that is clear of itself.
+template <class Draw> BentSolid first_clear(std::uint64_t seed, const Draw& draw)
+{
+    Lots lots(seed);
+    for (;;)
+        if (BentSolid solid = draw(lots); clear(solid))
+            return solid;
+}
+
+BentSolid drawn_with_cut_bends(Lots& lots)
+{
+    BentSolid solid;
+    solid.kind = "cut bends";
+    solid.thickness = even_in_logarithm(lots, 0.5, 4);
+    const int bends = lots.whole(1, 3);
+    double way = lots.coin() ? 1 : -1, largest = 0;
+    for (int b = 0; b < bends; ++b) {
+        solid.bend.push_back(
+            {solid.thickness * even_in_logarithm(lots, 0.3, 10), way * degree * lots.between(20, 110)});
+        largest = std::max(largest, solid.bend.back().inner_radius + solid.thickness);
+        way = lots.coin() ? way : -way;
+    }
+    for (int b = 0; b <= bends; ++b) // clear of the prisms through the bends beside it
+        solid.leg.push_back(largest * lots.between(3, 6));
+    solid.width = largest * lots.between(4, 10);
+    for (int b = 0; b < bends; ++b)
+        solid.bend_cut.push_back(drawn_cut(lots, solid, b));
+    return solid;
+}
+
+BentSolid drawn_with_a_wide_hole(Lots& lots)
+{
+    BentSolid solid;
+    solid.kind = "wide hole";
+    const double t = solid.thickness = even_in_logarithm(lots, 0.5, 4);
+    solid.bend.push_back(
+        {t * even_in_logarithm(lots, 0.2, 1), (lots.coin() ? 1 : -1) * degree * lots.between(30, 125)});
+    const double radius = solid.bend[0].inner_radius + t / 2,
+                 chord = 2 * radius * std::sin(std::abs(solid.bend[0].angle) / 2), d = chord * lots.between(0.6, 1.6);
+    for (int leg = 0; leg < 2; ++leg)
+        solid.leg.push_back((d + 2 * t) * lots.between(3, 6));
+    solid.width = (d + t) * lots.between(3, 8);
+    BendCut cut;
+    cut.share = lots.between(0.35, 0.65);
+    cut.y = lots.between(0.35, 0.65) * solid.width;
+    cut.outline.length = cut.outline.width = d;
+    cut.outline.radius = d / 2;
+    solid.bend_cut.push_back(cut);
+    return solid;
+}
+
 } // namespace
 
 double BentSolid::developed(double k) const
@@ -371,65 +422,20 @@ double BentSolid::developed(double k) const
     return length;
 }
 
-BentSolid random_bent_solid(std::uint64_t seed)
-{
-    Lots lots(seed);
-    for (;;)
-        if (BentSolid solid = drawn(lots); clear(solid))
-            return solid;
-}
+BentSolid random_bent_solid(std::uint64_t seed) { return first_clear(seed, drawn); }
 
 BentSolid random_cut_bends(std::uint64_t seed)
 {
-    Lots lots(seed);
-    for (;;) {
-        BentSolid solid;
-        solid.kind = "cut bends";
-        solid.thickness = even_in_logarithm(lots, 0.5, 4);
-        const int bends = lots.whole(1, 3);
-        double way = lots.coin() ? 1 : -1, largest = 0;
-        for (int b = 0; b < bends; ++b) {
-            solid.bend.push_back(
-                {solid.thickness * even_in_logarithm(lots, 0.3, 10), way * degree * lots.between(20, 110)});
-            largest = std::max(largest, solid.bend.back().inner_radius + solid.thickness);
-            way = lots.coin() ? way : -way;
-        }
-        for (int b = 0; b <= bends; ++b) // clear of the prisms through the bends beside it
-            solid.leg.push_back(largest * lots.between(3, 6));
-        solid.width = largest * lots.between(4, 10);
-        for (int b = 0; b < bends; ++b)
-            solid.bend_cut.push_back(drawn_cut(lots, solid, b));
-        solid.pose = seed;
-        if (clear(solid))
-            return solid;
-    }
+    BentSolid solid = first_clear(seed, drawn_with_cut_bends);
+    solid.pose = seed;
+    return solid;
 }
 
 BentSolid random_wide_hole(std::uint64_t seed)
 {
-    Lots lots(seed);
-    for (;;) {
-        BentSolid solid;
-        solid.kind = "wide hole";
-        const double t = solid.thickness = even_in_logarithm(lots, 0.5, 4);
-        solid.bend.push_back(
-            {t * even_in_logarithm(lots, 0.2, 1), (lots.coin() ? 1 : -1) * degree * lots.between(30, 125)});
-        const double radius = solid.bend[0].inner_radius + t / 2,
-                     chord = 2 * radius * std::sin(std::abs(solid.bend[0].angle) / 2),
-                     d = chord * lots.between(0.6, 1.6);
-        for (int leg = 0; leg < 2; ++leg)
-            solid.leg.push_back((d + 2 * t) * lots.between(3, 6));
-        solid.width = (d + t) * lots.between(3, 8);
-        BendCut cut;
-        cut.share = lots.between(0.35, 0.65);
-        cut.y = lots.between(0.35, 0.65) * solid.width;
-        cut.outline.length = cut.outline.width = d;
-        cut.outline.radius = d / 2;
-        solid.bend_cut.push_back(cut);
-        solid.pose = seed;
-        if (clear(solid))
-            return solid;
-    }
+    BentSolid solid = first_clear(seed, drawn_with_a_wide_hole);
+    solid.pose = seed;
+    return solid;
 }
 
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord)

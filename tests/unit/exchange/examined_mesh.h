@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/exchange/read_part.h"
-#include "tests/support/plane_faces.h"
+#include "tests/support/mesh_tools.h"
 
 namespace spia {
 
