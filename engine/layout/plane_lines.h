@@ -18,7 +18,4 @@ bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eig
 bool leads_inside(const Eigen::Vector2d& before, const Eigen::Vector2d& v, const Eigen::Vector2d& after,
                   const Eigen::Vector2d& q);
 
-/// Whether a point is in a closed polygon, 2 by n (even-odd; on the border either).
-bool inside_polygon(const Eigen::Matrix2Xd& polygon, const Eigen::Vector2d& point);
-
 } // namespace spia

@@ -53,10 +53,15 @@ std::optional<FittedCylinder> cylinder_of(const TriMesh& part, const Eigen::Matr
             }
     if (!(axis.norm() > 0))
         return std::nullopt;
+    return cylinder_along(axis.normalized(), part.position(Eigen::all, corners(part, faces)));
+}
+
+std::optional<FittedCylinder> cylinder_along(const Eigen::Vector3d& axis, const Eigen::Matrix3Xd& place)
+{
     FittedCylinder fit{};
-    fit.axis = axis.normalized();
+    fit.axis = axis;
     const Eigen::Matrix<double, 3, 2> frame = across(fit.axis);
-    const Eigen::Matrix2Xd flat = frame.transpose() * part.position(Eigen::all, corners(part, faces));
+    const Eigen::Matrix2Xd flat = frame.transpose() * place;
     const auto round = circle(flat);
     if (!round)
         return std::nullopt;

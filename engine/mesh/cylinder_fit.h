@@ -23,6 +23,9 @@ Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis);
 std::optional<FittedCylinder> cylinder_of(const TriMesh& part, const Eigen::Matrix3Xd& normal,
                                           const Eigen::Matrix3Xi& neighbour, const std::vector<int>& faces);
 
+/// The cylinder along an axis through places, by the circle through them seen along it. [Kasa 1976] Nothing if they lie on a line.
+std::optional<FittedCylinder> cylinder_along(const Eigen::Vector3d& axis, const Eigen::Matrix3Xd& place);
+
 /// Vertices of some faces, ascending.
 std::vector<int> corners(const TriMesh& part, const std::vector<int>& faces);
 

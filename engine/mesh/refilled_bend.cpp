@@ -6,8 +6,10 @@
 #include <functional>
 #include <numbers>
 
+#include "engine/mesh/inside_polygon.h"
 #include "engine/mesh/split_polygon.h"
 #include "engine/mesh/unrolled_skin.h"
+#include "engine/mesh/vectors.h"
 
 namespace spia {
 namespace {
@@ -115,13 +117,10 @@ int zone_of(const UnrolledSkin& skin, const MarkedSkin& marked, int f)
 
 bool inside(const std::vector<Eigen::Vector2d>& at, const Polygon& polygon, const Eigen::Vector2d& p)
 {
-    bool in = false;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const Eigen::Vector2d &a = at[size_t(polygon[i])], &b = at[size_t(polygon[(i + 1) % polygon.size()])];
-        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-            in = !in;
-    }
-    return in;
+    Eigen::Matrix2Xd corner(2, Eigen::Index(polygon.size()));
+    for (size_t i = 0; i < polygon.size(); ++i)
+        corner.col(Eigen::Index(i)) = at[size_t(polygon[i])];
+    return inside_polygon(corner, p);
 }
 
 /// Cuts a polygon along the line u = `seam`, from corner to corner; where its edges cross the line they have corners, as edges of a CAD
@@ -193,8 +192,7 @@ private:
     }
     double cross(int a, int b, int c) const
     {
-        const Eigen::Vector2d u = at_[size_t(b)] - at_[size_t(a)], v = at_[size_t(c)] - at_[size_t(a)];
-        return u.x() * v.y() - u.y() * v.x();
+        return spia::cross(at_[size_t(b)] - at_[size_t(a)], at_[size_t(c)] - at_[size_t(a)]);
     }
     double angle(int at, int a, int b) const
     {

@@ -3,7 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "engine/mesh/cylinder_fit.h"
 
 namespace spia {
 namespace {
@@ -14,53 +15,6 @@ Eigen::Vector3d off_axis(const StatedSurface& cylinder, const Eigen::Vector3d& p
 {
     const Eigen::Vector3d from = place - cylinder.point;
     return from - from.dot(cylinder.direction) * cylinder.direction;
-}
-
-double farthest(const StatedSurface& cylinder, const Eigen::Matrix3Xd& points)
-{
-    double most = 0;
-    for (const auto& p : points.colwise())
-        most = std::max(most, std::abs(off_axis(cylinder, p).norm() - cylinder.radius));
-    return most;
-}
-
-/// Gauss-Newton for the distances of the places from the cylinder; its unknowns are the axis' place and tilt across itself, and the radius.
-void improve(StatedSurface& cylinder, const Eigen::Matrix3Xd& points)
-{
-    constexpr int steps = 12; // of five unknowns it ends after three or four
-    for (int step = 0; step < steps; ++step) {
-        const Eigen::Vector3d x = cylinder.direction.unitOrthogonal(), y = cylinder.direction.cross(x);
-        Eigen::Matrix<double, Eigen::Dynamic, 5> a(points.cols(), 5);
-        Eigen::VectorXd off(points.cols());
-        for (Eigen::Index i = 0; i < points.cols(); ++i) {
-            const Eigen::Vector3d from = points.col(i) - cylinder.point;
-            const double along = from.dot(cylinder.direction), length = off_axis(cylinder, points.col(i)).norm();
-            const double c = from.dot(x) / length, s = from.dot(y) / length;
-            a.row(i) << -c, -s, -c * along, -s * along, -1;
-            off[i] = length - cylinder.radius;
-        }
-        const Eigen::Matrix<double, 5, 1> way = -a.colPivHouseholderQr().solve(off);
-        if (!way.allFinite())
-            return;
-        cylinder.point += way[0] * x + way[1] * y;
-        cylinder.direction = (cylinder.direction + way[2] * x + way[3] * y).normalized();
-        cylinder.radius += way[4];
-    }
-}
-
-/// The circle through the places seen along the axis, least squares.
-void first_circle(StatedSurface& cylinder, const Eigen::Matrix3Xd& points)
-{
-    const Eigen::Vector3d x = cylinder.direction.unitOrthogonal(), y = cylinder.direction.cross(x);
-    const Eigen::Vector3d mean = points.rowwise().mean();
-    const Eigen::Matrix3Xd from = points.colwise() - mean;
-    Eigen::MatrixX3d a(points.cols(), 3);
-    a << 2 * (x.transpose() * from).transpose(), 2 * (y.transpose() * from).transpose(),
-        Eigen::VectorXd::Ones(points.cols());
-    const Eigen::VectorXd b = a.leftCols<2>().rowwise().squaredNorm() / 4;
-    const Eigen::Vector3d fit = a.colPivHouseholderQr().solve(b);
-    cylinder.point = mean + fit[0] * x + fit[1] * y;
-    cylinder.radius = std::sqrt(std::max(fit[2] + fit.head<2>().squaredNorm(), 0.));
 }
 
 } // namespace
@@ -74,14 +28,11 @@ std::optional<StatedSurface> cylinder_through(const Eigen::Matrix3Xd& points, co
     constexpr Eigen::Index unknowns = 5;
     if (points.cols() <= unknowns || spread.eigenvalues()[1] < turns * spread.eigenvalues()[2])
         return std::nullopt;
-    StatedSurface cylinder;
-    cylinder.kind = Kind::cylinder;
-    cylinder.direction = spread.eigenvectors().col(0);
-    first_circle(cylinder, points);
-    improve(cylinder, points);
-    if (!(cylinder.radius > within) || !(farthest(cylinder, points) <= within))
+    const auto round = cylinder_along(spread.eigenvectors().col(0), points);
+    const auto fit = round ? fitted(*round, points, Eigen::VectorXd::Zero(points.cols())) : std::nullopt;
+    if (!fit || !(fit->radius > within) || !(fit->off <= within))
         return std::nullopt;
-    return cylinder;
+    return StatedSurface{Kind::cylinder, fit->point, fit->axis, fit->radius, 0};
 }
 
 UnrolledSkin::UnrolledSkin(const StatedSurface& cylinder, const Eigen::Matrix3Xd& points, double within)

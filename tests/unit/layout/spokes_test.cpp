@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/layout/plane_lines.h"
+#include "engine/mesh/inside_polygon.h"
 
 namespace spia {
 namespace {
