@@ -115,6 +115,31 @@ private:
                });
     }
 
+    static constexpr double same_way = 0.9998; // of normals of one flat; 1 degree
+
+    /// Triangles of the solid that go on evenly from the cylinder, the largest first: the narrow ones right beside it tell their plane only
+    /// as well as the digits of STL do over their width.
+    std::vector<int> flats_beside(const std::vector<int>& faces, const Eigen::Matrix3Xi& beside) const
+    {
+        const auto source = [&](int f) { return middle_.source_face[size_t(f)]; };
+        std::vector<int> next;
+        std::vector<char> seen = inside_;
+        for (const int f : faces)
+            for (const int g : beside.col(f))
+                if (g >= 0 && !std::exchange(seen[size_t(g)], 1))
+                    next.push_back(g);
+        for (size_t i = 0; i < next.size(); ++i)
+            for (const int g : beside.col(next[i]))
+                if (g >= 0 && !seen[size_t(g)] &&
+                    normal_.col(source(next[i])).normalized().dot(normal_.col(source(g)).normalized()) > same_way) {
+                    seen[size_t(g)] = 1;
+                    next.push_back(g);
+                }
+        std::ranges::transform(next, next.begin(), source);
+        std::ranges::stable_sort(next, std::greater(), [&](int f) { return normal_.col(f).norm(); });
+        return next;
+    }
+
     /// The cylinder, the flats that touch it, and what is connected to it on those.
     bool unroll(const StatedSurface& on)
     {
@@ -127,21 +152,14 @@ private:
                 inside_[size_t(f)] = 1;
             }
         std::vector<StatedSurface> plane;
-        std::vector<int> next;
-        for (const int f : faces)
-            for (const int g : beside.col(f))
-                if (g >= 0 && !inside_[size_t(g)])
-                    next.push_back(middle_.source_face[size_t(g)]);
-        std::ranges::stable_sort(next, std::greater(), [&](int f) { return normal_.col(f).norm(); });
-        for (const int s : next) {
+        for (const int s : flats_beside(faces, beside)) {
             const StatedSurface flat{Kind::plane, solid_.position.col(solid_.triangle(0, s)),
                                      normal_.col(s).normalized(), 0, 0};
-            constexpr double apart = 0.9998; // 1 degree
             if (plane.size() < 2 && surface_[size_t(s)].kind != Kind::cylinder &&
                 std::abs(flat.direction.dot(on.direction)) < 1e-4 &&
                 std::abs(std::abs((on.point - flat.point).dot(flat.direction)) - on.radius) < within_ &&
                 std::ranges::none_of(plane,
-                                     [&](const StatedSurface& p) { return p.direction.dot(flat.direction) > apart; }))
+                                     [&](const StatedSurface& p) { return p.direction.dot(flat.direction) > same_way; }))
                 plane.push_back(flat);
         }
         for (size_t i = 0; i < faces.size(); ++i)

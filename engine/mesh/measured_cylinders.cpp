@@ -217,14 +217,46 @@ private:
         constexpr double single = 1e-7, finer = 0.25; // of the diagonal, STL's
         Region region{cylinder, bulging, side(from.front()), {}};
         std::optional<Region> best;
+        const auto few = [&](const Region& found) { return int(corners(solid_, found.face).size()) < least_; };
         for (; within > single * diagonal_; within *= finer) {
-            if (!grow(region, from, within) || int(corners(solid_, region.face).size()) < least_)
+            if (!grow(region, from, within) || (!best && few(region)))
                 break; // finer there are not more
             if (within <= tight(region.cylinder.radius, sheet_.thickness) && region.cylinder.off <= within &&
                 is_bend(region))
                 best = region;
+            region.cylinder = agreed(region);
+            if (best && region.cylinder.off <= finer * within && std::ranges::any_of(from, [&](int f) {
+                    return !lies_on(solid_, region.cylinder, f, finer * within);
+                }))
+                return std::nullopt; // a narrow triangle beside the bend, which is found from others
         }
-        return best;
+        // Where the finest has too few only corners beside the bend made them enough: its turn is later.
+        return best && few(*best) ? std::nullopt : best;
+    }
+
+    /// The cylinder on which three quarters of the corners lie best: corners of a flat beside the bend draw the one through all of them away
+    /// from the bend's own. Least trimmed squares by the steps of [Rousseeuw, Van Driessen 2006].
+    FittedCylinder agreed(const Region& region) const
+    {
+        constexpr int most_steps = 8, unknowns = 5;
+        std::vector<int> vertices = corners(solid_, region.face);
+        const size_t most = vertices.size() * 3 / 4;
+        FittedCylinder cylinder = region.cylinder;
+        if (most < 2 * unknowns)
+            return cylinder;
+        for (int step = 0; step < most_steps; ++step) {
+            const auto off = [&](int v) { return std::abs(distance_from_axis(cylinder, at(v)) - cylinder.radius); };
+            std::ranges::sort(vertices, {}, off);
+            const std::vector<int> nearest(vertices.begin(), vertices.begin() + long(most));
+            const auto fit = fitted(cylinder, solid_.position(Eigen::all, nearest), Eigen::VectorXd::Zero(long(most)));
+            if (!fit)
+                return region.cylinder;
+            const bool still = std::abs(fit->off - cylinder.off) < 0.01 * fit->off;
+            cylinder = *fit;
+            if (still)
+                break;
+        }
+        return cylinder;
     }
 
     /// @returns whether there are at least two chords, those that it is to grow from among them
