@@ -90,6 +90,7 @@ std::optional<FittedCylinder> fitted(const FittedCylinder& from, const Eigen::Ma
     const double size = (place.colwise() - middle).colwise().norm().maxCoeff();
     FittedCylinder at = from;
     at.point += (middle - at.point).dot(at.axis) * at.axis;
+    const Eigen::Vector3d first = at.point;
     for (int step = 0; step < most_steps; ++step) {
         const Eigen::Matrix<double, 3, 2> frame = across(at.axis);
         const Eigen::Matrix3Xd w = place.colwise() - at.point;
@@ -109,7 +110,7 @@ std::optional<FittedCylinder> fitted(const FittedCylinder& from, const Eigen::Ma
         at.point += frame * way.head<2>();
         at.axis = (at.axis + frame * way.segment<2>(2) / size).normalized();
         at.radius += way[4];
-        if (!way.allFinite() || !(at.radius > 0) || (at.point - from.point).norm() > from.radius + size)
+        if (!way.allFinite() || !(at.radius > 0) || (at.point - first).norm() > from.radius + size)
             return std::nullopt;
         if (way.norm() <= still * size)
             break;
