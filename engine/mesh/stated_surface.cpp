@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/mesh/off_axis.h"
 #include "engine/mesh/thin_solid.h"
 #include "engine/mesh/topology.h"
 
@@ -23,12 +24,6 @@ struct SkinSurface {
     SheetSide side;
     double area = 0;
 };
-
-Eigen::Vector3d off_axis(const StatedSurface& cylinder, const Eigen::Vector3d& place)
-{
-    const Eigen::Vector3d from = place - cylinder.point;
-    return from - from.dot(cylinder.direction) * cylinder.direction;
-}
 
 /// 0 where they are neither parallel planes nor coaxial cylinders.
 double between(const StatedSurface& a, const StatedSurface& b, double size)

@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "engine/mesh/cylinder_fit.h"
+#include "engine/mesh/off_axis.h"
 
 namespace spia {
 namespace {
 
 using Kind = StatedSurface::Kind;
-
-Eigen::Vector3d off_axis(const StatedSurface& cylinder, const Eigen::Vector3d& place)
-{
-    const Eigen::Vector3d from = place - cylinder.point;
-    return from - from.dot(cylinder.direction) * cylinder.direction;
-}
 
 } // namespace
 
