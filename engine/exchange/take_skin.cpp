@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "engine/exchange/tell_holes.h"
+#include "engine/exchange/tell_marks.h"
 #include "engine/mesh/holes_over_bends.h"
 #include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/measured_cylinders.h"
@@ -174,44 +173,6 @@ void put_back(PartFile& part, AsMarked& marked)
     part.source_face = std::move(marked.source_face);
 }
 
-/// Numbers are those of the solid as it is in the file.
-Finding finding_of(const std::vector<SheetMark>& marks, double thickness, const PartFile& part,
-                   const std::vector<SheetSide>& side)
-{
-    Tally where;
-    double engraved = 0, raised = 0;
-    for (const SheetMark& mark : marks) {
-        where.add(part.source_face[size_t(mark.face)]);
-        (mark.raised ? raised : engraved) = std::max(mark.raised ? raised : engraved, mark.depth);
-    }
-    std::vector<std::string> kinds;
-    if (engraved > 0)
-        kinds.push_back(fmt::format("up to {:.4g} mm deep", engraved));
-    if (raised > 0)
-        kinds.push_back(fmt::format("up to {:.4g} mm high", raised));
-    Finding finding{Fault::mark,
-                    Severity::note,
-                    int(marks.size()),
-                    where.first,
-                    fmt::format("{} of the sheet, {}, {} passed over: what is laid flat is the skin without {} (marks "
-                                "of up to {:.2g} of the thickness, {:.4g} mm, are); the first is at {:.6g}, {:.6g}, "
-                                "{:.6g}",
-                                counted(int(marks.size()), "mark or step on a skin", "marks or steps on the skins"),
-                                fmt::join(kinds, " and "), marks.size() == 1 ? "is" : "are",
-                                marks.size() == 1 ? "it" : "them", deepest_mark, deepest_mark * thickness,
-                                marks.front().place.x(), marks.front().place.y(), marks.front().place.z()),
-                    "",
-                    where.where,
-                    {}};
-    for (size_t i = 0; i < finding.where.size(); ++i) {
-        const SheetMark& mark = marks[i];
-        finding.place.push_back(mark.place);
-        finding.what.push_back(fmt::format("{:.4g} mm {} on the {} skin", mark.depth, mark.raised ? "high" : "deep",
-                                           side[size_t(mark.face)] == SheetSide::inner ? "inner" : "outer"));
-    }
-    return finding;
-}
-
 /// Measures the solid; its shallow marks are taken out of the part before.
 /// @param marked, found, outlines  set to the part as it was, what was done to it, and of the marks, if it had any
 /// @throws NotASheet
@@ -223,7 +184,7 @@ ThinSolid without_its_marks(PartFile& part, const CornerNormals* normals, std::o
         return sheet;
     PlainSolid plain = without_marks(part.mesh, sheet, stated_by_cad(part));
     outlines = mark_outlines(part.mesh, sheet, plain);
-    found = finding_of(sheet.marks, sheet.thickness, part, sheet.side);
+    found = finding_of(sheet.marks, sheet, part.source_face);
     std::vector<int> vertex, face;
     for (const int v : plain.source_vertex)
         vertex.push_back(part.source_vertex[size_t(v)]);

@@ -1,9 +1,43 @@
-#include "engine/exchange/tell_holes.h"
+#include "engine/exchange/tell_marks.h"
 
+#include <algorithm>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <string>
 
 namespace spia {
 namespace {
+
+/// Something on a skin of the sheet.
+struct MarkedPlace {
+    int face; ///< of the file
+    Eigen::Vector3d place;
+    std::string what;
+};
+
+/// @param text  to be followed by the place of the first
+Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
+{
+    Tally where;
+    for (const MarkedPlace& each : marked)
+        where.add(each.face);
+    const Eigen::Vector3d& first = marked.front().place;
+    Finding finding{Fault::mark,
+                    Severity::note,
+                    where.count,
+                    where.first,
+                    fmt::format("{} at {:.6g}, {:.6g}, {:.6g}", text, first.x(), first.y(), first.z()),
+                    "",
+                    where.where,
+                    {}};
+    for (size_t i = 0; i < finding.where.size(); ++i) {
+        finding.place.push_back(marked[i].place);
+        finding.what.push_back(marked[i].what);
+    }
+    return finding;
+}
+
+const char* of_skin(SheetSide side) { return side == SheetSide::inner ? "inner" : "outer"; }
 
 /// "countersink 12 mm wide, 3 mm deep, of a hole of 6 mm"
 std::string words(const SunkHole& hole)
@@ -11,36 +45,52 @@ std::string words(const SunkHole& hole)
     return fmt::format("{} {:.4g} mm wide, {:.4g} mm deep, of a hole{}, on the {} skin",
                        hole.counterbore ? "counterbore" : "countersink", hole.diameter, hole.depth,
                        hole.least > 0 ? fmt::format(" of {:.4g} mm", hole.least) : " that is not round",
-                       hole.skin == SheetSide::inner ? "inner" : "outer");
+                       of_skin(hole.skin));
+}
+
+/// "up to 0.2 mm deep and up to 0.1 mm high"
+std::string depths(const std::vector<SheetMark>& marks)
+{
+    double engraved = 0, raised = 0;
+    for (const SheetMark& mark : marks)
+        (mark.raised ? raised : engraved) = std::max(mark.raised ? raised : engraved, mark.depth);
+    std::vector<std::string> kinds;
+    if (engraved > 0)
+        kinds.push_back(fmt::format("up to {:.4g} mm deep", engraved));
+    if (raised > 0)
+        kinds.push_back(fmt::format("up to {:.4g} mm high", raised));
+    return fmt::format("{}", fmt::join(kinds, " and "));
 }
 
 } // namespace
 
+Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, const std::vector<int>& source_face)
+{
+    std::vector<MarkedPlace> marked;
+    for (const SheetMark& mark : marks)
+        marked.push_back({source_face[size_t(mark.face)], mark.place,
+                          fmt::format("{:.4g} mm {} on the {} skin", mark.depth, mark.raised ? "high" : "deep",
+                                      of_skin(sheet.side[size_t(mark.face)]))});
+    return note_on(marked,
+                   fmt::format("{} of the sheet, {}, {} passed over: what is laid flat is the skin without {} (marks "
+                               "of up to {:.2g} of the thickness, {:.4g} mm, are); the first is",
+                               counted(int(marks.size()), "mark or step on a skin", "marks or steps on the skins"),
+                               depths(marks), marks.size() == 1 ? "is" : "are", marks.size() == 1 ? "it" : "them",
+                               deepest_mark, deepest_mark * sheet.thickness));
+}
+
 Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, const std::vector<int>& source_face)
 {
-    Tally where;
+    std::vector<MarkedPlace> marked;
     for (const SunkHole& hole : holes)
-        where.add(source_face[size_t(hole.face)]);
-    const SunkHole& first = holes.front();
-    Finding finding{Fault::mark,
-                    Severity::note,
-                    int(holes.size()),
-                    where.first,
-                    fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
-                                "flat has {}, and circles of the marks show where to sink; the first is a {} at "
-                                "{:.6g}, {:.6g}, {:.6g}",
-                                counted(int(holes.size()), "hole is wider", "holes are wider"),
-                                taken == Skin::middle ? "the least diameter of each"
-                                                      : fmt::format("the diameters at the {} skin", name(taken)),
-                                words(first), first.centre.x(), first.centre.y(), first.centre.z()),
-                    "",
-                    where.where,
-                    {}};
-    for (size_t i = 0; i < finding.where.size(); ++i) {
-        finding.place.push_back(holes[i].centre);
-        finding.what.push_back(words(holes[i]));
-    }
-    return finding;
+        marked.push_back({source_face[size_t(hole.face)], hole.centre, words(hole)});
+    return note_on(marked,
+                   fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
+                               "flat has {}, and circles of the marks show where to sink; the first is a {}",
+                               counted(int(holes.size()), "hole is wider", "holes are wider"),
+                               taken == Skin::middle ? "the least diameter of each"
+                                                     : fmt::format("the diameters at the {} skin", name(taken)),
+                               marked.front().what));
 }
 
 } // namespace spia

@@ -2,14 +2,21 @@
 #include <vector>
 
 #include "engine/mesh/doctor.h"
+#include "engine/mesh/skin.h"
 #include "engine/mesh/sunk_holes.h"
 
 namespace spia {
 
+/// The note on shallow marks that are passed over: with place, skin and depth of each.
+/// @param marks  at least one
+/// @param sheet  the solid that they are on
+/// @param source_face  per triangle of the solid its face in the file
+Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, const std::vector<int>& source_face);
+
 /// The note on holes that are wider at a skin: with place, diameter and depth of each.
 /// @param holes  at least one
 /// @param taken  the surface that is laid flat
-/// @param source_face  per triangle of the solid its face in the file
+/// @param source_face  as above
 Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, const std::vector<int>& source_face);
 
 } // namespace spia

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/bends_for_shop.h"
@@ -16,6 +15,7 @@
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/lots.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
 namespace {
@@ -23,16 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using shapes::BentSolid;
 constexpr double degree = std::numbers::pi / 180;
-
-Session solved(const fs::path& file)
-{
-    Session session;
-    session.file = file;
-    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session = run_stage(Stage::read, session);
-    session.options.flatten.thickness = session.part->thickness_mm.value_or(1);
-    return run_stage(Stage::solve, session);
-}
 
 /// Across the bends and along them, mm.
 Eigen::Vector2d size_of(const Session& session)
@@ -92,10 +82,27 @@ std::string in_words(const BentSolid& solid)
 
 class CutBends : public testing::TestWithParam<std::uint64_t> {
 protected:
+    void expect_of_step(const BentSolid& solid)
+    {
+        SCOPED_TRACE(in_words(solid));
+        shapes::write_bent_solid(folder_ / "part.step", solid);
+        expect(folder_ / "part.step", solid, {1e-4, 1e-3, 1e-3});
+    }
+    /// With chords of 3 to 20 degrees.
+    void expect_of_stl(const BentSolid& solid)
+    {
+        shapes::Lots lots(GetParam() + 1000);
+        const double chord = degree * lots.between(3, 20);
+        SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", in_words(solid), chord / degree));
+        shapes::write_bent_stl(folder_ / "part.stl", solid, chord);
+        expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});
+    }
+
+private:
     void expect(const fs::path& file, const BentSolid& solid, const Bounds& within)
     {
         try {
-            expect_as_made(solved(file), solid, within);
+            expect_as_made(solved_part(file), solid, within);
         } catch (const Error& error) {
             ADD_FAILURE() << error.what();
         }
@@ -103,45 +110,17 @@ protected:
     ScratchFolder folder_;
 };
 
-} // namespace
-
-TEST_P(CutBends, OfAStepFileAreAsTheyWereMade)
-{
-    const BentSolid solid = shapes::random_cut_bends(GetParam());
-    SCOPED_TRACE(in_words(solid));
-    shapes::write_bent_solid(folder_ / "part.step", solid);
-    expect(folder_ / "part.step", solid, {1e-4, 1e-3, 1e-3});
-}
-
-TEST_P(CutBends, OfAnStlFileAreAsTheyWereMade)
-{
-    const BentSolid solid = shapes::random_cut_bends(GetParam());
-    shapes::Lots lots(GetParam() + 1000);
-    const double chord = degree * lots.between(3, 20);
-    SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", in_words(solid), chord / degree));
-    shapes::write_bent_stl(folder_ / "part.stl", solid, chord);
-    expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});
-}
-
 class WideHoles : public CutBends {};
 
-TEST_P(WideHoles, OfAStepFileAreAsTheyWereMade)
-{
-    const BentSolid solid = shapes::random_wide_hole(GetParam());
-    SCOPED_TRACE(in_words(solid));
-    shapes::write_bent_solid(folder_ / "part.step", solid);
-    expect(folder_ / "part.step", solid, {1e-4, 1e-3, 1e-3});
-}
+} // namespace
 
-TEST_P(WideHoles, OfAnStlFileAreAsTheyWereMade)
-{
-    const BentSolid solid = shapes::random_wide_hole(GetParam());
-    shapes::Lots lots(GetParam() + 1000);
-    const double chord = degree * lots.between(3, 20);
-    SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", in_words(solid), chord / degree));
-    shapes::write_bent_stl(folder_ / "part.stl", solid, chord);
-    expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});
-}
+TEST_P(CutBends, OfAStepFileAreAsTheyWereMade) { expect_of_step(shapes::random_cut_bends(GetParam())); }
+
+TEST_P(CutBends, OfAnStlFileAreAsTheyWereMade) { expect_of_stl(shapes::random_cut_bends(GetParam())); }
+
+TEST_P(WideHoles, OfAStepFileAreAsTheyWereMade) { expect_of_step(shapes::random_wide_hole(GetParam())); }
+
+TEST_P(WideHoles, OfAnStlFileAreAsTheyWereMade) { expect_of_stl(shapes::random_wide_hole(GetParam())); }
 
 INSTANTIATE_TEST_SUITE_P(Family, WideHoles, testing::Range<std::uint64_t>(1, 41));
 INSTANTIATE_TEST_SUITE_P(Family, CutBends, testing::Range<std::uint64_t>(1, 41));

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/session.h"
@@ -7,15 +8,23 @@
 
 namespace spia {
 
+/// A part read by default options and laid flat.
+/// @param thickness  mm; not given: the part's own, or 1 where the file has none
+inline Session solved_part(const std::filesystem::path& file, std::optional<double> thickness = {})
+{
+    Session session;
+    session.file = file;
+    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
+    session = run_stage(Stage::read, std::move(session));
+    session.options.flatten.thickness = thickness.value_or(session.part->thickness_mm.value_or(1));
+    return run_stage(Stage::solve, std::move(session));
+}
+
 /// The solid written as a STEP file, read by default options and laid flat with its own thickness.
 inline Session solved_bent_solid(const std::filesystem::path& file, const shapes::BentSolid& solid)
 {
     shapes::write_bent_solid(file, solid);
-    Session session;
-    session.file = file;
-    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session.options.flatten.thickness = solid.thickness;
-    return run_stage(Stage::solve, run_stage(Stage::read, std::move(session)));
+    return solved_part(file, solid.thickness);
 }
 
 } // namespace spia

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/flat_area.h"
 #include "tests/support/lots.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
 namespace {
@@ -81,16 +81,6 @@ BentSolid drawn_by_lot(std::uint64_t seed)
     return solid;
 }
 
-Session blank_of(const std::filesystem::path& file)
-{
-    Session session;
-    session.file = file;
-    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session = run_stage(Stage::read, session);
-    session.options.flatten.thickness = session.part->thickness_mm.value();
-    return run_stage(Stage::solve, session);
-}
-
 void expect_taken_out(const Session& session, const BentSolid& solid, double exact)
 {
     const PartFile& part = *session.part;
@@ -118,7 +108,7 @@ TEST(StampedBends, OfCadFilesAreLaidFlatAsIfTheyWerePlain)
         shapes::write_bent_solid(folder / "part.step", solid);
         SCOPED_TRACE(fmt::format("seed {}, t {:.3g}, R {:.3g}, {:.3g} rad, {:.3g} deep", seed, solid.thickness,
                                  solid.bend[0].inner_radius, solid.bend[0].angle, solid.stamp[0].depth));
-        const Session session = blank_of(folder / "part.step");
+        const Session session = solved_part(folder / "part.step");
         expect_taken_out(session, solid, 1e-4);
         ASSERT_TRUE(session.bends);
         ASSERT_EQ(session.bends->bends.size(), 1u);
@@ -137,7 +127,7 @@ TEST(StampedBends, OfMeshesAreLaidFlatAsIfTheyWerePlain)
         shapes::write_bent_solid(folder / "part.stl", solid, CadForm::stl);
         SCOPED_TRACE(fmt::format("seed {}, t {:.3g}, R {:.3g}, {:.3g} rad, {:.3g} deep", seed, solid.thickness,
                                  solid.bend[0].inner_radius, solid.bend[0].angle, solid.stamp[0].depth));
-        const Session session = blank_of(folder / "part.stl");
+        const Session session = solved_part(folder / "part.stl");
         ASSERT_TRUE(session.part->solid);
         if (session.part->solid->skin != Skin::middle) { // the outer skin is laid flat instead, which is said
             EXPECT_FALSE(session.part->doubts.empty());

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/forming/material_library.h"
 #include "engine/mesh/round_edge.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/drawn_blank.h"
@@ -15,6 +14,7 @@
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/lots.h"
 #include "tests/unit/exchange/scratch_folder.h"
+#include "tests/unit/pipeline/solved_bent_solid.h"
 
 namespace spia {
 namespace {
@@ -23,16 +23,6 @@ using shapes::BentSolid;
 using shapes::CadForm;
 using shapes::Cutout;
 using shapes::Sink;
-
-Session blank_of(const std::filesystem::path& file)
-{
-    Session session;
-    session.file = file;
-    session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session = run_stage(Stage::read, session);
-    session.options.flatten.thickness = session.part->thickness_mm.value();
-    return run_stage(Stage::solve, session);
-}
 
 /// One of a hole on each leg of a plate or a bracket: sunk from either side, to any depth, through all of it at times.
 BentSolid drawn_by_lot(std::uint64_t seed)
@@ -153,7 +143,7 @@ void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm f
     const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
     shapes::write_bent_solid(file, solid, form);
     SCOPED_TRACE(file.extension().string());
-    const Session session = blank_of(file);
+    const Session session = solved_part(file);
     const PartFile& part = *session.part;
     ASSERT_TRUE(part.solid);
     EXPECT_EQ(part.solid->skin, Skin::middle);
