@@ -1,7 +1,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
+#include <random>
 
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/orient2d.h"
@@ -184,6 +186,72 @@ TEST(OverlapOf, ASpiralStripIsFoundByItsOutline)
         const Overlap found = overlap(mesh, flat);
         EXPECT_TRUE(found.wound.empty());
         EXPECT_EQ(!found.crossings.empty(), overlaps) << degrees;
+    }
+}
+
+/// A sheet with a slit that runs in from its left side, turns up and ends: cells of the tongue have vertices of their own along it,
+/// at other places than those opposite to them.
+struct SlitSheet {
+    TriMesh mesh;
+    std::vector<int> lip; ///< vertices of the tongue along the slit
+};
+
+SlitSheet slit_sheet(std::mt19937& draw)
+{
+    const int columns = 6 + int(draw() % 10), rows = 6 + int(draw() % 10), corner = 2 + int(draw() % (columns - 3)),
+              row = 1 + int(draw() % (rows - 4)), end = row + 2 + int(draw() % (rows - row - 2));
+    std::uniform_real_distribution<double> along(-0.4, 0.4);
+    std::vector<Eigen::Vector3d> place;
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i)
+            place.emplace_back(i, j, 0);
+    std::map<int, int> copy;
+    SlitSheet sheet;
+    const auto split = [&](int i, int j, double dx, double dy) {
+        copy[i + j * (columns + 1)] = int(place.size());
+        sheet.lip.push_back(int(place.size()));
+        place.emplace_back(i + dx, j + dy, 0);
+    };
+    for (int i = 0; i < corner; ++i)
+        split(i, row, i > 0 ? along(draw) : 0, 0);
+    split(corner, row, 0, 0);
+    for (int j = row + 1; j < end; ++j)
+        split(corner, j, 0, along(draw));
+    std::vector<Eigen::Vector3i> triangle;
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            const auto at = [&](int a, int b) {
+                const int v = a + b * (columns + 1);
+                return j >= row && j < end && i < corner && copy.contains(v) ? copy.at(v) : v;
+            };
+            triangle.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            triangle.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    sheet.mesh.position.resize(3, Eigen::Index(place.size()));
+    for (size_t v = 0; v < place.size(); ++v)
+        sheet.mesh.position.col(Eigen::Index(v)) = place[v];
+    sheet.mesh.triangle.resize(3, Eigen::Index(triangle.size()));
+    for (size_t f = 0; f < triangle.size(); ++f)
+        sheet.mesh.triangle.col(Eigen::Index(f)) = triangle[f];
+    return sheet;
+}
+
+TEST(OverlapOf, LipsThatLieOnEachOtherUpToRoundingTouch)
+{
+    std::mt19937 draw(83);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int round = 0; round < 200; ++round) {
+        const SlitSheet sheet = slit_sheet(draw);
+        const double size = 30 * std::exp(3 * unit(draw));
+        const Eigen::Rotation2Dd turn(4 * unit(draw));
+        Eigen::Matrix2Xd flat = size / 20 * (turn.toRotationMatrix() * sheet.mesh.position.topRows<2>());
+        for (double& x : flat.reshaped())
+            x += 1e-13 * size * unit(draw);
+        SCOPED_TRACE(round);
+        EXPECT_TRUE(overlap(sheet.mesh, flat).none());
+        for (const int v : sheet.lip) // out over the other side
+            flat.col(v) += 1e-6 * size * (turn * Eigen::Vector2d(1, -1));
+        EXPECT_FALSE(overlap(sheet.mesh, flat).crossings.empty());
     }
 }
 
