@@ -227,23 +227,40 @@ bool decide(PartFile& part, const ThinSolid& sheet)
     return closed != ClosedSurface::perhaps_hollow;
 }
 
+/// Made from the skin at which fewer of the countersinks are cut off; seen from the outer one.
+SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
+                        const ThinSolidOptions& units)
+{
+    const int outer = cut_off_at(holes, SheetSide::outer), inner = cut_off_at(holes, SheetSide::inner);
+    if (const int most = std::min(outer, inner); most > 0)
+        doubt(part, fmt::format("{} cut off at the skin that the middle surface is made from: laid flat, its edge is "
+                                "where the countersink is in the middle of the sheet, wider than the hole",
+                                counted(most, "sunk hole is", "sunk holes are")));
+    const bool exchanged = outer > inner;
+    const ThinSolid from = exchanged ? sides_exchanged(sheet) : sheet;
+    const std::vector<SunkHole> sunk = exchanged ? sunk_holes(part.mesh, from) : holes;
+    SkinMesh skin = skin_of(part.mesh, from, Skin::middle, units);
+    if (!units.surface.empty())
+        onto_surfaces(skin, part.mesh, from, units);
+    straighten_holes(skin, part.mesh, sunk, from.thickness);
+    if (!units.surface.empty()) {
+        const std::vector<int> done = holes_over_bends(skin, part.mesh, from, units.surface);
+        round_border(skin, part.mesh, from, units.surface, done);
+    }
+    narrow_holes(skin, sunk);
+    if (exchanged)
+        skin.mesh.triangle.row(1).swap(skin.mesh.triangle.row(2));
+    return skin;
+}
+
 /// The surface that is wanted. Where none was asked for and there is no middle one the outer skin is better than nothing, and a doubt.
 /// @param wanted  set to the one that is taken
 SkinMesh wanted_skin(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes, Skin& wanted,
                      bool asked, const ThinSolidOptions& units)
 {
     try {
-        SkinMesh skin = skin_of(part.mesh, sheet, wanted, units);
-        if (wanted == Skin::middle) {
-            if (!units.surface.empty())
-                onto_surfaces(skin, part.mesh, sheet, units);
-            straighten_holes(skin, part.mesh, holes, sheet.thickness);
-            if (!units.surface.empty()) {
-                const std::vector<int> done = holes_over_bends(skin, part.mesh, sheet, units.surface);
-                round_border(skin, part.mesh, sheet, units.surface, done);
-            }
-            narrow_holes(skin, holes);
-        }
+        SkinMesh skin = wanted == Skin::middle ? middle_surface(part, sheet, holes, units)
+                                               : skin_of(part.mesh, sheet, wanted, units);
         if (skin.straightened > 0)
             part.notes.push_back(fmt::format(
                 "{} not halfway along an edge that crosses the sheet askew but straight below the outer skin, up to "
@@ -354,8 +371,8 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             part.solid->surface = of_file_faces(part, surface);
         for (const MarkOutline& outline : outlines)
             part.solid->marks.push_back(on_surface(outline, wanted, sheet.thickness));
-        for (const SunkHole& hole : holes)
-            part.solid->marks.push_back(circle_of(hole, wanted, sheet.thickness));
+        for (Eigen::Matrix3Xd& row : rows_of(holes, wanted, sheet.thickness))
+            part.solid->marks.push_back(std::move(row));
         std::optional<Finding> sunk;
         if (!holes.empty())
             sunk = finding_of(holes, wanted, part.source_face);

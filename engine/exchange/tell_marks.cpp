@@ -39,13 +39,38 @@ Finding note_on(const std::vector<MarkedPlace>& marked, const std::string& text)
 
 const char* of_skin(SheetSide side) { return side == SheetSide::inner ? "inner" : "outer"; }
 
-/// "countersink 12 mm wide, 3 mm deep, of a hole of 6 mm"
-std::string words(const SunkHole& hole)
+/// "countersink 12 mm wide, 3 mm deep"
+std::string recess(const SunkHole& hole)
 {
-    return fmt::format("{} {:.4g} mm wide, {:.4g} mm deep, of a hole{}, on the {} skin",
-                       hole.counterbore ? "counterbore" : "countersink", hole.diameter, hole.depth,
-                       hole.least > 0 ? fmt::format(" of {:.4g} mm", hole.least) : " that is not round",
-                       of_skin(hole.skin));
+    const char* const kind = hole.counterbore ? "counterbore" : "countersink";
+    return hole.diameter > 0 ? fmt::format("{} {:.4g} mm wide, {:.4g} mm deep", kind, hole.diameter, hole.depth) : kind;
+}
+
+/// "countersink 12 mm wide, 3 mm deep, of a hole of 6 mm, on the inner skin". @param sunk  at one skin or both of one hole
+std::string words(const std::vector<const SunkHole*>& sunk)
+{
+    const SunkHole &first = *sunk.front(), &last = *sunk.back();
+    const bool both = sunk.size() > 1, alike = both && recess(first) == recess(last);
+    std::string text = fmt::format("{}, of a hole{}, on {}", recess(first),
+                                   first.least > 0 ? fmt::format(" of {:.4g} mm", first.least) : " that is not round",
+                                   alike ? "both skins" : fmt::format("the {} skin", of_skin(first.skin)));
+    if (both && !alike)
+        text += fmt::format(", and {} on the {} skin", recess(last), of_skin(last.skin));
+    if (first.cut_off || last.cut_off)
+        text += "; a bend, a border or another hole cuts it off";
+    return text;
+}
+
+/// What is sunk of each hole, at one skin or both.
+std::vector<std::vector<const SunkHole*>> by_hole(const std::vector<SunkHole>& holes)
+{
+    std::vector<std::vector<const SunkHole*>> result;
+    for (const SunkHole& hole : holes) {
+        if (result.empty() || result.back().front()->hole != hole.hole)
+            result.emplace_back();
+        result.back().push_back(&hole);
+    }
+    return result;
 }
 
 /// "up to 0.2 mm deep and up to 0.1 mm high"
@@ -82,12 +107,12 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
 Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, const std::vector<int>& source_face)
 {
     std::vector<MarkedPlace> marked;
-    for (const SunkHole& hole : holes)
-        marked.push_back({source_face[size_t(hole.face)], hole.centre, words(hole)});
+    for (const auto& sunk : by_hole(holes))
+        marked.push_back({source_face[size_t(sunk.front()->face)], sunk.front()->centre, words(sunk)});
     return note_on(marked,
                    fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
                                "flat has {}, and circles of the marks show where to sink; the first is a {}",
-                               counted(int(holes.size()), "hole is wider", "holes are wider"),
+                               counted(int(marked.size()), "hole is wider", "holes are wider"),
                                taken == Skin::middle ? "the least diameter of each"
                                                      : fmt::format("the diameters at the {} skin", name(taken)),
                                marked.front().what));

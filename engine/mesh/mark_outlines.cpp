@@ -1,6 +1,7 @@
 #include "engine/mesh/mark_outlines.h"
 
 #include <map>
+#include <utility>
 
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/disjoint_sets.h"
@@ -76,6 +77,26 @@ std::vector<std::vector<int>> rows_of(std::multimap<int, int>& next)
 
 } // namespace
 
+std::vector<MarkOutline> outlines_along(std::multimap<int, int> next, SheetSide skin, const TriMesh& solid,
+                                        const Eigen::Matrix3Xd& normal, const std::function<bool(int)>& on_skin)
+{
+    std::map<int, Eigen::Vector3d> inwards;
+    for (const auto& [from, to] : next)
+        inwards[from] = inwards[to] = Eigen::Vector3d::Zero();
+    for (int f = 0; f < solid.triangles(); ++f)
+        for (int k = 0; k < 3 && on_skin(f); ++k)
+            if (const auto at = inwards.find(solid.triangle(k, f)); at != inwards.end())
+                at->second -= normal.col(f);
+    std::vector<MarkOutline> outlines;
+    for (const std::vector<int>& row : rows_of(next)) {
+        MarkOutline outline{skin, solid.position(Eigen::all, row), Eigen::Matrix3Xd(3, Eigen::Index(row.size()))};
+        for (size_t k = 0; k < row.size(); ++k)
+            outline.inwards.col(Eigen::Index(k)) = inwards.at(row[k]).normalized();
+        outlines.push_back(std::move(outline));
+    }
+    return outlines;
+}
+
 std::vector<MarkOutline> mark_outlines(const TriMesh& solid, const ThinSolid& sheet, const PlainSolid& plain)
 {
     const Sunken sunken(solid, sheet, plain);
@@ -94,19 +115,9 @@ std::vector<MarkOutline> mark_outlines(const TriMesh& solid, const ThinSolid& sh
             const EdgeUse& level = sunken(a.face) ? b : a;
             next.emplace(level.forward ? level.low : level.high, level.forward ? level.high : level.low);
         });
-        std::map<int, Eigen::Vector3d> inwards;
-        for (const auto& [from, to] : next)
-            inwards[from] = inwards[to] = Eigen::Vector3d::Zero();
-        for (int f = 0; f < solid.triangles(); ++f)
-            for (int k = 0; k < 3 && !sunken(f) && sheet.side[size_t(f)] == skin; ++k)
-                if (const auto at = inwards.find(solid.triangle(k, f)); at != inwards.end())
-                    at->second -= normal.col(f);
-        for (const std::vector<int>& row : rows_of(next)) {
-            MarkOutline outline{skin, solid.position(Eigen::all, row), Eigen::Matrix3Xd(3, Eigen::Index(row.size()))};
-            for (size_t k = 0; k < row.size(); ++k)
-                outline.inwards.col(Eigen::Index(k)) = inwards.at(row[k]).normalized();
+        const auto level = [&](int f) { return !sunken(f) && sheet.side[size_t(f)] == skin; };
+        for (MarkOutline& outline : outlines_along(std::move(next), skin, solid, normal, level))
             outlines.push_back(std::move(outline));
-        }
     }
     return outlines;
 }

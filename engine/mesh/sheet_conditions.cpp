@@ -3,11 +3,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
-#include "engine/mesh/counterbores.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/thin_floors.h"
 
 namespace spia {
 namespace {
@@ -59,16 +60,6 @@ void give_slivers_to_their_skin(SolidInPieces& solid)
             rim(p) && !own[group] && (touches[group] == 1 || touches[group] == 2))
             side[size_t(p)] = touches[group] == 1 ? PieceSide::one : PieceSide::other;
     solid.sides.side = std::move(side);
-}
-
-/// Counterbores are of the outline of their holes.
-void give_counterbores_to_the_rim(SolidInPieces& solid, double thickness, double area)
-{
-    const std::vector<char> floor =
-        counterbore_floors(solid.mesh, solid.normal, solid.pieces, solid.sides.side, thickness, speck * area);
-    for (size_t p = 0; p < floor.size(); ++p)
-        if (floor[p])
-            solid.sides.side[p] = PieceSide::rim;
 }
 
 /// Pieces of one side that touch each other, and their area, mm2, by the root.
@@ -201,7 +192,6 @@ void require_two_sides(const SolidInPieces& solid, double thickness, double area
 
 void require_connected(SolidInPieces& solid, double thickness, double area)
 {
-    give_counterbores_to_the_rim(solid, thickness, area);
     constexpr double plate = 0.15; // of the width: beyond that a plain one may be a closed box (sheet_or_hollow())
     const bool surely = thickness < plate * std::sqrt(area / 2);
     for (const PieceSide side : {PieceSide::one, PieceSide::other})
@@ -210,6 +200,18 @@ void require_connected(SolidInPieces& solid, double thickness, double area)
         give_slivers_to_their_skin(solid);
         require_through(solid, thickness, surely);
     }
+}
+
+void require_no_thin_floor(const SolidInPieces& solid, double thickness, double area, const std::vector<char>& of_hole)
+{
+    const std::optional<ThinFloor> floor = thin_floor(solid.pieces, solid.places, solid.sides.side, thickness, of_hole);
+    if (!floor || floor->area < speck * area)
+        return;
+    const auto of_it = [&](int p) { return floor->piece[size_t(p)] != 0; };
+    solid.refuse(fmt::format("one of its sides has a pocket or a step, which is no countersink or counterbore of a "
+                             "round hole: over {:.4g} mm2 it is {:.4g} mm thick, and {:.4g} mm elsewhere{}",
+                             floor->area, floor->thickness, thickness, how_deep(solid, floor->skin, thickness, of_it)),
+                 solid.largest(of_it));
 }
 
 /// With faces missing, most of the outline of the skins must still be where faces cross the thickness.

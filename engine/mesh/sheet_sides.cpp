@@ -153,7 +153,8 @@ std::vector<Relation> relations(const SurfacePieces& pieces, const std::vector<O
     return result;
 }
 
-using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known
+using Side = std::vector<int>; // per piece: 0 one, 1 other, -1 not known, `none` that of the faces across the thickness
+constexpr int none = -2;
 
 /// The largest group of pieces that relations join.
 Side sure_sides(const SurfacePieces& pieces, const std::vector<Relation>& relations, const std::vector<double>& share)
@@ -180,7 +181,7 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
 {
     DisjointSets group(size_t(pieces.count()));
     for (const PieceContact& c : pieces.contact)
-        if (c.smooth > 0 && side[size_t(c.a)] < 0 && side[size_t(c.b)] < 0)
+        if (c.smooth > 0 && side[size_t(c.a)] == -1 && side[size_t(c.b)] == -1)
             group.join(c.a, c.b);
     struct Touch {
         std::array<double, 2> smooth{}, sharp{};
@@ -188,7 +189,7 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
     };
     std::map<int, Touch> touches;
     for (int p = 0; p < pieces.count(); ++p)
-        if (side[size_t(p)] < 0) {
+        if (side[size_t(p)] == -1) {
             Touch& touch = touches[group.root(p)];
             touch.area += pieces.area[size_t(p)];
             touch.across += pieces.area[size_t(p)] * share[size_t(p)];
@@ -196,14 +197,14 @@ bool settle_groups(const SurfacePieces& pieces, const std::vector<double>& share
         }
     for (const PieceContact& c : pieces.contact)
         for (const auto& [unsure, known] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
-            if (side[size_t(unsure)] < 0 && side[size_t(known)] >= 0) {
+            if (side[size_t(unsure)] == -1 && side[size_t(known)] >= 0) {
                 Touch& touch = touches[group.root(unsure)];
                 touch.smooth[size_t(side[size_t(known)])] += c.smooth;
                 touch.sharp[size_t(side[size_t(known)])] += c.concave + c.convex;
             }
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
-        if (side[size_t(p)] >= 0)
+        if (side[size_t(p)] != -1)
             continue;
         const Touch& touch = touches[group.root(p)];
         if (touch.sloped > mostly_sloped * touch.area)
@@ -242,7 +243,7 @@ bool settle_faced(const SurfacePieces& pieces, const std::vector<Opposite>& plac
     bool settled = false;
     for (int p = 0; p < pieces.count(); ++p) {
         const auto [one, other] = looked[size_t(p)];
-        if (side[size_t(p)] >= 0 || sloped[size_t(p)] > mostly_sloped ||
+        if (side[size_t(p)] != -1 || sloped[size_t(p)] > mostly_sloped ||
             std::max(one, other) < least * pieces.area[size_t(p)] ||
             std::min(one, other) > least * std::max(one, other) || (touches[size_t(p)] & (one > other ? 1 : 2)))
             continue;
@@ -260,7 +261,8 @@ bool across(const Opposite& place, double thickness)
            place.distance < most_distance * thickness;
 }
 
-SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness)
+SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
+                       const std::vector<char>& across_it)
 {
     SheetSides result;
     result.opposite_area = opposite_shares(pieces, places, thickness);
@@ -270,10 +272,12 @@ SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>&
     std::vector<double> steep = sloped_shares(pieces, places, thickness, steepest);
     keep_bends(pieces, steep);
     for (size_t p = 0; p < sloped.size(); ++p)
-        if (sloped[p] > mostly_sloped)
+        if (sloped[p] > mostly_sloped || across_it[p])
             result.opposite_area[p] = 0;
     const std::vector<double>& share = result.opposite_area;
     Side side = sure_sides(pieces, relations(pieces, places, share, thickness), share);
+    for (size_t p = 0; p < side.size(); ++p)
+        side[p] = across_it[p] ? none : side[p];
     while (settle_faced(pieces, places, steep, thickness, side) || settle_groups(pieces, share, sloped, side)) {
     }
 

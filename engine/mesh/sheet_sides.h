@@ -17,7 +17,9 @@ struct SheetSides {
 };
 
 /// Sorts the pieces, see thin_solid(). @param thickness mm
-SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness);
+/// @param across_it  per piece: known to be of faces across the thickness, whatever lies opposite to it (round_holes())
+SheetSides sheet_sides(const SurfacePieces& pieces, const std::vector<Opposite>& places, double thickness,
+                       const std::vector<char>& across_it);
 
 /// Whether the place has a face turned against it at about the thickness: as at mitred edges and in bends whose radii do not
 /// fit each other, too.

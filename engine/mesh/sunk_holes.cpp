@@ -7,10 +7,13 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "engine/mesh/cut_off_holes.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/round_edge.h"
+#include "engine/mesh/round_holes.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {
@@ -25,6 +28,7 @@ struct Edge {
 
 /// All faces across the thickness that hang together.
 struct Wall {
+    std::vector<int> face;   ///< ascending
     std::vector<int> vertex; ///< of the solid, ascending
     Edge outer, inner;
 };
@@ -59,6 +63,7 @@ std::vector<Wall> walls_of(const TriMesh& solid, const ThinSolid& sheet)
         const auto [at, added] = number.try_emplace(together.root(f), walls.size());
         if (added)
             walls.emplace_back();
+        walls[at->second].face.push_back(f);
         for (const int v : solid.triangle.col(f))
             walls[at->second].vertex.push_back(v);
     }
@@ -129,8 +134,24 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
         size += normal.col(f).norm();
     }
     constexpr double square = 0.1; // 6 degrees
-    return SunkHole{side,  circle->centre,         -circle->axis,     2 * circle->radius, 2 * least,
-                    depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
+    return SunkHole{0,         side,  circle->centre,         -circle->axis,     2 * circle->radius,
+                    2 * least, depth, along <= square * size, edge.wall.front(), wall.outer.vertex};
+}
+
+/// The circle as a closed row of points.
+Eigen::Matrix3Xd circle_of(const SunkHole& hole, Skin surface, double thickness)
+{
+    constexpr int points = 120; // chords of 3 degrees, as round_border() has them
+    const bool same = (surface == Skin::outer) == (hole.skin == SheetSide::outer);
+    const double depth = surface == Skin::middle ? thickness / 2 : same ? 0 : thickness;
+    const Eigen::Vector3d x = hole.inwards.unitOrthogonal(), y = hole.inwards.cross(x);
+    Eigen::Matrix3Xd row(3, points + 1);
+    for (int i = 0; i <= points; ++i) {
+        const double angle = 2 * std::numbers::pi * (i % points) / points;
+        row.col(i) =
+            hole.centre + depth * hole.inwards + hole.diameter / 2 * (std::cos(angle) * x + std::sin(angle) * y);
+    }
+    return row;
 }
 
 } // namespace
@@ -138,15 +159,61 @@ std::optional<SunkHole> sunk(const TriMesh& solid, const Eigen::Matrix3Xd& norma
 std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
 {
     const Eigen::Matrix3Xd normal = sheet.flipped * area_vectors(solid);
+    const std::vector<RoundHole> round = round_holes(solid, normal, sheet.thickness);
+    std::vector<char> cut_off(size_t(solid.triangles()), 0);
+    for (const RoundHole& hole : round)
+        for (const int f : hole.wall)
+            cut_off[size_t(f)] = !hole.whole;
     std::vector<SunkHole> holes;
-    for (const Wall& wall : walls_of(solid, sheet)) {
+    int number = 0;
+    const auto add = [&](SunkHole& hole) {
+        hole.hole = number;
+        holes.push_back(std::move(hole));
+    };
+    std::vector<std::vector<int>> others;
+    for (Wall& wall : walls_of(solid, sheet)) {
+        if (std::ranges::any_of(wall.face, [&](int f) { return cut_off[size_t(f)] != 0; }))
+            continue;
         if (wall.outer.vertex.empty() || wall.inner.vertex.empty())
             continue; // not through the sheet
+        const size_t before = holes.size();
         for (const SheetSide side : {SheetSide::outer, SheetSide::inner})
             if (auto hole = sunk(solid, normal, wall, side, sheet.thickness))
-                holes.push_back(std::move(*hole));
+                add(*hole);
+        if (holes.size() > before)
+            ++number;
+        else
+            others.push_back(std::move(wall.face));
+    }
+    const CutOffHoles search(solid, normal, sheet);
+    for (const RoundHole& hole : round)
+        if (!hole.whole) {
+            for (SunkHole& each : search.of(hole))
+                add(each);
+            ++number;
+        }
+    for (const std::vector<int>& wall : others) {
+        for (SunkHole& each : search.over_bend(wall))
+            add(each);
+        ++number;
     }
     return holes;
+}
+
+int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin)
+{
+    return int(std::ranges::count_if(holes, [&](const SunkHole& hole) { return hole.cut_off && hole.skin == skin; }));
+}
+
+ThinSolid sides_exchanged(const ThinSolid& sheet)
+{
+    ThinSolid result = sheet;
+    for (SheetSide& side : result.side)
+        side = side == SheetSide::outer   ? SheetSide::inner
+               : side == SheetSide::inner ? SheetSide::outer
+                                          : SheetSide::rim;
+    std::swap(result.outer, result.inner);
+    return result;
 }
 
 void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<SunkHole>& holes, double thickness)
@@ -178,19 +245,22 @@ int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes)
     return moved;
 }
 
-Eigen::Matrix3Xd circle_of(const SunkHole& hole, Skin surface, double thickness)
+std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin surface, double thickness)
 {
-    constexpr int points = 120; // chords of 3 degrees, as round_border() has them
-    const bool same = (surface == Skin::outer) == (hole.skin == SheetSide::outer);
-    const double depth = surface == Skin::middle ? thickness / 2 : same ? 0 : thickness;
-    const Eigen::Vector3d x = hole.inwards.unitOrthogonal(), y = hole.inwards.cross(x);
-    Eigen::Matrix3Xd row(3, points + 1);
-    for (int i = 0; i <= points; ++i) {
-        const double angle = 2 * std::numbers::pi * (i % points) / points;
-        row.col(i) =
-            hole.centre + depth * hole.inwards + hole.diameter / 2 * (std::cos(angle) * x + std::sin(angle) * y);
+    constexpr double same = 1e-3; // of the thickness
+    std::vector<Eigen::Matrix3Xd> rows;
+    for (size_t i = 0; i < holes.size(); ++i) {
+        const SunkHole& hole = holes[i];
+        for (const MarkOutline& edge : hole.edge)
+            rows.push_back(on_surface(edge, surface, thickness));
+        const auto drawn = [&](const SunkHole& before) {
+            return before.hole == hole.hole && !before.cut_off &&
+                   std::abs(before.diameter - hole.diameter) < same * thickness;
+        };
+        if (!hole.cut_off && std::none_of(holes.begin(), holes.begin() + long(i), drawn))
+            rows.push_back(circle_of(hole, surface, thickness));
     }
-    return row;
+    return rows;
 }
 
 } // namespace spia

@@ -1,28 +1,39 @@
 #pragma once
 #include <vector>
 
+#include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/skin.h"
 #include "engine/mesh/thin_solid.h"
 
 namespace spia {
 
-/// Where a round hole through plane sheet is wider at a skin than inside: a counterbore, a countersink, a chamfer. One that is wider
+/// Where a round hole through sheet is wider at a skin than inside: a counterbore, a countersink, a chamfer. One that is wider
 /// at both skins is two of them.
 struct SunkHole {
+    int hole = 0;                                      ///< the same of both that are of one hole, from 0
     SheetSide skin = SheetSide::outer;                 ///< at which it is wider
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mm, of the circle on that skin
     Eigen::Vector3d inwards = Eigen::Vector3d::Zero(); ///< unit length, along the axis into the sheet
-    double diameter = 0;                               ///< mm, of that circle
-    double least = 0;            ///< mm, diameter of the hole where it is narrowest; 0: it is not round there
-    double depth = 0;            ///< mm, from the skin to there
-    bool counterbore = false;    ///< its wall at the skin is square to the sheet; else it is sloped
-    int face = -1;               ///< of the wall, a triangle of the solid
-    std::vector<int> outer = {}; ///< vertices of the solid where the hole meets the outer skin, ascending
+    double diameter = 0;                               ///< mm, of that circle; 0: it is on no plane
+    double least = 0;         ///< mm, diameter of the hole where it is narrowest; 0: it is not round there
+    double depth = 0;         ///< mm, from the skin to there; 0: the skin is not plane
+    bool counterbore = false; ///< its wall at the skin is square to the sheet; else it is sloped
+    int face = -1;            ///< of the wall, a triangle of the solid
+    std::vector<int> outer =
+        {}; ///< vertices of the solid where the hole meets the outer skin, ascending; of cut off ones none
+    bool cut_off = false;               ///< there is not all of the circle: a bend, a border or another hole is in it
+    std::vector<MarkOutline> edge = {}; ///< what there is instead of it
 };
 
-/// In the order of the triangles. Those in bends, and holes whose edge is no circle, are not among them.
-/// @param solid  without its marks: a shallow counterbore is one
+/// Whole ones in the order of the triangles, then those that something cuts off.
+/// @param solid  without its marks
 std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet);
+
+/// How many holes have what is sunk cut off at a skin: where a middle surface is made from that one, their edges are wider than they are cut.
+int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin);
+
+/// The same sheet with its outer skin called the inner one.
+ThinSolid sides_exchanged(const ThinSolid& sheet);
 
 /// Puts the border of these holes in a middle surface straight below their edges on the outer skin. Halfway along the edges of their
 /// walls it lies unevenly: those cross floors of counterbores, and end at any corner of a circle there.
@@ -32,7 +43,8 @@ void straighten_holes(SkinMesh& middle, const TriMesh& solid, const std::vector<
 /// @returns how many vertices were moved
 int narrow_holes(SkinMesh& middle, const std::vector<SunkHole>& holes);
 
-/// The circle at the skin as a closed row of points on a surface of the sheet, 3 by #points, mm.
-Eigen::Matrix3Xd circle_of(const SunkHole& hole, Skin surface, double thickness);
+/// The circle at the skin, or what there is of it, as rows of points on a surface of the sheet, 3 by #points, mm. The same one at both
+/// skins is one row.
+std::vector<Eigen::Matrix3Xd> rows_of(const std::vector<SunkHole>& holes, Skin surface, double thickness);
 
 } // namespace spia

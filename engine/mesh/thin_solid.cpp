@@ -10,6 +10,7 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/pick.h"
+#include "engine/mesh/round_holes.h"
 #include "engine/mesh/sheet_conditions.h"
 #include "engine/mesh/sheet_thickness.h"
 #include "engine/mesh/solid_in_pieces.h"
@@ -120,13 +121,16 @@ ThinSolid thin_solid(const TriMesh& mesh, const ThinSolidOptions& options, const
     require_thin(solid, thickness, area);
 
     progress.checkpoint(0.6, "taking the sides apart");
-    solid.sides = sheet_sides(solid.pieces, solid.places, thickness);
+    const std::vector<char> of_hole = pieces_of(round_holes(mesh, solid.normal, thickness), solid.pieces);
+    solid.sides = sheet_sides(solid.pieces, solid.places, thickness, of_hole);
     require_two_sides(solid, thickness, area);
     std::vector<SheetMark> marks;
     if (solid.closed)
         marks = find_marks(mesh, solid.normal, solid.pieces, solid.sides.side, thickness);
     require_connected(solid, thickness, area);
-    if (!solid.closed)
+    if (solid.closed)
+        require_no_thin_floor(solid, thickness, area, of_hole);
+    else
         require_rim(solid);
 
     std::vector<char> from_skin_to_skin;

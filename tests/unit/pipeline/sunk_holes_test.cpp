@@ -46,7 +46,7 @@ BentSolid drawn_by_lot(std::uint64_t seed)
         sink.counterbore = lots.coin();
         sink.left = lots.coin();
         const bool through = !sink.counterbore && lots.whole(0, 2) == 0;
-        sink.depth = solid.thickness * (through ? 1 : lots.between(0.25, 0.9)); // shallower counterbores are marks
+        sink.depth = solid.thickness * (through ? 1 : lots.between(0.25, 0.9)); // shallower wide counterbores are marks
         sink.wide = sink.hole + lots.between(0.5, 1.2) * (sink.counterbore ? solid.thickness : sink.depth);
         solid.sink.push_back(sink);
     }
@@ -97,6 +97,39 @@ BentSolid counterbored(double length, double width, double thickness, double wid
     sink.depth = depth;
     sink.counterbore = true;
     solid.sink = {sink};
+    return solid;
+}
+
+/// One to six countersinks and a counterbore or two on one flat of a plate or an L bracket, from both sides, of any angle from 60 to 140 degrees,
+/// a tenth of the thickness deep to all of it, holes of half the thickness to six times it. Hundredths of a millimetre.
+BentSolid any_sinks_by_lot(std::uint64_t seed)
+{
+    shapes::Lots lots(seed + 5000);
+    const auto hundredths = [](double value) { return std::round(100 * value) / 100; };
+    BentSolid solid;
+    solid.kind = fmt::format("any sinks, seed {}", seed);
+    const double t = solid.thickness = hundredths(lots.between(0.8, 4));
+    solid.pose = seed;
+    const double cell = 13 * t; // the widest is 11.5 t wide
+    solid.width = 2 * cell;
+    solid.leg = {3 * cell};
+    if (lots.coin()) {
+        solid.leg.push_back(lots.between(8, 30) * t);
+        solid.bend.push_back({lots.between(0.5, 3) * t, lots.coin() ? 1.3 : -1.3});
+    }
+    const int count = lots.whole(1, 6);
+    for (int i = 0; i < count; ++i) {
+        Sink sink;
+        sink.centre = {(i % 3 + lots.between(0.48, 0.52)) * cell, (i / 3 + lots.between(0.48, 0.52)) * cell};
+        sink.left = lots.coin();
+        sink.hole = hundredths(lots.between(0.25, 3) * t);
+        sink.counterbore = lots.whole(0, 6) == 0;
+        sink.depth = lots.whole(0, 3) == 0 && !sink.counterbore ? t : hundredths(lots.between(0.1, 0.97) * t);
+        const double half_angle = lots.between(30, 70) * std::numbers::pi / 180;
+        sink.wide = sink.hole + hundredths(sink.counterbore ? lots.between(0.2, 2.5) * t
+                                                            : std::max(sink.depth * std::tan(half_angle), 0.03 * t));
+        solid.sink.push_back(sink);
+    }
     return solid;
 }
 
@@ -153,8 +186,9 @@ void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm f
     std::vector<double> holes, marks, expected_holes, expected_marks;
     const auto loops = boundary_loops(part.mesh);
     ASSERT_EQ(loops.size(), 1 + solid.sink.size());
+    const double largest = std::ranges::max(solid.sink, {}, &Sink::hole).hole;
     for (const std::vector<int>& loop : loops)
-        if (const Round round = round_of(part.mesh.position(Eigen::all, loop)); round.radius < 12) {
+        if (const Round round = round_of(part.mesh.position(Eigen::all, loop)); round.radius < 1.2 * largest) {
             EXPECT_LT(round.off, same);
             holes.push_back(round.radius);
         }
@@ -200,6 +234,106 @@ TEST(SunkHoles, HaveTheirLeastDiameterAndAreTold)
             SCOPED_TRACE(fmt::format("seed {}", seed));
             expect_right(folder, drawn_by_lot(seed), form);
         }
+}
+
+TEST(SunkHoles, OfAnyAngleDepthAndSizeAreRightHoweverManyAreOnAFlat)
+{
+    // Their walls are no skins, though of the flattest ones most lies opposite to the other skin at about the thickness.
+    const ScratchFolder folder;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+        for (const CadForm form : {CadForm::step, CadForm::stl}) {
+            const BentSolid solid = any_sinks_by_lot(seed);
+            SCOPED_TRACE(solid.kind);
+            expect_right(folder, solid, form);
+        }
+}
+
+TEST(SunkHoles, OfOneHoleAtBothSkinsAreCountedOnce)
+{
+    const ScratchFolder folder;
+    for (const bool alike : {true, false})
+        for (const CadForm form : {CadForm::step, CadForm::stl}) {
+            BentSolid solid = counterbored(60, 40, 2.5, 6.8, 6, 0.4);
+            solid.sink.front().counterbore = false;
+            solid.sink.push_back(solid.sink.front());
+            solid.sink.back().left = false;
+            solid.sink.back().wide += alike ? 0 : 0.3;
+            solid.sink.back().depth += alike ? 0 : 0.3;
+            const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+            shapes::write_bent_solid(file, solid, form);
+            const PartFile part = read_part(file);
+            ASSERT_TRUE(part.solid);
+            EXPECT_EQ(part.solid->marks.size(), alike ? 1u : 2u);
+            const Finding* told = part.doctor.find(Fault::mark);
+            ASSERT_TRUE(told);
+            EXPECT_EQ(told->count, 1);
+            ASSERT_EQ(told->what.size(), 1u);
+            EXPECT_EQ(told->place.size(), 1u);
+            if (alike)
+                EXPECT_EQ(told->what[0], "countersink 6.8 mm wide, 0.4 mm deep, of a hole of 6 mm, on both skins");
+            else
+                for (const char* each : {"6.8 mm wide, 0.4 mm deep", "7.4 mm wide, 0.7 mm deep", "outer", "inner"})
+                    EXPECT_NE(told->what[0].find(each), std::string::npos) << told->what[0];
+        }
+}
+
+TEST(SunkHoles, ThatABorderABendOrAnotherOneCutsOffAreTold)
+{
+    const ScratchFolder folder;
+    const auto bracket = [](std::vector<Eigen::Vector2d> centres, double half_angle, bool left) {
+        BentSolid solid;
+        solid.thickness = 2;
+        solid.width = 50;
+        solid.leg = {50, 40};
+        solid.bend = {{2, 1.2}};
+        for (const Eigen::Vector2d& centre : centres) {
+            Sink sink;
+            sink.centre = centre;
+            sink.left = left;
+            sink.hole = 2.5;
+            sink.depth = 1.5;
+            sink.wide = sink.hole + 1.5 * std::tan(half_angle);
+            solid.sink.push_back(sink);
+        }
+        return solid;
+    };
+    for (const double half_angle : {0.7, 1.05})
+        for (const bool left : {true, false})
+            for (const CadForm form : {CadForm::step, CadForm::stl})
+                for (const std::string& at_one : {std::string("border"), std::string("bend"), std::string("another")}) {
+                    if (at_one == "bend" && left && half_angle > 1)
+                        continue; // so flat a cone runs through the hollow side of the bend into the other leg
+                    const double wide = 2.5 + 1.5 * std::tan(half_angle), reach = 0.6;
+                    std::vector<Eigen::Vector2d> centres = {{20, 20}, {20, 20 + 2 * wide - reach}};
+                    if (at_one != "another")
+                        centres = {{at_one == "border" ? wide - reach : 50 + reach - wide, 25}};
+                    SCOPED_TRACE(fmt::format("{:.3g} rad, {} side, {}, {}", half_angle, left ? "left" : "right", at_one,
+                                             form == CadForm::step ? "STEP" : "STL"));
+                    const BentSolid solid = bracket(centres, half_angle, left);
+                    const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+                    shapes::write_bent_solid(file, solid, form);
+                    const Session session = solved_part(file);
+                    const PartFile& part = *session.part;
+                    ASSERT_TRUE(part.solid);
+                    const Finding* told = part.doctor.find(Fault::mark);
+                    ASSERT_TRUE(told);
+                    EXPECT_EQ(told->count, int(centres.size()));
+                    for (const std::string& what : told->what)
+                        EXPECT_TRUE(what.starts_with(fmt::format("countersink {:.4g} mm wide, 1.5 mm deep, of a hole "
+                                                                 "of 5 mm",
+                                                                 2 * solid.sink[0].wide)) &&
+                                    what.ends_with("cuts it off"))
+                            << what;
+                    EXPECT_GE(part.solid->marks.size(), centres.size());
+                    int holes = 0;
+                    for (const std::vector<int>& loop : boundary_loops(part.mesh))
+                        holes += std::abs(round_of(part.mesh.position(Eigen::all, loop)).radius - 2.5) < 1e-3;
+                    EXPECT_EQ(holes, int(centres.size()));
+                    EXPECT_NEAR((session.blank->blank.position.rowwise().maxCoeff() -
+                                 session.blank->blank.position.rowwise().minCoeff())
+                                    .maxCoeff(),
+                                solid.developed(0.5), 0.01);
+                }
 }
 
 TEST(SunkHoles, OfNinetyDegreesAreNoSkinWhereverTheyAre)
@@ -270,7 +404,11 @@ TEST(SunkHoles, ArePocketsAndRefusedWhereNothingRoundGoesThroughTheirMiddle)
         EXPECT_FALSE(taken({cut(15, 7.5, 0, 1), cut(8, 4, 0, 2.5)}, form)) << "a blind hole";
         EXPECT_FALSE(taken({cut(15, 7.5, 0, 1), cut(8, 4, 2, 0)}, form)) << "a hole beside the middle";
         EXPECT_FALSE(taken({cut(15, 7.5, 0, 1), cut(8, 1, 0, 0)}, form)) << "a square hole";
-        EXPECT_FALSE(taken({cut(15, 2, 0, 1), cut(8, 4, 0, 0)}, form)) << "a square pocket";
+        for (const double depth : {1., 1.5, 2., 2.7}) {
+            EXPECT_FALSE(taken({cut(15, 2, 0, depth), cut(8, 4, 0, 0)}, form)) << "a square pocket " << depth;
+            EXPECT_FALSE(taken({cut(15, 0, 0, depth), cut(8, 4, 0, 0)}, form)) << "a square pocket " << depth;
+            EXPECT_FALSE(taken({cut(15, 7.5, 0, depth), cut(8, 4, 2, 0)}, form)) << "beside the middle, " << depth;
+        }
     }
 }
 
