@@ -62,6 +62,8 @@ void write_header(DxfText& dxf, const DxfFrame& frame)
     dxf(9, "$ACADVER")(1, dxf.r12() ? "AC1009" : "AC1015")(9, "$DWGCODEPAGE")(3, "ANSI_1252");
     dxf(9, "$INSUNITS")(70, dxf_number(frame.unit))(9, "$MEASUREMENT")(70, metric);
     dxf(9, "$EXTMIN").point(10, frame.low)(30, 0.0)(9, "$EXTMAX").point(10, frame.high)(30, 0.0);
+    constexpr double usual = 300; // mm, of a drawing on which dashes of 4 mm are right
+    dxf(9, "$LTSCALE")(40, (frame.high - frame.low).norm() * millimetres(frame.unit) / usual);
     if (dxf.r12())
         dxf(9, "$HANDLING")(70, 1);
     dxf(9, "$HANDSEED").handle(5, frame.next_handle);

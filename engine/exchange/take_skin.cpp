@@ -312,9 +312,12 @@ void note_skin(PartFile& part)
         fmt::format("a solid of {} faces{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
                     "surface of it)",
                     solid.faces, solid.open ? ", some of which are missing" : "", what, solid.thickness));
-    part.notes.push_back(fmt::format("thickness between {:.4g} and {:.4g} mm; outer skin {:.6g} mm2, inner skin {:.6g} "
-                                     "mm2, faces across the thickness {:.6g} mm2",
-                                     solid.least, solid.most, solid.outer_area, solid.inner_area, solid.rim_area));
+    const std::string least = fmt::format("{:.4g}", solid.least), most = fmt::format("{:.4g}", solid.most);
+    part.notes.push_back(
+        fmt::format("thickness {}; outer skin {:.6g} mm2, inner skin {:.6g} mm2, faces across the "
+                    "thickness {:.6g} mm2",
+                    least == most ? least + " mm everywhere" : fmt::format("between {} and {} mm", least, most),
+                    solid.outer_area, solid.inner_area, solid.rim_area));
 }
 
 } // namespace

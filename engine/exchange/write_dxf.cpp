@@ -1,5 +1,6 @@
 #include "engine/exchange/write_dxf.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -42,6 +43,7 @@ public:
     Entities(DxfText& dxf, double mm, double thickness) : dxf_(dxf), mm_(mm), thickness_(thickness) {}
 
     int next_handle() const { return handle_; }
+    const Eigen::AlignedBox2d& box() const { return box_; } ///< mm, of all that was drawn but texts
 
     /// @param bend what it is of; null: nothing
     void polyline(const char* layer, std::span<const Bulged> points, bool closed, const DrawnBend* bend = nullptr)
@@ -53,7 +55,11 @@ public:
             dxf_(100, "AcDbPolyline")(90, int(points.size()))(70, int(closed));
         if (dxf_.r12() && bend) // before its vertices, which are entities of their own
             about(*bend);
-        for (const Bulged& point : points) {
+        for (size_t i = 0; i < points.size(); ++i) {
+            const Bulged& point = points[i];
+            box_.extend(point.at);
+            if (const Eigen::Vector2d& next = points[(i + 1) % points.size()].at; point.bulge != 0)
+                extend_by_arc(point.at, next, point.bulge);
             if (dxf_.r12())
                 dxf_(0, "VERTEX").handle(5, handle_++)(8, layer);
             dxf_.point(10, point.at / mm_);
@@ -70,12 +76,15 @@ public:
 
     void circle(const char* layer, const Eigen::Vector2d& centre, double radius)
     {
+        const Eigen::Vector2d reach(radius, radius);
+        box_.extend(centre - reach).extend(centre + reach);
         begin("CIRCLE", layer);
         dxf_(100, "AcDbCircle").point(10, centre / mm_)(30, 0.0)(40, radius / mm_);
     }
 
     void line(const char* layer, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
     {
+        box_.extend(a).extend(b);
         begin("LINE", layer);
         dxf_(100, "AcDbLine").point(10, a / mm_)(30, 0.0).point(11, b / mm_)(31, 0.0);
     }
@@ -85,6 +94,7 @@ public:
     {
         const Eigen::Vector2d centre = arc_centre(from, to, bulge), a = (bulge > 0 ? from : to) - centre,
                               b = (bulge > 0 ? to : from) - centre;
+        extend_by_arc(from, to, bulge);
         begin("ARC", layer);
         dxf_(100, "AcDbCircle").point(10, centre / mm_)(30, 0.0)(40, a.norm() / mm_);
         dxf_(100, "AcDbArc")(50, turn_deg(a))(51, turn_deg(b));
@@ -98,8 +108,10 @@ public:
         dxf_(73, int(spline.poles.size()))(74, 0);
         for (const double knot : spline.knots)
             dxf_(40, knot / mm_);
-        for (const Eigen::Vector2d& pole : spline.poles)
+        for (const Eigen::Vector2d& pole : spline.poles) {
+            box_.extend(pole); // which hold the curve between them
             dxf_.point(10, pole / mm_)(30, 0.0);
+        }
     }
 
     /// @param at the middle of its lower edge @param turn degrees
@@ -124,6 +136,17 @@ public:
     }
 
 private:
+    /// Its ends, and where it is farthest along an axis.
+    void extend_by_arc(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double bulge)
+    {
+        box_.extend(from).extend(to);
+        const Eigen::Vector2d centre = arc_centre(from, to, bulge), begin = (bulge > 0 ? from : to) - centre,
+                              end = (bulge > 0 ? to : from) - centre;
+        const double radius = begin.norm(), whole = std::fmod(turn_deg(end) - turn_deg(begin) + 360, 360);
+        for (const double quarter : {0., 90., 180., 270.})
+            if (std::fmod(quarter - turn_deg(begin) + 360, 360) < whole)
+                box_.extend(centre + radius * Eigen::Vector2d(std::cos(quarter * degree), std::sin(quarter * degree)));
+    }
     static double turn_deg(const Eigen::Vector2d& arm)
     {
         const double angle = std::atan2(arm[1], arm[0]) / degree;
@@ -138,6 +161,7 @@ private:
     DxfText& dxf_;
     double mm_, thickness_;
     int handle_ = first_entity;
+    Eigen::AlignedBox2d box_;
 };
 
 std::vector<Bulged> through(const Eigen::Matrix2Xd& points)
@@ -236,32 +260,45 @@ bool is_straight(const Eigen::Matrix2Xd& points, double tolerance)
     return off.cwiseAbs().maxCoeff() <= tolerance;
 }
 
+double length_of(const Eigen::Matrix2Xd& line) { return (line.rightCols<1>() - line.col(0)).norm(); }
+
+/// The longest of its middle lines, null without any.
+const Eigen::Matrix2Xd* longest_line(const DrawnBend& bend)
+{
+    const auto longest = std::ranges::max_element(bend.middle, {}, length_of);
+    return longest == bend.middle.end() ? nullptr : &*longest;
+}
+
+/// mm, of all texts of a drawing: what is no longer than the shortest bend, but to be read beside the blank.
+double text_height(const BlankDrawing& drawing, double size, double mm)
+{
+    double height = size / 60;
+    for (const DrawnBend& bend : drawing.bends)
+        if (const Eigen::Matrix2Xd* line = longest_line(bend)) {
+            const double letters = double(label(bend, mm).size()) - 2; // %%d is one; about as wide as high
+            height = std::min(height, 0.9 * length_of(*line) / letters);
+        }
+    return std::max(height, size / 120);
+}
+
 /// Middle line and text of a bend. The text stands over the line, to be read from below or from the right.
-void draw_bend(Entities& draw, const DrawnBend& bend, double size, const DxfOptions& options)
+void draw_bend(Entities& draw, const DrawnBend& bend, double height, const DxfOptions& options)
 {
     const char* layer = bend.up ? "BEND_UP" : "BEND_DOWN";
-    const Eigen::Matrix2Xd* longest = nullptr;
-    double length = 0;
     for (const Eigen::Matrix2Xd& line : bend.middle) {
         if (is_straight(line, options.tolerance)) {
             draw.line(layer, line.col(0), line.rightCols<1>());
             draw.about(bend);
         } else
             draw.polyline(layer, through(line), false, &bend);
-        if (const double own = (line.rightCols<1>() - line.col(0)).norm(); !longest || own > length) {
-            longest = &line;
-            length = own;
-        }
     }
-    if (longest) {
+    if (const Eigen::Matrix2Xd* longest = longest_line(bend)) {
         const std::string text = label(bend, millimetres(options.unit));
         Eigen::Vector2d way = longest->rightCols<1>() - longest->col(0);
-        if (way[0] < 0 || (way[0] < 1e-9 * way.norm() && way[1] < 0))
+        constexpr double upright = 1e-3; // of its length: a solved blank is not upright to the last digit
+        if (way[0] < -upright * way.norm() || (way[0] < upright * way.norm() && way[1] < 0))
             way = -way;
         const double turn = std::atan2(way[1], way[0]);
-        // Letters are about as wide as high: the text is no longer than its line, and small beside the blank.
-        const double shown = double(text.size()) - 2; // %%d is one letter
-        const double height = std::min(size / 60, 0.9 * length / shown);
         const Eigen::Vector2d up(-std::sin(turn), std::cos(turn));
         const Eigen::Vector2d middle = (longest->col(0) + longest->rightCols<1>()) / 2;
         draw.text(layer, text, middle + 0.4 * height * up, height, turn / degree);
@@ -364,13 +401,15 @@ void write_dxf(const std::filesystem::path& path, const BlankDrawing& drawing, c
     for (size_t i = 0; i < loops.size(); ++i)
         draw_loop(draw, i == 0 ? "OUTLINE" : "HOLES", loops[i],
                   drawing.stated.empty() ? std::span<const StatedPiece>() : drawing.stated[i], size, options);
+    const double height = text_height(drawing, size, mm);
     for (const DrawnBend& bend : drawing.bends)
-        draw_bend(draw, bend, size, options);
+        draw_bend(draw, bend, height, options);
     for (const Eigen::Matrix2Xd& mark : drawing.marks)
         draw_mark(draw, mark, options);
     DxfText dxf(options.version);
     head(dxf, drawing, options);
-    begin_dxf(dxf, {low / mm, high / mm, options.unit, layers_of(drawing), draw.next_handle()});
+    begin_dxf(dxf,
+              {draw.box().min() / mm, draw.box().max() / mm, options.unit, layers_of(drawing), draw.next_handle()});
     dxf.append(entities);
     end_dxf(dxf);
     write_atomically(path, dxf.text());

@@ -9,21 +9,24 @@
 #include "engine/core/parallel.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/topology.h"
 
 namespace spia {
 namespace {
 
-/// The triangles of one side alone.
-TriMesh only(const SolidInPieces& solid, PieceSide side)
+std::vector<int> faces_of(const SolidInPieces& solid, PieceSide side)
 {
-    TriMesh mesh;
     std::vector<int> faces;
     for (int f = 0; f < solid.mesh.triangles(); ++f)
         if (solid.side(f) == side)
             faces.push_back(f);
-    mesh.position = solid.mesh.position;
-    mesh.triangle = solid.mesh.triangle(Eigen::all, faces);
-    return mesh;
+    return faces;
+}
+
+/// The triangles of one side alone.
+TriMesh only(const SolidInPieces& solid, PieceSide side)
+{
+    return {solid.mesh.position, solid.mesh.triangle(Eigen::all, faces_of(solid, side))};
 }
 
 /// The least that an eighth of the distances are, to single precision of a part a hundred times as large: vertices that do not lie quite opposite
@@ -143,13 +146,25 @@ std::vector<LocalThickness> local_thickness(const SolidInPieces& solid, double t
         if (solid.side(solid.places[i].face) != PieceSide::rim)
             chosen.push_back(&solid.places[i]);
     const ClosestPointSearch one(only(solid, PieceSide::one)), other(only(solid, PieceSide::other));
+    const std::vector<int> faces_of_one = faces_of(solid, PieceSide::one),
+                           faces_of_other = faces_of(solid, PieceSide::other);
+    const std::vector<StatedSurface>& surface = solid.options.surface;
+    const double size = bounding_diagonal(solid.mesh);
     std::vector<LocalThickness> result(chosen.size());
     progress.checkpoint(0, "measuring the thickness");
     parallel_for(int(chosen.size()), [&](int i) {
         const Opposite& at = *chosen[size_t(i)];
         const double most = 10 * thickness;
-        const ClosestPoint near = (solid.side(at.face) == PieceSide::one ? other : one).nearest(at.place, most);
-        result[size_t(i)] = {at.face, std::min(near.distance, most), at.area};
+        const bool from_one = solid.side(at.face) == PieceSide::one;
+        const ClosestPoint near = (from_one ? other : one).nearest(at.place, most);
+        double distance = std::min(near.distance, most);
+        if (near.face >= 0 && !surface.empty()) { // of chords it is not that of their surfaces
+            const int opposite = (from_one ? faces_of_other : faces_of_one)[size_t(near.face)];
+            if (const double stated = distance_between(surface[size_t(at.face)], surface[size_t(opposite)], size);
+                stated > 0)
+                distance = stated;
+        }
+        result[size_t(i)] = {at.face, distance, at.area};
     });
     return result;
 }

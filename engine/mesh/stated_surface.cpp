@@ -25,16 +25,6 @@ struct SkinSurface {
     double area = 0;
 };
 
-/// 0 where they are neither parallel planes nor coaxial cylinders.
-double between(const StatedSurface& a, const StatedSurface& b, double size)
-{
-    if (a.kind != b.kind || a.kind == Kind::other || a.direction.cross(b.direction).norm() > parallel)
-        return 0;
-    if (a.kind == Kind::plane)
-        return std::abs((b.point - a.point).dot(a.direction));
-    return off_axis(a, b.point).norm() > alike * size ? 0 : std::abs(a.radius - b.radius);
-}
-
 } // namespace
 
 Eigen::Vector3d normal_at(const StatedSurface& surface, const Eigen::Vector3d& place, const Eigen::Vector3d& towards)
@@ -55,6 +45,15 @@ double unrolled_area(const StatedSurface& cylinder, const Eigen::Matrix3d& corne
     };
     const Eigen::Vector2d a = at(1), b = at(2);
     return (a.x() * b.y() - a.y() * b.x()) / 2;
+}
+
+double distance_between(const StatedSurface& a, const StatedSurface& b, double size)
+{
+    if (a.kind != b.kind || a.kind == Kind::other || a.direction.cross(b.direction).norm() > parallel)
+        return 0;
+    if (a.kind == Kind::plane)
+        return std::abs((b.point - a.point).dot(a.direction));
+    return off_axis(a, b.point).norm() > alike * size ? 0 : std::abs(a.radius - b.radius);
 }
 
 bool same_cylinder(const StatedSurface& a, const StatedSurface& b)
@@ -85,7 +84,7 @@ double stated_thickness(const TriMesh& solid, const ThinSolid& sheet, const std:
     for (const auto& [_, a] : known)
         for (const auto& [__, b] : known)
             if (a.side == SheetSide::outer && b.side == SheetSide::inner)
-                if (const double t = between(a.surface, b.surface, diagonal);
+                if (const double t = distance_between(a.surface, b.surface, diagonal);
                     std::abs(t - sheet.thickness) <= about * sheet.thickness)
                     found.emplace_back(t, std::min(a.area, b.area));
     std::sort(found.begin(), found.end());

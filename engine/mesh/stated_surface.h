@@ -21,6 +21,9 @@ struct StatedSurface {
 /// The surface's normal at a place on the side of `towards`; `towards` itself, unit, of a surface of another kind.
 Eigen::Vector3d normal_at(const StatedSurface& surface, const Eigen::Vector3d& place, const Eigen::Vector3d& towards);
 
+/// mm, of parallel planes or coaxial cylinders; 0 where they are neither. @param size  mm, of the part: axes are told to six digits of it
+double distance_between(const StatedSurface& a, const StatedSurface& b, double size);
+
 /// mm2, of a triangle on the cylinder unrolled, seen along its normals from outside: below 0 where its corners go around the other way.
 /// @param corner  mm, one a column, less than half a turn apart
 double unrolled_area(const StatedSurface& cylinder, const Eigen::Matrix3d& corner);

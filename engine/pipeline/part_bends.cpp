@@ -83,8 +83,11 @@ void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& 
     if (!fibre.laid.empty()) {
         if (run.flipped > 0 || run.states.back().face.strain_equivalent.maxCoeff() > most_relaid_strain)
             keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is");
-        else
-            run.blank->position = relaid_blank(part, run.blank->position, fibre.laid, options, progress).blank.position;
+        else {
+            Eigen::Matrix2Xd& position = run.blank->position;
+            position = relaid_blank(part, position, fibre.laid, options, progress).blank.position;
+            position.colwise() -= Eigen::Vector2d(position.rowwise().minCoeff()); // it lies as it did, from (0, 0) on
+        }
     }
     place_on_blank(fibre, part, *run.blank);
 }

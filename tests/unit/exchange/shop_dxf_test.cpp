@@ -1,6 +1,8 @@
 // The DXF file of a blank as a laser and a press brake take it: circles, arcs and lines, read back by our own reader.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -339,6 +341,66 @@ TEST(ShopDxf, LabelsBesideBendsAreNoLinesToTheReader)
     }
     EXPECT_THROW(dxf_curves("bulges"), InputError);
     EXPECT_THROW(dxf_version("r13"), InputError);
+}
+
+/// The value of a group after a marker, from some place on.
+double value_after(const std::string& text, const std::string& marker, int code, size_t from = 0)
+{
+    const size_t at = text.find("\n" + marker + "\n", from);
+    const std::string group = fmt::format("\n{:3}\n", code);
+    return at == text.npos ? std::nan("") : std::stod(text.substr(text.find(group, at + 1) + group.size()));
+}
+
+TEST(ShopDxf, ItsExtentIsThatOfTheCurves)
+{
+    const ScratchFolder folder;
+    std::mt19937 draw(77);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
+    for (int i = 0; i < 30; ++i) {
+        const double width = between(60, 90), height = between(30, 50), r = between(3, 14);
+        const Eigen::Rotation2Dd turn(between(0, 2 * pi));
+        OutlineLoop loop = rounded(width, height, r, 5, 2, int(draw() % 9));
+        loop = turn.toRotationMatrix() * loop;
+        Eigen::AlignedBox2d box; // of the corners' middles, and their radius around it
+        for (const double x : {r, width - r})
+            for (const double y : {r, height - r})
+                box.extend(turn * Eigen::Vector2d(x, y));
+        for (const DxfCurves curves : {DxfCurves::arcs, DxfCurves::splines}) {
+            write_dxf(folder / "x.dxf", {{loop}, {}, {}}, {.curves = curves});
+            const std::string text = content_of(folder / "x.dxf");
+            for (const int axis : {0, 1}) {
+                EXPECT_NEAR(value_after(text, "$EXTMIN", 10 * (axis + 1)), box.min()[axis] - r, 1e-4);
+                EXPECT_NEAR(value_after(text, "$EXTMAX", 10 * (axis + 1)), box.max()[axis] + r, 1e-4);
+            }
+        }
+    }
+}
+
+TEST(ShopDxf, LabelsHaveOneHeightAndAreReadFromBelowOrFromTheRight)
+{
+    const ScratchFolder folder;
+    BlankDrawing drawing{{rounded(80, 50, 6, 5, 2, 1)}, {}, {}};
+    for (const auto& [from, to] : {std::pair(Eigen::Vector2d(20, 50), Eigen::Vector2d(20 + 1e-7, 0)),
+                                   {{40, 0}, {40, 20}},
+                                   {{78, 25}, {60, 25.1}},
+                                   {{60, 2}, {60 - 1e-7, 10}}}) {
+        DrawnBend bend{"bend", pi / 2, 3, 0.5, true, {}, {}};
+        bend.middle = {(Eigen::Matrix2Xd(2, 2) << from, to).finished()};
+        drawing.bends.push_back(bend);
+    }
+    write_dxf(folder / "x.dxf", drawing, {});
+    const std::string text = content_of(folder / "x.dxf");
+    int labels = 0;
+    double height = 0;
+    for (size_t at = text.find("\nTEXT\n"); at != text.npos; at = text.find("\nTEXT\n", at + 1), ++labels) {
+        const double own = value_after(text, "TEXT", 40, at), turn = value_after(text, "TEXT", 50, at);
+        EXPECT_TRUE(labels == 0 || own == height);
+        height = own;
+        EXPECT_GT(turn, -89.9) << "upside down";
+        EXPECT_LT(turn, 90.1);
+    }
+    EXPECT_EQ(labels, 4);
+    EXPECT_GE(height, std::hypot(80, 50) / 121);
 }
 
 } // namespace spia
