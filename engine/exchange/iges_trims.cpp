@@ -7,10 +7,12 @@
 #include <IGESGeom_HArray1OfCurveOnSurface.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColgp_HArray1OfXYZ.hxx>
+#include <fmt/core.h>
 
 #include "engine/core/error.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/nurbs/fit_curve.h"
+#include "engine/nurbs/trim.h"
 
 namespace spia {
 namespace {
@@ -67,9 +69,16 @@ CurveFitResult in_space(const NurbsSurface& surface, const PlaneCurve& curve)
             return points;
         },
         options);
-    if (!fitted.reached)
-        throw ExchangeError(
-            "the border of a hole has no smooth curve in space; write the surface with its holes filled");
+    const double as_the_border = TrimOptions{}.tolerance; // of the vertices of the hole, on a surface with a kink there
+    if (!fitted.reached && !(fitted.largest <= as_the_border)) {
+        const Eigen::Vector2d uv = evaluate(curve, 0);
+        const Eigen::Vector3d place = evaluate(surface, uv.x(), uv.y()).position;
+        throw ExchangeError(fmt::format(
+            "no IGES file is written: the border of the hole at {:.6g}, {:.6g}, {:.6g} comes no nearer than "
+            "{:.2g} mm to a smooth curve, for the surface folds there; fit it within a tolerance, or choose "
+            "other formats",
+            place.x(), place.y(), place.z(), fitted.largest));
+    }
     return fitted;
 }
 

@@ -40,7 +40,12 @@ void ViewerModel::say_not_opened(const Opening& opening, const ChainResult& resu
     }
     std::string why = result.message;
     const std::string path = opening.document.session.file.string();
-    if (const size_t at = why.find(path); at != std::string::npos)
+    std::error_code problem;
+    if (project_ && !std::filesystem::exists(opening.document.session.file, problem))
+        why = fmt::format("the project's part {} is not there any more: put it back, or open the part from where it "
+                          "is now",
+                          path);
+    else if (const size_t at = why.find(path); at != std::string::npos)
         why.replace(at, path.size(), name);
     if (why.find(name) == std::string::npos)
         why = name + " cannot be opened: " + why;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "app/viewer/model/project_file.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/text_input.h"
@@ -142,7 +143,9 @@ void follow_chosen_file(Frame& frame)
     }
     switch (frame.ui.files.purpose()) {
     case FileDialog::Purpose::open_part:
-        if (has_choices(*path))
+        if (path->extension() == project_ending)
+            frame.actions.push(OpenProject{*path});
+        else if (has_choices(*path))
             frame.actions.push(ListFile{*path});
         else
             frame.actions.push(OpenPart{*path, ""});
