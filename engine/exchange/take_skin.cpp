@@ -236,6 +236,10 @@ SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vecto
         doubt(part, fmt::format("{} cut off at the skin that the middle surface is made from: laid flat, its edge is "
                                 "where the countersink is in the middle of the sheet, wider than the hole",
                                 counted(most, "sunk hole is", "sunk holes are")));
+    if (const int bent = sunk_in_bends(holes); bent > 0)
+        doubt(part, fmt::format("{} in a bend: laid flat, its edge is about where the wall crosses the middle of the "
+                                "sheet, not its least diameter",
+                                counted(bent, "hole is sunk", "holes are sunk")));
     const bool exchanged = outer > inner;
     const ThinSolid from = exchanged ? sides_exchanged(sheet) : sheet;
     const std::vector<SunkHole> sunk = exchanged ? sunk_holes(part.mesh, from) : holes;

@@ -202,7 +202,13 @@ std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet)
 
 int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin)
 {
-    return int(std::ranges::count_if(holes, [&](const SunkHole& hole) { return hole.cut_off && hole.skin == skin; }));
+    return int(std::ranges::count_if(
+        holes, [&](const SunkHole& hole) { return hole.cut_off && hole.diameter > 0 && hole.skin == skin; }));
+}
+
+int sunk_in_bends(const std::vector<SunkHole>& holes)
+{
+    return int(std::ranges::count_if(holes, [](const SunkHole& hole) { return hole.diameter == 0; }));
 }
 
 ThinSolid sides_exchanged(const ThinSolid& sheet)

@@ -29,8 +29,12 @@ struct SunkHole {
 /// @param solid  without its marks
 std::vector<SunkHole> sunk_holes(const TriMesh& solid, const ThinSolid& sheet);
 
-/// How many holes have what is sunk cut off at a skin: where a middle surface is made from that one, their edges are wider than they are cut.
+/// How many holes on plane skin have what is sunk cut off at a skin: where a middle surface is made from that one, their edges are wider
+/// than they are cut.
 int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin);
+
+/// How many are sunk into a bend, where their circle is on no plane.
+int sunk_in_bends(const std::vector<SunkHole>& holes);
 
 /// The same sheet with its outer skin called the inner one.
 ThinSolid sides_exchanged(const ThinSolid& sheet);

@@ -336,6 +336,37 @@ TEST(SunkHoles, ThatABorderABendOrAnotherOneCutsOffAreTold)
                 }
 }
 
+TEST(SunkHoles, InABendAreToldAndDoubted)
+{
+    const ScratchFolder folder;
+    for (const CadForm form : {CadForm::step, CadForm::stl}) {
+        BentSolid solid;
+        solid.thickness = 2.5;
+        solid.width = 50;
+        solid.leg = {50, 40};
+        solid.bend = {{4, 1.2}};
+        Sink sink;
+        sink.centre = {51, 25}; // its circle is over the bend at both sides
+        sink.hole = 2;
+        sink.depth = 1.5;
+        sink.wide = 3.5;
+        sink.left = false;
+        solid.sink = {sink};
+        const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+        shapes::write_bent_solid(file, solid, form);
+        const PartFile part = read_part(file);
+        ASSERT_TRUE(part.solid);
+        const Finding* told = part.doctor.find(Fault::mark);
+        ASSERT_TRUE(told);
+        EXPECT_EQ(told->count, 1);
+        EXPECT_EQ(told->what[0],
+                  "countersink, of a hole of 4 mm, on the outer skin; a bend, a border or another hole cuts it off");
+        EXPECT_EQ(part.solid->marks.size(), 1u);
+        ASSERT_EQ(part.doubts.size(), 1u);
+        EXPECT_NE(part.doubts[0].find("1 hole is sunk in a bend"), std::string::npos) << part.doubts[0];
+    }
+}
+
 TEST(SunkHoles, OfNinetyDegreesAreNoSkinWhereverTheyAre)
 {
     // Their walls are askew by 45 degrees: no skin, but by some of their chords nearly one.
