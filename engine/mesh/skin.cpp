@@ -67,19 +67,25 @@ public:
         normal_.push_back(normal);
         move_.push_back(move);
     }
-    /// The shortest move that obeys them, as well as that can be.
-    Eigen::Vector3d move() const
+    /// The shortest move that obeys them, as well as that can be. @param first  the first of them exactly, the others within it: a wall that is
+    /// nearly parallel to the sheet would else take a vertex out of it
+    Eigen::Vector3d move(bool first) const
     {
-        Eigen::MatrixX3d a(Eigen::Index(normal_.size()), 3);
-        Eigen::VectorXd b(Eigen::Index(normal_.size()));
-        for (size_t i = 0; i < normal_.size(); ++i) {
-            a.row(Eigen::Index(i)) = normal_[i].transpose();
-            b[Eigen::Index(i)] = move_[i];
+        const Eigen::Vector3d n = first ? normal_[0] : Eigen::Vector3d::Zero(), start = n * move_[0];
+        const auto rows = Eigen::Index(normal_.size()) - (first ? 1 : 0);
+        if (rows == 0)
+            return start;
+        Eigen::MatrixX3d a(rows, 3);
+        Eigen::VectorXd b(rows);
+        for (Eigen::Index i = 0; i < rows; ++i) {
+            const Eigen::Vector3d& own = normal_[size_t(i) + (first ? 1 : 0)];
+            a.row(i) = (own - own.dot(n) * n).transpose();
+            b[i] = move_[size_t(i) + (first ? 1 : 0)] - own.dot(start);
         }
         Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
         constexpr double nearly_parallel = 0.2;
         svd.setThreshold(nearly_parallel);
-        return svd.solve(b);
+        return start + svd.solve(b);
     }
 
 private:
@@ -146,7 +152,7 @@ struct MiddleSurface {
                 planes.add(normal_of(f), 0);
                 at_rim = true;
             }
-        const Eigen::Vector3d moved = planes.move();
+        const Eigen::Vector3d moved = planes.move(!sharp);
         if (at_rim)
             if (const auto place = beyond_chamfer(v, moved, mean, others))
                 return *place;
@@ -182,7 +188,7 @@ struct MiddleSurface {
                 return std::nullopt;
             planes.add(across, across.dot(wall.position - here));
         }
-        return planes.move();
+        return planes.move(true);
     }
 
     /// The place of the inner skin that is opposite to a vertex of the outer one.

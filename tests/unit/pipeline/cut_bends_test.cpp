@@ -110,6 +110,29 @@ private:
     ScratchFolder folder_;
 };
 
+/// Wide beside the bend: on the flats the walls of the notch lie so askew that they say next to nothing of where in the sheet its rim is.
+TEST(WideNotch, LeavesTheFlatsBesideABendInTheirPlanes)
+{
+    const ScratchFolder folder;
+    for (const double share : {0., 0.3, 0.6, 1.})
+        for (const double turn : {45., 60.}) {
+            SCOPED_TRACE(fmt::format("at {} of the bend, turned by {}", share, turn));
+            BentSolid solid;
+            solid.thickness = 1.5;
+            solid.width = 47;
+            solid.leg = {33, 41};
+            solid.bend = {{2.5, 75 * degree}};
+            shapes::BendCut cut;
+            cut.share = share;
+            cut.outline = {.length = 16, .width = 16, .radius = 0, .turn = turn * degree};
+            solid.bend_cut = {cut};
+            shapes::write_bent_solid(folder / "part.step", solid);
+            const Eigen::Vector2d size = size_of(solved(folder / "part.step"));
+            EXPECT_NEAR(size[0], solid.developed(0.5), 1e-4);
+            EXPECT_NEAR(size[1], solid.width, 1e-4);
+        }
+}
+
 class WideHoles : public CutBends {};
 
 } // namespace
