@@ -18,6 +18,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/outputs.h"
@@ -413,8 +414,9 @@ int unfold(const UnfoldArguments& arguments)
     const PolishedBlank* both = polished ? &*polished : nullptr;
     NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
     lay_anew(part.mesh, options, fibre, done.run);
-    if (!arguments.k_factor.empty())
-        findings.insert(findings.end(), fibre.table.notes.begin(), fibre.table.notes.end());
+    if (done.run.blank)
+        for (std::string& doubt : bend_doubts(part, fibre.table, !arguments.k_factor.empty()))
+            findings.push_back(std::move(doubt));
     std::vector<std::filesystem::path> files;
     if (!arguments.folder.empty())
         files = write_unfolding(arguments.folder, stem_of(arguments), part, map, steps, run,

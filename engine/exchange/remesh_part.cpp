@@ -6,8 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/mesh/topology.h"
+#include "engine/unfold/bend_zones.h"
+#include "engine/unfold/free_ends.h"
 
 namespace spia {
 namespace {
@@ -40,6 +44,41 @@ const std::vector<int>& faces_as_read(const PartFile& part)
     return numbered_as_read(part) ? part.remeshed->original_face : part.source_face;
 }
 
+/// Bends that are sharper than the usual tolerance would be cut off, and no bend over a cylinder would be found any more.
+/// @returns mm; nothing if the usual one does
+std::optional<double> tolerance_for_bends(const PartFile& part)
+{
+    if (!part.cad || part.cad->surface.empty())
+        return std::nullopt;
+    std::vector<StatedSurface> surface;
+    for (const int f : part.source_face)
+        surface.push_back(part.cad->surface[size_t(part.cad->face[size_t(f)])]);
+    constexpr double of_radius = 0.03, usual = 1e-3, least = 1e-5; // chords of 20 degrees; of the diagonal
+    const double diagonal = bounding_diagonal(part.mesh);
+    double tolerance = usual * diagonal;
+    const FreeEnds ends(part.mesh);
+    for (const BendZone& zone : stated_zones(part.mesh, surface))
+        if (ends.of(zone))
+            tolerance = std::min(tolerance, of_radius * zone.radius);
+    return tolerance < usual * diagonal ? std::optional(std::max(tolerance, least * diagonal)) : std::nullopt;
+}
+
+/// Within that, or if it cannot be kept within the usual tolerance.
+RemeshResult remeshed_with_bends(const PartFile& part, const RemeshOptions& options, std::span<const int> sheet,
+                                 const Progress& progress)
+{
+    const std::optional<double> finer = options.tolerance ? std::nullopt : tolerance_for_bends(part);
+    if (!finer)
+        return remesh(part.mesh, options, sheet, progress);
+    RemeshOptions fine = options;
+    fine.tolerance = finer;
+    try {
+        return remesh(part.mesh, fine, sheet, progress.part(0, 0.5));
+    } catch (const InputError&) { // what is told of it has the tolerance; the bends are told as far as they are found
+        return remesh(part.mesh, options, sheet, progress.part(0.5, 1));
+    }
+}
+
 } // namespace
 
 void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& progress)
@@ -48,7 +87,7 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
     if (part.deck)
         for (const int face : part.source_face)
             sheet.push_back(part.deck->part_of[size_t(face)]);
-    RemeshResult result = remesh(part.mesh, options, sheet, progress);
+    RemeshResult result = remeshed_with_bends(part, options, sheet, progress);
     Remeshed& remeshed = part.remeshed.emplace();
     remeshed.before = result.before;
     remeshed.after = result.after;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <map>
 #include <numbers>
 
 namespace spia {
@@ -12,6 +13,35 @@ constexpr double degrees = 180 / std::numbers::pi;
 Json xyz(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
 
 } // namespace
+
+std::vector<std::string> all_notes(const BendTable& table)
+{
+    std::vector<std::string> all = table.kept;
+    all.insert(all.end(), table.notes.begin(), table.notes.end());
+    return all;
+}
+
+std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& table, bool k_is_given)
+{
+    std::vector<std::string> doubts;
+    // The lengths of a sheet that is given as triangles are those of its triangles unless arcs are asked for.
+    const bool as_triangles = !part.cad && !part.solid && !k_is_given;
+    std::map<std::pair<std::string, std::string>, std::vector<size_t>> kept; // by why and the way out
+    for (size_t b = 0; b < table.bends.size() && !as_triangles; ++b)
+        if (const SheetBend& bend = table.bends[b]; !bend.laid)
+            kept[{bend.why_not, bend.way_out}].push_back(b);
+    for (const auto& [why, bends] : kept) {
+        const SheetBend& first = table.bends[bends.front()];
+        doubts.push_back(fmt::format(
+            "bend {}{} (R {:.4g} mm, {:.4g} degrees, near {:.4g}, {:.4g}, {:.4g}) is not laid with its allowance: {}; {}",
+            bends.front() + 1, bends.size() > 1 ? fmt::format(", the first of {},", bends.size()) : "",
+            first.inner_radius, first.angle * degrees, first.place[0], first.place[1], first.place[2], why.first,
+            why.second));
+    }
+    if (k_is_given)
+        doubts.insert(doubts.end(), table.notes.begin(), table.notes.end());
+    return doubts;
+}
 
 Json bend_table_json(const BendTable& table)
 {
@@ -27,9 +57,12 @@ Json bend_table_json(const BendTable& table)
                          {"allowance_mm", bend.allowance},
                          {"deduction_mm", bend.deduction},
                          {"length_mm", bend.length},
-                         {"radius_from", bend.stated ? "CAD" : "mesh"},
+                         {"radius_from", bend.sharp    ? "sharp"
+                                         : bend.stated ? "CAD"
+                                                       : "mesh"},
                          {"laid_by_k", bend.laid},
                          {"why_not", bend.laid ? Json(nullptr) : Json(bend.why_not)},
+                         {"way_out", bend.laid ? Json(nullptr) : Json(bend.way_out)},
                          {"place_mm", xyz(bend.place)},
                          {"axis", xyz(bend.axis)},
                          {"lines_mm", std::move(lines)}});
@@ -37,11 +70,14 @@ Json bend_table_json(const BendTable& table)
     return {{"surface", table.surface},
             {"thickness_mm", table.thickness},
             {"bends", std::move(bends)},
-            {"notes", table.notes}};
+            {"notes", all_notes(table)}};
 }
 
 std::string in_words(const SheetBend& bend)
 {
+    if (bend.sharp)
+        return fmt::format("sharp, {:.5g} degrees {}, allowance {:.5g} mm, deduction {:.5g} mm", bend.angle * degrees,
+                           bend.up ? "up" : "down", bend.allowance, bend.deduction);
     return fmt::format("R {:.5g} mm, {:.5g} degrees {}, K {:.3g}, allowance {:.5g} mm, deduction {:.5g} mm{}",
                        bend.inner_radius, bend.angle * degrees, bend.up ? "up" : "down", bend.k, bend.allowance,
                        bend.deduction, bend.laid ? "" : " (not laid by it)");
@@ -55,7 +91,7 @@ std::vector<std::string> in_words(const BendTable& table)
         lines.push_back(fmt::format("bend {}: {}", b + 1, in_words(table.bends[b])));
     if (table.bends.size() > most)
         lines.push_back(fmt::format("and {} more bends", table.bends.size() - most));
-    for (const std::string& note : table.notes)
+    for (const std::string& note : all_notes(table))
         lines.push_back("note: " + note);
     return lines;
 }

@@ -3,12 +3,20 @@
 #include <vector>
 
 #include "engine/core/json_file.h"
+#include "engine/exchange/read_part.h"
 #include "engine/unfold/bend_table.h"
 
 namespace spia {
 
 /// The member "bend_table" of the reports, the contract of engine/pipeline/README.md.
 Json bend_table_json(const BendTable& table);
+
+/// What the table has to say besides its rows: bends that are not laid, and where a K factor has no effect.
+std::vector<std::string> all_notes(const BendTable& table);
+
+/// What makes the blank poorer: bends that it has with another length than their allowance, each reason with the first of them and the way
+/// out; with a K factor also where that has no effect.
+std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& table, bool k_is_given);
 
 /// A line each: what the lengths of the blank are lengths of, the bends (the first of many), the notes.
 std::vector<std::string> in_words(const BendTable& table);

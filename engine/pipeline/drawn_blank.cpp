@@ -9,7 +9,10 @@
 
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/blank_marks.h"
+#include "engine/pipeline/parts_of_table.h"
+#include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/stated_outline.h"
+#include "engine/unfold/free_ends.h"
 #include "engine/unfold/sheet_lines.h"
 
 namespace spia {
@@ -23,14 +26,6 @@ double thickness_at(const BendMap& map, size_t bend, const SheetFields& face)
         if (map.label[f] == label)
             return face.thickness[f] / (1 - face.thinning[f]);
     return 0;
-}
-
-/// How far from the hollow side the surface lies that was laid flat, in thicknesses.
-double depth_of(const PartFile& part, bool bulges)
-{
-    if (!part.solid || part.solid->skin == Skin::middle)
-        return 0.5;
-    return (part.solid->skin == Skin::outer) == bulges ? 1 : 0;
 }
 
 /// Puts lines onto the straight one along all of them, which a hole or a notch parts, each from its first point to its last: what a press
@@ -100,7 +95,7 @@ DrawnBend drawn_bend(const SheetBend& bend, std::string name)
         Eigen::Matrix2Xd line(2, 2);
         line << segment.from, segment.to;
         drawn.middle.push_back(line);
-        if (bend.laid) // else the strip is not as broad as that
+        if (bend.laid && !bend.sharp) // else the strip is not as broad as that
             for (const double side : {1., -1.})
                 drawn.zone.push_back(line.colwise() + side * aside);
     }
@@ -113,6 +108,8 @@ std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vecto
     std::vector<int> result(map.bends.size(), -1);
     taken.assign(table.bends.size(), 0);
     for (size_t j = 0; j < table.bends.size(); ++j) {
+        if (table.bends[j].sharp)
+            continue;
         std::map<int, int> faces_of; // label
         for (const int f : table.bends[j].faces)
             ++faces_of[map.label[f]];
@@ -125,56 +122,6 @@ std::vector<int> in_table(const BendMap& map, const BendTable& table, std::vecto
             continue; // two cylinders beside each other, which the map takes for one bend: the second is drawn by itself
         bend = int(j);
         taken[j] = 1;
-    }
-    return result;
-}
-
-/// Bends of the map that are parts of what the table has as whole ones: pieces between a hole and the side of a bend, the edges
-/// between its chords where a rim crosses them, and those of narrow triangles between a bend and the rim of a hole beside it.
-std::vector<char> parts_of_table(const TriMesh& part, const BendMap& map, const BendTable& table)
-{
-    constexpr double mostly = 0.5, small = 0.1; // of the area, and of that of the bend beside it
-    constexpr double sharp = 0.6;               // radians: chords of one bend turn by less
-    std::vector<int> bend_of(size_t(part.triangles()), -1), at(size_t(part.vertices()), -1);
-    std::vector<double> size(table.bends.size(), 0);
-    const Eigen::VectorXd area = area_vectors(part).colwise().norm() / 2;
-    for (size_t j = 0; j < table.bends.size(); ++j)
-        for (const int f : table.bends[j].faces) {
-            bend_of[size_t(f)] = int(j);
-            size[j] += area[f];
-            for (const int v : part.triangle.col(f))
-                at[size_t(v)] = int(j);
-        }
-    std::vector<double> whole(map.bends.size(), 0), inside(whole.size(), 0), beside(whole.size(), 0);
-    for (int f = 0; f < part.triangles(); ++f) {
-        const int k = map.label[f] - int(map.regions.size());
-        if (k < 0)
-            continue;
-        whole[size_t(k)] += area[f];
-        inside[size_t(k)] += bend_of[size_t(f)] >= 0 ? area[f] : 0;
-        for (const int v : part.triangle.col(f))
-            if (const int j = at[size_t(v)]; j >= 0)
-                beside[size_t(k)] = std::max(beside[size_t(k)], size[size_t(j)]);
-    }
-    // A sharp bend has no faces: it lies between those of its two regions, one of which is a piece of a bend.
-    std::vector<double> region(map.regions.size(), 0), in_bend(region), by_region(region);
-    for (int f = 0; f < part.triangles(); ++f)
-        if (const auto r = size_t(map.label[f]); r < region.size()) {
-            region[r] += area[f];
-            in_bend[r] += bend_of[size_t(f)] >= 0 ? area[f] : 0;
-            for (const int v : part.triangle.col(f))
-                if (const int j = at[size_t(v)]; j >= 0)
-                    by_region[r] = std::max(by_region[r], size[size_t(j)]);
-        }
-    const auto of_bend = [&](int r) {
-        return in_bend[size_t(r)] > mostly * region[size_t(r)] || region[size_t(r)] < small * by_region[size_t(r)];
-    };
-    std::vector<char> result;
-    for (size_t k = 0; k < map.bends.size(); ++k) {
-        const Bend& bend = map.bends[k];
-        const bool edge =
-            bend.faces == 0 && bend.b >= 0 && std::abs(bend.angle) < sharp && (of_bend(bend.a) || of_bend(bend.b));
-        result.push_back(bend.faces == 0 ? edge : inside[k] > mostly * whole[k] || whole[k] < small * beside[k]);
     }
     return result;
 }
@@ -195,11 +142,14 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
     const std::vector<int> known = table ? in_table(map, *table, taken) : std::vector<int>(map.bends.size(), -1);
     const std::vector<char> part_of_known =
         table ? parts_of_table(part.mesh, map, *table) : std::vector<char>(map.bends.size(), 0);
+    const FreeEnds ends(part.mesh);
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
         constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that the rim of a hole tilts turn by less
         if (known[k] < 0 && (part_of_known[k] || (table && std::abs(bend.angle) < least)))
             continue;
+        if (straight_only && known[k] < 0 && ((table && bend.faces == 0) || !ends.of(map, k, blank.position)))
+            continue; // sharp ones are in the table
         const SheetBend* stated =
             known[k] >= 0 && !table->bends[size_t(known[k])].line.empty() ? &table->bends[size_t(known[k])] : nullptr;
         const std::string name = map.name(int(map.regions.size() + k));
@@ -211,7 +161,7 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
             drawn.angle = std::abs(bend.angle);
             const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the legs go down
             drawn.up = !bulges;
-            drawn.k = depth_of(part, bulges);
+            drawn.k = laid_fibre(part, bulges);
             drawn.inner_radius = bend.faces > 0 ? std::max(bend.radius - drawn.k * thickness_at(map, k, face), 0.) : 0;
             for (const SheetLine& line : lines)
                 if (line.name == name)

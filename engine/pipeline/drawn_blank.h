@@ -11,8 +11,9 @@ namespace spia {
 /// the same: 0.5 of a middle surface and of a part that is no solid of sheet, else as its skin lies.
 /// @param map  of the part
 /// @param face of forming the blank into the part: the thickness of the flat sheet at a bend is told by it
-/// @param straight_only leave out bends with a line that is not straight, which no press brake makes: those of drawn parts
-/// @param table of the bends on this blank: what it has of a bend over a cylinder, radius, angle, K and lines, is drawn; may be null
+/// @param straight_only leave out what no press brake makes: the radii of drawn parts, whose lines are not straight or end in the sheet
+///                      (FreeEnds); sharp folds then are those of the table, if there is one
+/// @param table of the bends on this blank: what it has of a bend, radius, angle, K and lines, is drawn; may be null
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
                          bool straight_only = false, const BendTable* table = nullptr);
 

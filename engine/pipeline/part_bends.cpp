@@ -71,7 +71,8 @@ NeutralFibre part_bends(const PartFile& part, double thickness, const std::optio
     // A sheet that is given as triangles is these triangles, unless its bends are asked for. Of solids and CAD faces they are ours or
     // stand for arcs.
     if (!k && !part.cad && !part.solid)
-        keep_triangles(fibre, "the mesh has them; a K factor (--k-factor, also 0.5) lays arcs in their place");
+        keep_triangles(fibre, "the mesh has them; a K factor (--k-factor, also 0.5) lays arcs in their place",
+                       "give a K factor (--k-factor)");
     return fibre;
 }
 
@@ -82,7 +83,8 @@ void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& 
         return;
     if (!fibre.laid.empty()) {
         if (run.flipped > 0 || run.states.back().face.strain_equivalent.maxCoeff() > most_relaid_strain)
-            keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is");
+            keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is",
+                           "unfold it in one step, or in steps that only bend");
         else {
             Eigen::Matrix2Xd& position = run.blank->position;
             position = relaid_blank(part, position, fibre.laid, options, progress).blank.position;

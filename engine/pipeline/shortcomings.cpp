@@ -4,6 +4,7 @@
 
 #include "engine/forming/membrane_law.h"
 #include "engine/pipeline/applied_process.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/surface_shortcomings.h"
 #include "engine/pipeline/worst_cell.h"
@@ -107,8 +108,9 @@ std::vector<std::string> shortcomings(const Session& session)
             list.push_back(std::move(line));
         for (std::string& line : idle_process(session))
             list.push_back(std::move(line));
-        if (session.bends && session.options.k_factor) // asked for, and not done everywhere
-            list.insert(list.end(), session.bends->notes.begin(), session.bends->notes.end());
+        if (session.bends)
+            for (std::string& line : bend_doubts(*session.part, *session.bends, session.options.k_factor.has_value()))
+                list.push_back(std::move(line));
         const FlattenResult& flat = *session.blank;
         if (!flat.report.whole())
             list.push_back(flat.report.reason);

@@ -14,6 +14,7 @@
 #include "engine/nurbs/blank_chart.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/session.h"
+#include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/usual_tolerance.h"
 #include "engine/unfold/polish.h"
 #include "engine/unfold/relaid_blank.h"
@@ -130,7 +131,8 @@ void lay_steps_anew(const TriMesh& part, const FlattenOptions& options, NeutralF
     if (fibre.laid.empty())
         return;
     if (flat.face.strain_equivalent.maxCoeff() > most_relaid_strain) {
-        keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is");
+        keep_triangles(fibre, "the steps strain the sheet, and their blank is kept as it is",
+                       "unfold it in one step, or in steps that only bend");
         return;
     }
     SolveReport of_steps = std::move(flat.report);
@@ -189,6 +191,7 @@ void solve(Session& session, const Progress& whole)
         lay_straight(part, rolling_on(part, options.process, flat), flat);
     }
     place_on_blank(fibre, part, flat.blank);
+    add_sharp_folds(*session.part, flat.blank, fibre.table);
     if (twice) {
         whole.checkpoint(0.5, "unfolding with the corners joined, to compare");
         session.corner_cut = corner_cut(*session.part, flat, session.options.flatten, whole.part(0.5, 1));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/free_ends.h"
 #include "engine/unfold/strip_cylinders.h"
 
 namespace spia {
@@ -227,6 +229,92 @@ bool ends_straight(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const
     return straight >= one_end * (straight + askew);
 }
 
+/// The radius with which the flats on both sides touch the cylinder; nothing if they do not.
+std::optional<double> radius_by_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour,
+                                      const Eigen::Matrix3Xd& normal, const BendZone& zone)
+{
+    constexpr double square = 1e-6, alike = 1e-6; // the sine of an angle; of the radius
+    constexpr double near = 0.02; // of the radius: vertices on chords of up to 20 degrees are off by less
+    const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
+    const double middle = (zone.from + zone.to) / 2;
+    std::array<double, 2> area{0, 0}, radius{0, 0};
+    for (const int f : faces_beyond(normal, neighbour, zone)) {
+        const Eigen::Vector3d n = normal.col(f).normalized();
+        const double from_axis = (part.position.col(part.triangle(0, f)) - zone.point).dot(n);
+        if (std::abs(n.dot(zone.axis)) > square || std::abs(std::abs(from_axis) - zone.radius) > near * zone.radius)
+            continue;
+        const Eigen::Vector2d to_it = frame.transpose() * (from_axis > 0 ? n : Eigen::Vector3d(-n));
+        const auto side = size_t(nearest_turn(std::atan2(to_it.y(), to_it.x()), middle) < middle ? 0 : 1);
+        if (normal.col(f).norm() > area[side]) {
+            area[side] = normal.col(f).norm();
+            radius[side] = std::abs(from_axis);
+        }
+    }
+    if (!(area[0] > 0) || !(area[1] > 0) || std::abs(radius[0] - radius[1]) > alike * zone.radius)
+        return std::nullopt;
+    return (radius[0] + radius[1]) / 2;
+}
+
+/// The triangles of a remeshed part lie across the lines where a bend begins and ends: all that have a corner within it belong to it, and
+/// those that are not touched lie in the flats, which tell where these lines are.
+/// @param taken  #F: faces of zones
+/// @returns whether there are flats on both sides
+bool between_flats(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const Eigen::Matrix3Xd& normal,
+                   BendZone& zone, std::vector<char>& taken)
+{
+    constexpr double within = 1e-3, near = 0.02; // of the angle; of the radius
+    const Eigen::Matrix<double, 3, 2> frame = across(zone.axis);
+    const double middle = (zone.from + zone.to) / 2, most = (0.5 - within) * (zone.to - zone.from);
+    const auto inside = [&](int v) {
+        const Eigen::Vector2d p = frame.transpose() * (part.position.col(v) - zone.point);
+        return std::abs(p.norm() - zone.radius) < near * zone.radius &&
+               std::abs(nearest_turn(std::atan2(p.y(), p.x()), middle) - middle) < most;
+    };
+    for (size_t i = 0; i < zone.face.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (const int g = neighbour(k, zone.face[i]); g >= 0 && !taken[size_t(g)])
+                if (const auto corner = part.triangle.col(g); std::any_of(corner.begin(), corner.end(), inside)) {
+                    taken[size_t(g)] = 1;
+                    zone.face.push_back(g);
+                }
+    std::sort(zone.face.begin(), zone.face.end());
+    const auto radius = radius_by_flats(part, neighbour, normal, zone);
+    if (!radius)
+        return false;
+    zone.radius = *radius;
+    measure(part, neighbour, zone);
+    std::vector<double> off; // beyond it corners lie in the flats
+    for (size_t i = 0; i < zone.face.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (zone.turn[i][k] >= zone.from && zone.turn[i][k] <= zone.to)
+                off.push_back(std::abs(
+                    (frame.transpose() * (part.position.col(part.triangle(k, zone.face[i])) - zone.point)).norm() -
+                    zone.radius));
+    if (off.empty())
+        return false;
+    std::sort(off.begin(), off.end());
+    zone.off = off[off.size() * 3 / 4];
+    return true;
+}
+
+/// Takes walls of drawn sheet away.
+void keep_bends(const TriMesh& part, const Eigen::Matrix3Xi& neighbour, const Eigen::Matrix3Xd& normal,
+                std::vector<BendZone>& zones)
+{
+    std::optional<FreeEnds> ends; // mostly not needed
+    std::vector<char> taken(size_t(part.triangles()), 0);
+    for (const BendZone& zone : zones)
+        for (const int f : zone.face)
+            taken[size_t(f)] = 1;
+    std::erase_if(zones, [&](BendZone& zone) {
+        if (ends_straight(part, neighbour, zone))
+            return false;
+        if (!ends)
+            ends.emplace(part);
+        return !ends->of(zone) || !between_flats(part, neighbour, normal, zone, taken);
+    });
+}
+
 } // namespace
 
 std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<StatedSurface>& surface)
@@ -269,7 +357,7 @@ std::vector<BendZone> stated_zones(const TriMesh& part, const std::vector<Stated
         zone.radius = radius[radius.size() / 2];
         measure(part, neighbour, zone);
     }
-    std::erase_if(zones, [&](const BendZone& zone) { return !ends_straight(part, neighbour, zone); });
+    keep_bends(part, neighbour, normal, zones);
     join_pieces(part, neighbour, zones);
     return zones;
 }

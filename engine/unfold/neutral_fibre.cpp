@@ -12,6 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
+#include "engine/unfold/free_ends.h"
 
 namespace spia {
 namespace {
@@ -27,6 +28,13 @@ struct Candidate {
     double radius; ///< mm, with which it is laid
     std::vector<Laid> corner;
 };
+
+/// Radians of the bend, and beyond it where its plane that goes on would be if it bent on.
+double developed(const BendZone& zone, double turn)
+{
+    const double on = std::clamp(turn, zone.from, zone.to);
+    return on + std::tan(turn - on);
+}
 
 std::vector<Laid> laid_corners(const TriMesh& part, const BendZone& zone, double radius)
 {
@@ -55,18 +63,11 @@ bool upright(const Laid& x)
     return p[0] * q[1] - p[1] * q[0] > 0;
 }
 
-double deduction(const SheetBend& bend, double thickness)
-{
-    const double outer = bend.inner_radius + thickness;
-    const double legs = bend.angle < 90 * degree ? 2 * outer * std::tan(bend.angle / 2) : 2 * outer;
-    return legs - bend.allowance;
-}
-
 void set_k(SheetBend& bend, double k, double thickness)
 {
     bend.k = k;
     bend.allowance = bend.angle * (bend.inner_radius + k * thickness);
-    bend.deduction = deduction(bend, thickness);
+    bend.deduction = bend_deduction(bend.inner_radius, bend.angle, bend.allowance, thickness);
 }
 
 Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layers)
@@ -85,9 +86,14 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
     const double inner = of_mesh - side * layers.mesh_at - t / 2;
     constexpr double rounding = 1e-6;
     bend.inner_radius = std::max(0., inner);
+    const auto keeps = [&](std::string why, std::string way_out) {
+        bend.why_not = std::move(why);
+        bend.way_out = std::move(way_out);
+    };
     double k = middle;
     if (inner < -rounding * t)
-        bend.why_not = fmt::format("the sheet of {:.4g} mm is thicker there than its radius allows", t);
+        keeps(fmt::format("the sheet of {:.4g} mm is thicker there than its radius allows", t),
+              "check the thickness of the sheet");
     else if (layers.mesh_at == 0 && layers.k)
         k = layers.k->at(bend.inner_radius / t);
     if (layers.mesh_at != 0)
@@ -96,19 +102,21 @@ Candidate candidate(const TriMesh& part, BendZone zone, const SheetLayers& layer
         constexpr double nothing = 0.02; // of the thickness: triangles shorter than that are none
         const double laid = bend.inner_radius + k * t;
         if (laid < nothing * t)
-            bend.why_not = fmt::format("K {:.3g} at an inner radius of {:.3g} mm leaves next to no length for the bend",
-                                       k, bend.inner_radius);
+            keeps(fmt::format("K {:.3g} at an inner radius of {:.3g} mm leaves next to no length for the bend", k,
+                              bend.inner_radius),
+                  "give a greater K factor");
         else
             result.radius = laid;
     }
     // Vertices that a mesher put on chords are off the cylinder by the sagitta of 20 degrees at most, 0.4 to 1.5 % of the radius.
     constexpr double most_off = 0.02;
+    const std::string finer = "give the part finer triangles there, or measure a trial bend";
     if (at.off + std::abs(at.radius - of_mesh) > most_off * of_mesh)
-        bend.why_not = "its triangles leave the cylinder";
+        keeps("its triangles leave the cylinder", finer);
     set_k(bend, k, t);
     result.corner = laid_corners(part, at, result.radius);
     if (!std::all_of(result.corner.begin(), result.corner.end(), upright))
-        bend.why_not = "its triangles turn over on the cylinder";
+        keeps("its triangles turn over on the cylinder", finer);
     bend.laid = bend.why_not.empty();
     return result;
 }
@@ -166,6 +174,9 @@ void compare_borders(const TriMesh& part, std::vector<Candidate>& candidates)
                 candidates[c].bend.laid = false;
                 candidates[c].bend.why_not = "it does not end on straight lines across the sheet, but goes over into "
                                              "sheet that is formed otherwise";
+                candidates[c].bend.way_out =
+                    "give the bend reliefs where it ends, or measure a trial bend: the blank has there the lengths of "
+                    "the part";
                 changed = true;
             }
     }
@@ -255,6 +266,12 @@ std::string surface_in_words(const BendTable& table, const SheetLayers& layers)
 
 } // namespace
 
+double bend_deduction(double inner_radius, double angle, double allowance, double thickness)
+{
+    const double outer = inner_radius + thickness;
+    return (angle < 90 * degree ? 2 * outer * std::tan(angle / 2) : 2 * outer) - allowance;
+}
+
 NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, const SheetLayers& layers)
 {
     if (!(layers.thickness > 0) || !std::isfinite(layers.thickness))
@@ -263,9 +280,10 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
         throw InputError("a K factor says where the neutral fibre lies, and a skin was asked for in its place: leave "
                          "out one of them (--k-factor or --skin)");
     constexpr double flat = 0.05 * degree; // what turns less is a plane that CAD tilted
+    const FreeEnds ends(part);
     std::vector<Candidate> candidates;
     for (BendZone& zone : zones)
-        if (zone.to - zone.from > flat)
+        if (zone.to - zone.from > flat && ends.of(zone)) // else the radius of drawn sheet
             candidates.push_back(candidate(part, std::move(zone), layers));
     compare_borders(part, candidates);
 
@@ -278,10 +296,6 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.zone.face.front() < b.zone.face.front(); });
     for (Candidate& each : candidates) {
-        // The wall of a collar or a cup is no bend, nor is a place of drawn sheet that happens to be round in a mesh.
-        constexpr double wall = 185 * degree;
-        if (!each.bend.laid && (each.bend.angle > wall || !each.bend.stated))
-            continue;
         if (!each.bend.laid && layers.mesh_at == 0)
             set_k(each.bend, middle, layers.thickness);
         if (each.bend.laid)
@@ -297,7 +311,7 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
         result.laid.corner.push_back(corner);
     }
     for (const auto& [why, bends] : kept)
-        table.notes.push_back(kept_in_words(bends, table.of_middle, why));
+        table.kept.push_back(kept_in_words(bends, table.of_middle, why));
     if (layers.k && *layers.k != KFactor{}) {
         if (table.bends.empty())
             table.notes.push_back("no bend over a cylinder was found: the K factor has no effect");
@@ -307,7 +321,7 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
     return result;
 }
 
-void keep_triangles(NeutralFibre& fibre, const std::string& why)
+void keep_triangles(NeutralFibre& fibre, const std::string& why, const std::string& way_out)
 {
     BendTable& table = fibre.table;
     std::vector<int> kept;
@@ -317,6 +331,7 @@ void keep_triangles(NeutralFibre& fibre, const std::string& why)
             continue;
         bend.laid = false;
         bend.why_not = why;
+        bend.way_out = way_out;
         set_k(bend, table.of_middle ? middle : bend.k, table.thickness);
         kept.push_back(int(b) + 1);
     }
@@ -325,7 +340,7 @@ void keep_triangles(NeutralFibre& fibre, const std::string& why)
         return;
     if (table.of_middle)
         table.surface = "middle surface, K 0.5";
-    table.notes.push_back(kept_in_words(kept, table.of_middle, why));
+    table.kept.push_back(kept_in_words(kept, table.of_middle, why));
 }
 
 void place_on_blank(NeutralFibre& fibre, const TriMesh& part, const Blank& blank)
@@ -340,7 +355,8 @@ void place_on_blank(NeutralFibre& fibre, const TriMesh& part, const Blank& blank
             std::vector<Eigen::Vector2d> crossing;
             for (int k = 0; k < 3; ++k) {
                 const int a = part.triangle(k, zone.face[i]), c = part.triangle((k + 1) % 3, zone.face[i]);
-                const double from = zone.turn[i][k] - half, to = zone.turn[i][(k + 1) % 3] - half;
+                const double from = developed(zone, zone.turn[i][k]) - half,
+                             to = developed(zone, zone.turn[i][(k + 1) % 3]) - half;
                 const double along = (part.position.col(a) - zone.point).dot(zone.axis);
                 low = std::min(low, along);
                 high = std::max(high, along);

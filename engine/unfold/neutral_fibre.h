@@ -29,11 +29,14 @@ struct NeutralFibre {
 /// of the skin that it is. The flat faces beside it keep theirs. That holds where the zone is a bend: all its corners lie on the cylinder,
 /// and its edges have the same length in the faces beside it as in the zone; a bend of any angle between straight lines, with or without
 /// holes and notches, is so. A cylinder that goes over into drawn sheet is not: it keeps the lengths of its triangles, and the table says
-/// so.
+/// so. A zone that does not end at the edge of the sheet at both its ends (FreeEnds) is a radius of a drawn part and no bend.
 NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, const SheetLayers& layers);
 
-/// Takes the lengths back: all bends keep those of their triangles. @param why  for the table
-void keep_triangles(NeutralFibre& fibre, const std::string& why);
+/// Takes the lengths back: all bends keep those of their triangles. @param why, way_out  for the table
+void keep_triangles(NeutralFibre& fibre, const std::string& why, const std::string& way_out);
+
+/// mm, see SheetBend. @param angle  radians; the others mm
+double bend_deduction(double inner_radius, double angle, double allowance, double thickness);
 
 /// Fills in what the table tells of the blank.
 void place_on_blank(NeutralFibre& fibre, const TriMesh& part, const Blank& blank);

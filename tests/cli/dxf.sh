@@ -20,6 +20,7 @@ draw() { # NAME PART ARGUMENT... - by both commands, in all versions and curves
     done
 }
 draw channel "$parts/perforated-channel.obj"
+[ "$(grep -cE '^(UP|DOWN) ' "$out/channel-run-r2000-arcs.dxf")" = 5 ] || fail "not a text for each of the channel's bends, whose triangles lie askew over them"
 draw dome "$parts/dome.obj"
 expect 2 "no splines" "$spia" run "$parts/dome.obj" --dxf-version r12 --dxf-curves splines --out "$out"
 expect 2 "dxf-tolerance is a distance" "$spia" run "$parts/dome.obj" --dxf-tolerance nan --out "$out"

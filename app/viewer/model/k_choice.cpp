@@ -29,7 +29,8 @@ std::string k_text(const std::optional<KFactor>& k) { return k ? k->name : ""; }
 SheetBend with_wanted_k(const Session& session, const SheetBend& bend)
 {
     const BendTable& table = *session.bends;
-    if (!table.of_middle || !(table.thickness > 0)) // of a skin the fibre lies where the skin lies
+    // Of a skin the fibre lies where the skin lies, of a sharp fold where the legs meet.
+    if (!table.of_middle || !(table.thickness > 0) || bend.sharp)
         return bend;
     const double k = session.options.k_factor.value_or(KFactor{}).at(bend.inner_radius / table.thickness);
     SheetBend now = bend;

@@ -11,6 +11,7 @@
 #include "app/viewer/model/svg_chart.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/exchange/text_encoding.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 
 namespace spia::viewer {
@@ -299,10 +300,11 @@ std::string bend_table(const Session& session, LengthUnit lengths)
     for (const SheetBend& bend : session.bends->bends)
         rows += fmt::format(
             "<tr><td>{}</td><td>{}</td><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            ++number, in.fine(bend.inner_radius, 3), fixed(degrees * bend.angle, 2), bend.up ? "up" : "down",
-            fixed(bend.k, 3), in.fine(bend.allowance, 3), in.fine(bend.deduction, 3), in.fine(bend.length, 1),
+            ++number, bend.sharp ? "sharp" : in.fine(bend.inner_radius, 3), fixed(degrees * bend.angle, 2),
+            bend.up ? "up" : "down", fixed(bend.k, 3), in.fine(bend.allowance, 3), in.fine(bend.deduction, 3),
+            in.fine(bend.length, 1),
             fmt::format("{}, {}, {}", in.fine(bend.place[0], 1), in.fine(bend.place[1], 1), in.fine(bend.place[2], 1)));
-    for (const std::string& note : session.bends->notes)
+    for (const std::string& note : all_notes(*session.bends))
         notes += fmt::format("<p>{}</p>\n", escaped(in_shown_lengths(in_viewer_words(note), lengths)));
     return fmt::format(
         "<section class=\"whole\"><h2>Bends</h2>\n<table class=\"spots\"><tr><th>Bend</th><th>Inner radius, {1}</th>"

@@ -27,11 +27,12 @@ int face_of(const TriMesh& part, const SheetBend& bend)
 std::string bend_words(const Frame& frame, const SheetBend& bend)
 {
     std::string words = engine_words(frame, in_words(bend));
-    words +=
-        ".\n" + fmt::format("It is {} long; its radius is that of the {}.", length_text(bend.length, frame.lengths()),
-                            bend.stated ? "CAD cylinder" : "circle through the vertices");
+    words += ".\n" + fmt::format("It is {} long; ", length_text(bend.length, frame.lengths()));
+    words += bend.sharp ? "two planes meet there without a radius."
+                        : fmt::format("its radius is that of the {}.",
+                                      bend.stated ? "CAD cylinder" : "circle through the vertices");
     if (!bend.laid)
-        words += "\nThe blank has it as the mesh has: " + engine_words(frame, bend.why_not) + ".";
+        words += "\nThe blank has it as the mesh has: " + engine_words(frame, bend.why_not + "; " + bend.way_out) + ".";
     return words + "\nClick to look at it.";
 }
 
@@ -65,14 +66,21 @@ void headings(Frame& frame)
     ImGui::PopStyleColor();
 }
 
+/// A sheet that is given as triangles is laid flat as these, unless arcs are asked for.
+bool lies_as_asked(const Session& session)
+{
+    return bend_doubts(*session.part, *session.bends, session.options.k_factor.has_value()).empty();
+}
+
 void row(Frame& frame, int number, const SheetBend& made)
 {
     const Session& session = frame.state.document.session;
     const SheetBend bend = with_wanted_k(session, made);
     const auto& spot = frame.state.spot;
     const bool here = spot && std::binary_search(bend.faces.begin(), bend.faces.end(), spot->face);
+    const Palette& palette = palette_of(frame.state.view.dark);
     if (!bend.laid)
-        ImGui::PushStyleColor(ImGuiCol_Text, palette_of(frame.state.view.dark).muted);
+        ImGui::PushStyleColor(ImGuiCol_Text, lies_as_asked(session) ? palette.muted : palette.warning);
     ImGui::TableNextColumn();
     if (ImGui::Selectable(fmt::format("{} {}##bend", number, bend.up ? "up" : "down").c_str(), here,
                           ImGuiSelectableFlags_SpanAllColumns) &&
@@ -82,7 +90,7 @@ void row(Frame& frame, int number, const SheetBend& made)
     const LengthUnit lengths = frame.lengths();
     const int decimals = 3 + more_decimals(lengths);
     for (const std::string& text :
-         {fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
+         {bend.sharp ? "sharp" : fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
           fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi), fmt::format("{:.3g}", bend.k),
           fmt::format("{:.{}f}", shown_length(bend.allowance, lengths), decimals),
           fmt::format("{:.{}f}", shown_length(bend.deduction, lengths), decimals)}) {
@@ -170,11 +178,11 @@ void bend_rows(Frame& frame)
     const auto flags = int(bends.size()) > most_rows ? ImGuiTreeNodeFlags_None : ImGuiTreeNodeFlags_DefaultOpen;
     const bool open = ImGui::TreeNodeEx("bends", flags | ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s",
                                         bends.size() == 1 ? "1 bend" : fmt::format("{} bends", bends.size()).c_str());
-    tooltip("Bends over cylinders, with the length of their neutral fibre in the blank");
+    tooltip("Bends over cylinders, with the length of their neutral fibre in the blank, and sharp folds");
     if (!open)
         return;
     table(frame, bends);
-    for (const std::string& note : session.bends->notes)
+    for (const std::string& note : all_notes(*session.bends))
         muted(frame, engine_words(frame, note));
 }
 

@@ -8,15 +8,12 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
-#include <BRepTools.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <Eigen/Core>
 #include <GC_MakeArcOfCircle.hxx>
-#include <STEPControl_Writer.hxx>
-#include <StlAPI_Writer.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
@@ -27,6 +24,8 @@
 #include <stdexcept>
 
 #include "engine/exchange/occt_session.h"
+#include "tests/support/cad/section_face.h"
+#include "tests/support/cad/write_solid.h"
 #include "tests/support/lots.h"
 #include "tests/support/profile.h"
 
@@ -43,16 +42,6 @@ Profile middle_of(const BentSolid& solid)
     for (size_t b = 0; b < solid.bend.size(); ++b)
         profile.bend(solid.bend[b].inner_radius + solid.thickness / 2, solid.bend[b].angle).straight(solid.leg[b + 1]);
     return profile;
-}
-
-double heading(const Profile::Piece& piece, double s) { return piece.heading + piece.curvature * (s - piece.from); }
-
-/// At arc length s of the middle line, that far to its left.
-gp_Pnt beside(const Profile& profile, const Profile::Piece& piece, double s, double left)
-{
-    const Eigen::Vector2d p = profile.at(s);
-    const double h = heading(piece, s);
-    return {p.x() - left * std::sin(h), 0, p.y() + left * std::cos(h)};
 }
 
 /// Whether the section keeps clear of itself: by a tenth of its thickness at least.
@@ -170,6 +159,62 @@ TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const BendCu
         .Shape();
 }
 
+/// From the middle of an emboss outwards: its flat, the two radii with the slope between them.
+Profile half_section(const Emboss& emboss)
+{
+    const double down = emboss.left ? -1 : 1, r = emboss.radius,
+                 height = 2 * r * (1 - std::cos(emboss.slope)) + emboss.ramp * std::sin(emboss.slope);
+    Profile profile({0, -down * height}, 0);
+    return profile.straight(emboss.flat)
+        .bend(r, down * emboss.slope)
+        .straight(emboss.ramp)
+        .bend(r, -down * emboss.slope);
+}
+
+/// The leg has a slot in place of the emboss, into which this is put.
+TopoDS_Shape embossed(TopoDS_Shape shape, const BentSolid& solid, const Profile& profile, const Emboss& emboss)
+{
+    const Profile half = half_section(emboss);
+    const double reach = half.at(half.length()).x(), t = solid.thickness;
+    Cutout slot;
+    slot.leg = emboss.leg;
+    slot.centre = emboss.centre;
+    slot.length = emboss.length + 2 * reach;
+    slot.width = 2 * reach;
+    slot.radius = reach;
+    slot.turn = emboss.turn;
+    shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, slot)).Shape();
+    const Profile::Piece& leg = profile.pieces()[2 * size_t(emboss.leg)];
+    const double s = leg.from + emboss.centre.x(), h = heading(leg, s);
+    const gp_Vec along(std::cos(h), 0, std::sin(h)), out(-std::sin(h), 0, std::cos(h)), y(0, 1, 0);
+    const gp_Pnt middle = beside(profile, leg, s, 0).Translated(y * emboss.centre.y());
+    const gp_Ax2 frame(middle, gp_Dir(out), gp_Dir(along * std::cos(emboss.turn) + y * std::sin(emboss.turn)));
+    gp_Trsf to;
+    to.SetTransformation(gp_Ax3(frame), gp_Ax3());
+    const gp_Ax1 axis(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+    const auto put = [&](const TopoDS_Shape& piece) {
+        shape = BRepAlgoAPI_Fuse(shape, BRepBuilderAPI_Transform(piece, to, true).Shape()).Shape();
+    };
+    const TopoDS_Shape section = section_face(half, t / 2, -t / 2);
+    if (emboss.length == 0) {
+        put(BRepPrimAPI_MakeRevol(section, axis).Shape());
+        return shape;
+    }
+    const auto at = [&](double x, double angle) { // the section from there towards that side
+        gp_Trsf turn, move;
+        turn.SetRotation(axis, angle);
+        move.SetTranslation(gp_Vec(x, 0, 0));
+        return BRepBuilderAPI_Transform(section, move * turn, true).Shape();
+    };
+    const double quarter = std::numbers::pi / 2;
+    for (const double side : {1., -1.}) {
+        put(BRepPrimAPI_MakePrism(at(-emboss.length / 2, side * quarter), gp_Vec(emboss.length, 0, 0)).Shape());
+        const gp_Ax1 end(gp_Pnt(side * emboss.length / 2, 0, 0), gp_Dir(0, 0, 1));
+        put(BRepPrimAPI_MakeRevol(at(side * emboss.length / 2, -side * quarter), end, 2 * quarter).Shape());
+    }
+    return shape;
+}
+
 gp_Trsf pose(std::uint64_t lot)
 {
     Lots lots(lot);
@@ -185,29 +230,7 @@ gp_Trsf pose(std::uint64_t lot)
 /// What lies between two distances to the left of the middle line.
 TopoDS_Shape layer(const BentSolid& solid, const Profile& profile, double left, double right)
 {
-    BRepBuilderAPI_MakeWire wire;
-    const auto add = [&](const Profile::Piece& piece, double at, bool back) {
-        const gp_Pnt from = beside(profile, piece, back ? piece.to : piece.from, at),
-                     to = beside(profile, piece, back ? piece.from : piece.to, at);
-        if (piece.curvature == 0)
-            wire.Add(BRepBuilderAPI_MakeEdge(from, to).Edge());
-        else {
-            const gp_Pnt middle = beside(profile, piece, (piece.from + piece.to) / 2, at);
-            wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(from, middle, to).Value()).Edge());
-        }
-    };
-    const auto& pieces = profile.pieces();
-    for (const auto& piece : pieces)
-        add(piece, left, false);
-    wire.Add(BRepBuilderAPI_MakeEdge(beside(profile, pieces.back(), pieces.back().to, left),
-                                     beside(profile, pieces.back(), pieces.back().to, right))
-                 .Edge());
-    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
-        add(*piece, right, true);
-    wire.Add(
-        BRepBuilderAPI_MakeEdge(beside(profile, pieces.front(), 0, right), beside(profile, pieces.front(), 0, left))
-            .Edge());
-    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, solid.width, 0)).Shape();
+    return BRepPrimAPI_MakePrism(section_face(profile, left, right), gp_Vec(0, solid.width, 0)).Shape();
 }
 
 /// Takes the stamp away from the solid, or puts it on.
@@ -260,6 +283,8 @@ TopoDS_Shape made(const BentSolid& solid)
         shape = BRepAlgoAPI_Cut(shape, cutter(solid, profile, cutout)).Shape();
     for (const Sink& sink : solid.sink)
         shape = sunk(shape, solid, profile, sink);
+    for (const Emboss& emboss : solid.emboss)
+        shape = embossed(shape, solid, profile, emboss);
     for (const Stamp& stamp : solid.stamp)
         shape = stamped(shape, solid, profile, stamp);
     for (const BendCut& cut : solid.bend_cut)
@@ -349,16 +374,6 @@ BendCut drawn_cut(Lots& lots, const BentSolid& solid, int bend)
     return cut;
 }
 
-/// @param deflection  mm; @param angle radians
-void write_stl(const std::filesystem::path& file, const TopoDS_Shape& shape, double deflection, double angle)
-{
-    const BRepMesh_IncrementalMesh meshed(shape, deflection, false, angle);
-    StlAPI_Writer writer;
-    writer.ASCIIMode() = false;
-    if (!writer.Write(shape, file.c_str()))
-        throw std::runtime_error("not written: " + file.string());
-}
-
 /// The first that is clear of itself.
 template <class Draw> BentSolid first_clear(std::uint64_t seed, const Draw& draw)
 {
@@ -438,6 +453,46 @@ BentSolid random_wide_hole(std::uint64_t seed)
     return solid;
 }
 
+BentSolid random_embossed_bracket(std::uint64_t seed)
+{
+    Lots lots(seed);
+    for (;;) {
+        BentSolid solid;
+        const double t = solid.thickness = even_in_logarithm(lots, 0.6, 3);
+        const int kind = lots.whole(0, 2); // a bracket, a channel or Z, a joggle
+        static const char* const kinds[] = {"bracket", "two bends", "joggle"};
+        solid.kind = kinds[kind];
+        const double way = lots.coin() ? 1 : -1, same = lots.coin() ? 1 : -1,
+                     angle = degree * lots.between(kind == 2 ? 25 : 30, kind == 2 ? 60 : 110);
+        solid.bend.push_back({t * even_in_logarithm(lots, 0.5, 5), way * angle});
+        if (kind > 0)
+            solid.bend.push_back({t * even_in_logarithm(lots, 0.5, 5),
+                                  kind == 2 ? -way * angle : way * same * degree * lots.between(30, 100)});
+        const double size = t * lots.between(36, 50); // an emboss reaches 13 thicknesses
+        for (size_t b = 0; b <= solid.bend.size(); ++b)
+            solid.leg.push_back(kind == 2 && b == 1 ? t * lots.between(2, 5) : size * lots.between(1, 1.5));
+        solid.width = size * lots.between(1.2, 2);
+        for (size_t b = 0; b <= solid.bend.size(); ++b) {
+            if ((kind == 2 && b == 1) || (b > 0 && lots.coin()))
+                continue;
+            Emboss emboss;
+            emboss.leg = int(b);
+            emboss.radius = t * lots.between(1.2, 2.5);
+            emboss.slope = degree * lots.between(20, 50);
+            emboss.flat = t * lots.between(1.5, 4);
+            emboss.ramp = t * lots.between(0.3, 1.5);
+            emboss.left = lots.coin();
+            emboss.length = lots.coin() ? t * lots.between(4, 8) : 0;
+            emboss.turn = degree * lots.between(-90, 90);
+            emboss.centre = {solid.leg[b] * lots.between(0.48, 0.52), solid.width * lots.between(0.45, 0.55)};
+            solid.emboss.push_back(emboss);
+        }
+        solid.pose = seed;
+        if (clear(solid))
+            return solid;
+    }
+}
+
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord)
 {
     const OcctSession session;
@@ -450,19 +505,7 @@ void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, d
 void write_bent_solid(const std::filesystem::path& file, const BentSolid& solid, CadForm form)
 {
     const OcctSession session;
-    const TopoDS_Shape shape = made(solid);
-    if (form == CadForm::brep) {
-        if (!BRepTools::Write(shape, file.c_str()))
-            throw std::runtime_error("not written: " + file.string());
-        return;
-    }
-    if (form == CadForm::stl) {
-        write_stl(file, shape, 0.05, 0.2);
-        return;
-    }
-    STEPControl_Writer writer;
-    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone || writer.Write(file.c_str()) != IFSelect_RetDone)
-        throw std::runtime_error("not written: " + file.string());
+    write_solid(file, made(solid), form);
 }
 
 } // namespace spia::shapes

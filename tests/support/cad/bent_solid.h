@@ -43,6 +43,17 @@ struct Stamp {
     double depth = 0.2; ///< mm; below zero: raised
 };
 
+/// A round or long emboss in a leg, of sheet that is as thick there: a flat, two radii and a slope between them.
+struct Emboss {
+    int leg = 0;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< mm, as of a cutout
+    double flat = 5;                                  ///< mm, from the middle of the emboss to where the flat ends
+    double radius = 3, slope = 0.6, ramp = 1;         ///< mm, of the middle of the sheet; radians; mm
+    double length = 0;                                ///< mm, between the middles of its round ends; 0: round
+    double turn = 0;                                  ///< radians, of its length against the leg
+    bool left = true;                                 ///< rises to that side
+};
+
 /// What is milled through a bend once it is bent: a straight prism whose outline is a Cutout's.
 struct BendCut {
     int bend = 0;
@@ -67,6 +78,7 @@ struct BentSolid {
     std::vector<Sink> sink = {};
     std::vector<Stamp> stamp = {}; ///< of brackets, which have one bend
     std::vector<BendCut> bend_cut = {};
+    std::vector<Emboss> emboss = {};
     std::uint64_t pose = 0; ///< turned and moved by this lot; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
@@ -83,6 +95,9 @@ BentSolid random_cut_bends(std::uint64_t seed);
 /// A bend of 30 to 125 degrees, R/t from 0.2 to 1, with a round hole through it that is 0.6 to 1.6 times as wide as its arc in the middle of
 /// the sheet: on one skin, on both or on none the hole is wider than the bend.
 BentSolid random_wide_hole(std::uint64_t seed);
+
+/// 1 or 2 bends of 25 to 110 degrees, R/t from 0.5 to 5, among them joggles, with round and long embosses in the legs.
+BentSolid random_embossed_bracket(std::uint64_t seed);
 
 /// The solid's surface as a mesher makes it, in binary STL. @param chord  radians, at most, of bends and holes
 void write_bent_stl(const std::filesystem::path& file, const BentSolid& solid, double chord);

@@ -126,8 +126,7 @@ TEST(WideNotch, LeavesTheFlatsBesideABendInTheirPlanes)
             cut.share = share;
             cut.outline = {.length = 16, .width = 16, .radius = 0, .turn = turn * degree};
             solid.bend_cut = {cut};
-            shapes::write_bent_solid(folder / "part.step", solid);
-            const Eigen::Vector2d size = size_of(solved(folder / "part.step"));
+            const Eigen::Vector2d size = size_of(solved_bent_solid(folder / "part.step", solid));
             EXPECT_NEAR(size[0], solid.developed(0.5), 1e-4);
             EXPECT_NEAR(size[1], solid.width, 1e-4);
         }

@@ -96,7 +96,7 @@ TEST(DrawnBlank, WhatTheTableOfBendsHasIsDrawn)
     for (int f = 0; f < l.part.mesh.triangles(); ++f)
         if (l.map.label[f] >= int(l.map.regions.size()))
             known.faces.push_back(f);
-    const BendTable table{.thickness = 1, .surface = "neutral fibre, K 0.4", .bends = {known}, .notes = {}};
+    const BendTable table{.thickness = 1, .surface = "neutral fibre, K 0.4", .bends = {known}, .kept = {}, .notes = {}};
     const BlankDrawing drawing = drawn_blank(l.part, l.map, *l.run.blank, l.run.states.back().face, true, &table);
     ASSERT_EQ(drawing.bends.size(), 1u) << "not a second time";
     EXPECT_EQ(drawing.bends[0].inner_radius, 4.5);

@@ -1,4 +1,6 @@
 // Flats that are folded without a radius.
+#include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -23,6 +25,34 @@ std::vector<std::string> texts(const std::filesystem::path& dxf)
         if (line.starts_with("UP ") || line.starts_with("DOWN "))
             result.push_back(line.substr(0, line.find('\r')));
     return result;
+}
+
+/// The table has them as sharp: what it deducts from the outer lengths of the legs, up to where their outer sides meet, gives the blank.
+void expect_rows(const Session& session, int flats, double width, double angle, double length)
+{
+    const auto& bends = session.bends->bends;
+    ASSERT_EQ(int(bends.size()), flats - 1);
+    const double thickness = session.bends->thickness, reach = thickness / 2 * std::tan(angle / 2);
+    double outer = 0, deducted = 0;
+    for (int leg = 0; leg < flats; ++leg)
+        outer += width + (leg == 0 || leg == flats - 1 ? 1 : 2) * reach;
+    std::vector<double> at;
+    for (const SheetBend& bend : bends) {
+        EXPECT_TRUE(bend.sharp && bend.laid);
+        EXPECT_EQ(bend.inner_radius, 0);
+        EXPECT_NEAR(bend.angle, angle, 1e-6);
+        EXPECT_NEAR(bend.length, length, 1e-5);
+        EXPECT_NEAR(bend.allowance, 2 * reach, 1e-6)
+            << "of the middle of the sheet, between the inner corners of the legs";
+        deducted += bend.deduction;
+        ASSERT_EQ(bend.line.size(), 1u);
+        const Eigen::Vector2d along = (bend.line[0].to - bend.line[0].from).normalized();
+        at.push_back(std::abs(along[0] * bend.line[0].from[1] - along[1] * bend.line[0].from[0]));
+    }
+    EXPECT_NEAR(outer - deducted, flats * width, 1e-5);
+    std::sort(at.begin(), at.end());
+    for (size_t i = 0; i < at.size(); ++i)
+        EXPECT_NEAR(at[i], double(i + 1) * width, 1e-5) << "where the middle lines of the legs meet";
 }
 
 TEST(Folds, OfCadFlatsAreDrawnHoweverLittleTheyTurn)
@@ -51,6 +81,7 @@ TEST(Folds, OfCadFlatsAreDrawnHoweverLittleTheyTurn)
         EXPECT_EQ(found.size(), size_t(flats - 1));
         for (const std::string& text : found)
             EXPECT_NE(text.find(fmt::format(" {}%%d R0 ", whole)), std::string::npos) << text;
+        expect_rows(session, flats, width, whole * degree, length);
     }
 }
 

@@ -370,6 +370,31 @@ TEST_F(PartBends, WhatIsNoBendOverACylinderKeepsItsLengthsWithAWord)
     }));
 }
 
+TEST_F(PartBends, ABendThatIsNotLaidIsAShortcomingWithItsPlaceAndAWayOut)
+{
+    BentSolid solid = l_bracket();
+    solid.bend = {{0.01, pi / 2}}; // of 2 mm sheet: with this K next to nothing would be left of the bend
+    const Session session = solved(write(solid), constant_k(0.001));
+    ASSERT_EQ(session.bends->bends.size(), 1u);
+    const SheetBend& bend = session.bends->bends[0];
+    EXPECT_FALSE(bend.laid);
+    const auto said = shortcomings(session);
+    ASSERT_EQ(
+        std::count_if(said.begin(), said.end(), [](const std::string& text) { return text.starts_with("bend 1 "); }),
+        1);
+    const std::string text =
+        *std::find_if(said.begin(), said.end(), [](const std::string& t) { return t.starts_with("bend 1 "); });
+    for (const std::string& words :
+         {std::string("R 0.01 mm"), std::string("90 degrees"),
+          fmt::format("near {:.4g}, {:.4g}, ", bend.place[0], bend.place[1]),
+          std::string("is not laid with its allowance"), std::string("give a greater K factor")})
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+    const Json report = parse_json(report_json(session, {}, 0), "report");
+    EXPECT_EQ(report["bend_table"]["bends"][0]["way_out"], "give a greater K factor");
+    EXPECT_EQ(report["shortcomings"].size(), said.size());
+    EXPECT_TRUE(shortcomings(solved(write(solid))).empty()) << "K 0.5";
+}
+
 TEST_F(PartBends, CasesOfOneBracket)
 {
     const fs::path folder = fs::path(SPIA_SOURCE_DIR) / "../shared/cases";

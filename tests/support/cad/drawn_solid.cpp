@@ -1,0 +1,180 @@
+#include "tests/support/cad/drawn_solid.h"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRep_Tool.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Wire.hxx>
+#include <cmath>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "engine/exchange/occt_session.h"
+#include "tests/support/cad/section_face.h"
+#include "tests/support/cad/write_solid.h"
+#include "tests/support/lots.h"
+#include "tests/support/profile.h"
+
+namespace spia::shapes {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+TopoDS_Shape turned(const Profile& profile, double t)
+{
+    return BRepPrimAPI_MakeRevol(section_face(profile, t / 2, -t / 2), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
+        .Shape();
+}
+
+/// From the middle of the bottom outwards and up.
+Profile round_section(Lots& lots, int kind, double t)
+{
+    const auto radius = [&] { return t * lots.between(2, 7); };
+    const double bottom = t * lots.between(8, 25);
+    Profile profile({0, 0}, 0);
+    switch (kind) {
+    case 0: return profile.straight(bottom).bend(radius(), 90 * degree).straight(t * lots.between(4, 14));
+    case 1:
+        return profile.straight(bottom)
+            .bend(radius(), 90 * degree)
+            .straight(t * lots.between(1, 10))
+            .bend(radius(), -90 * degree)
+            .straight(t * lots.between(3, 12));
+    case 2:
+        return profile.straight(bottom)
+            .bend(radius(), 90 * degree)
+            .straight(t * lots.between(1, 6))
+            .bend(radius(), -90 * degree)
+            .straight(t * lots.between(2, 8))
+            .bend(radius(), 90 * degree)
+            .straight(t * lots.between(2, 8));
+    case 3: {
+        const double slope = degree * lots.between(25, 75);
+        return profile.straight(bottom)
+            .bend(radius(), slope)
+            .straight(t * lots.between(4, 15))
+            .bend(radius(), -slope)
+            .straight(t * lots.between(3, 12));
+    }
+    default: {
+        const double slope = degree * lots.between(25, 70);
+        return profile.bend(t * lots.between(15, 40), slope).bend(radius(), -slope).straight(t * lots.between(3, 12));
+    }
+    }
+}
+
+/// A rectangle with round corners at a height, counter-clockwise.
+TopoDS_Wire rounded(double length, double width, double r, double z)
+{
+    BRepBuilderAPI_MakeWire wire;
+    const double x = length / 2 - r, y = width / 2 - r, sign[4][2] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    for (int k = 0; k < 4; ++k) {
+        const auto corner = [&](int at, double angle) {
+            return gp_Pnt(sign[at % 4][0] * x + r * std::cos(angle), sign[at % 4][1] * y + r * std::sin(angle), z);
+        };
+        const double from = (k - 1) * 90 * degree, to = from + 90 * degree;
+        wire.Add(BRepBuilderAPI_MakeEdge(
+                     GC_MakeArcOfCircle(corner(k, from), corner(k, from + 45 * degree), corner(k, to)).Value())
+                     .Edge());
+        wire.Add(BRepBuilderAPI_MakeEdge(corner(k, to), corner(k + 1, to)).Edge());
+    }
+    return wire.Wire();
+}
+
+/// A block with round corners whose bottom edges are rounded; its walls lean outwards.
+TopoDS_Shape block(double length, double width, double corner, double bottom, double height, double z, double lean)
+{
+    const double out = 2 * height * std::tan(lean);
+    TopoDS_Shape shape;
+    if (lean > 0) {
+        BRepOffsetAPI_ThruSections loft(true, true);
+        loft.AddWire(rounded(length, width, corner, z));
+        loft.AddWire(rounded(length + out, width + out, corner + out / 2, z + height));
+        shape = loft.Shape();
+    } else
+        shape = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(rounded(length, width, corner, z), true).Face(),
+                                      gp_Vec(0, 0, height))
+                    .Shape();
+    BRepFilletAPI_MakeFillet fillet(shape);
+    for (TopExp_Explorer at(shape, TopAbs_EDGE); at.More(); at.Next()) {
+        const TopoDS_Edge edge = TopoDS::Edge(at.Current());
+        const gp_Pnt a = BRep_Tool::Pnt(TopExp::FirstVertex(edge)), b = BRep_Tool::Pnt(TopExp::LastVertex(edge));
+        if (std::abs(a.Z() - z) < 1e-9 && std::abs(b.Z() - z) < 1e-9)
+            fillet.Add(bottom, edge);
+    }
+    return fillet.Shape();
+}
+
+struct Box {
+    double length, width, corner, bottom, height, lean; ///< outside; mm, radians
+    double brim;                                        ///< mm; 0: none
+};
+
+TopoDS_Shape made(const Box& box, double t)
+{
+    // The walls are as thick as the bottom: the inner block begins at height t, where the leaning wall is farther out.
+    const double in = t / std::cos(box.lean) - t * std::tan(box.lean);
+    const TopoDS_Shape outer = block(box.length, box.width, box.corner, box.bottom, box.height, 0, box.lean),
+                       inner = block(box.length - 2 * in, box.width - 2 * in, box.corner - in, box.bottom - t,
+                                     box.height, t, box.lean);
+    TopoDS_Shape shape = BRepAlgoAPI_Cut(outer, inner).Shape();
+    if (box.brim > 0) {
+        const auto plate = [&](double by, double from, double high) {
+            return BRepPrimAPI_MakePrism(
+                       BRepBuilderAPI_MakeFace(rounded(box.length + 2 * by, box.width + 2 * by, box.corner + by, from),
+                                               true)
+                           .Face(),
+                       gp_Vec(0, 0, high))
+                .Shape();
+        };
+        const TopoDS_Shape brim =
+            BRepAlgoAPI_Cut(plate(box.brim, box.height - t, t), plate(-t, box.height - 2 * t, 4 * t));
+        shape = BRepAlgoAPI_Fuse(shape, brim).Shape();
+    }
+    for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More();)
+        return at.Current();
+    return shape;
+}
+
+Box random_box(Lots& lots, int kind, double t)
+{
+    Box box{};
+    box.corner = t * lots.between(6, 15);
+    box.length = 2 * box.corner + t * lots.between(10, 50);
+    box.width = 2 * box.corner + t * lots.between(10, 40);
+    box.bottom = lots.between(2.5 * t, 0.7 * box.corner);
+    box.height = box.bottom + t * lots.between(3, 10);
+    box.lean = kind == 6 ? degree * lots.between(3, 20) : 0;
+    box.brim = kind == 7 ? t * lots.between(4, 12) : 0;
+    return box;
+}
+
+} // namespace
+
+std::string write_drawn_solid(const std::filesystem::path& file, std::uint64_t seed, CadForm form)
+{
+    static const char* const kinds[] = {"cup",  "flanged cup", "stepped cup",    "cone",
+                                        "dome", "box",         "box with draft", "box with a brim"};
+    Lots lots(seed);
+    const OcctSession session;
+    const int kind = int(seed % 8);
+    const double t = 0.6 * std::pow(4., lots.between(0, 1));
+    if (kind < 5)
+        write_solid(file, turned(round_section(lots, kind, t), t), form);
+    else
+        write_solid(file, made(random_box(lots, kind, t), t), form);
+    return fmt::format("{}, {:.3g} mm thick", kinds[kind], t);
+}
+
+} // namespace spia::shapes

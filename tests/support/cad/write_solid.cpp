@@ -1,0 +1,36 @@
+#include "tests/support/cad/write_solid.h"
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StlAPI_Writer.hxx>
+#include <stdexcept>
+
+namespace spia::shapes {
+
+void write_stl(const std::filesystem::path& file, const TopoDS_Shape& shape, double deflection, double angle)
+{
+    const BRepMesh_IncrementalMesh meshed(shape, deflection, false, angle);
+    StlAPI_Writer writer;
+    writer.ASCIIMode() = false;
+    if (!writer.Write(shape, file.c_str()))
+        throw std::runtime_error("not written: " + file.string());
+}
+
+void write_solid(const std::filesystem::path& file, const TopoDS_Shape& shape, CadForm form)
+{
+    if (form == CadForm::brep) {
+        if (!BRepTools::Write(shape, file.c_str()))
+            throw std::runtime_error("not written: " + file.string());
+        return;
+    }
+    if (form == CadForm::stl) {
+        write_stl(file, shape, 0.05, 0.2);
+        return;
+    }
+    STEPControl_Writer writer;
+    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone || writer.Write(file.c_str()) != IFSelect_RetDone)
+        throw std::runtime_error("not written: " + file.string());
+}
+
+} // namespace spia::shapes
