@@ -147,7 +147,7 @@ TopoDS_Shape cutter(const BentSolid& solid, const Profile& profile, const BendCu
     const Profile::Piece& bend = profile.pieces()[2 * size_t(cut.bend) + 1];
     const double s = bend.from + cut.share * (bend.to - bend.from), t = solid.thickness;
     const Profile::Piece& piece = piece_at(profile, s);
-    const double h = heading(piece, s), turn = cut.outline.turn;
+    const double h = heading(piece, s) + cut.pitch, turn = cut.outline.turn;
     const gp_Vec along(std::cos(h), 0, std::sin(h)), out(-std::sin(h), 0, std::cos(h)), y(0, 1, 0);
     const gp_Vec way = out * std::cos(cut.lean) + y * std::sin(cut.lean);
     const gp_Vec side = y * std::cos(cut.lean) - out * std::sin(cut.lean);

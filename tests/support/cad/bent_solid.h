@@ -62,6 +62,7 @@ struct BendCut {
     double y = 0;        ///< mm
     Cutout outline = {}; ///< its length, width, radius and turn; its length across the bend
     double lean = 0;     ///< radians, of the prism against the sheet's normal there, along the bend
+    double pitch = 0;    ///< radians, likewise, across the bend
 };
 
 /// A section of straight legs and bends between them, the same all along y.

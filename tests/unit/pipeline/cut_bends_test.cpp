@@ -114,16 +114,16 @@ private:
 TEST(WideNotch, LeavesTheFlatsBesideABendInTheirPlanes)
 {
     const ScratchFolder folder;
-    for (const double share : {0., 0.3, 0.6, 1.})
+    for (const double pitch : {-70., -65., -60., -50., -30., 0., 30.})
         for (const double turn : {45., 60.}) {
-            SCOPED_TRACE(fmt::format("at {} of the bend, turned by {}", share, turn));
+            SCOPED_TRACE(fmt::format("pitched by {}, turned by {}", pitch, turn));
             BentSolid solid;
             solid.thickness = 1.5;
             solid.width = 47;
             solid.leg = {33, 41};
             solid.bend = {{2.5, 75 * degree}};
             shapes::BendCut cut;
-            cut.share = share;
+            cut.pitch = pitch * degree;
             cut.outline = {.length = 16, .width = 16, .radius = 0, .turn = turn * degree};
             solid.bend_cut = {cut};
             const Eigen::Vector2d size = size_of(solved_bent_solid(folder / "part.step", solid));
