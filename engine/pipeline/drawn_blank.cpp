@@ -143,6 +143,9 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
     const std::vector<char> part_of_known =
         table ? parts_of_table(part.mesh, map, *table) : std::vector<char>(map.bends.size(), 0);
     const FreeEnds ends(part.mesh);
+    // A shop reads the drawing beside the table: bends have the numbers of its rows, others those after them.
+    const bool as_in_table = straight_only && table;
+    size_t others = table ? table->bends.size() : 0;
     for (size_t k = 0; k < map.bends.size(); ++k) {
         const Bend& bend = map.bends[k];
         constexpr double least = 0.5 * std::numbers::pi / 180; // triangles that the rim of a hole tilts turn by less
@@ -155,7 +158,7 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
         const std::string name = map.name(int(map.regions.size() + k));
         DrawnBend drawn;
         if (stated)
-            drawn = drawn_bend(*stated, name);
+            drawn = drawn_bend(*stated, as_in_table ? fmt::format("bend {}", known[k] + 1) : name);
         else {
             drawn.name = name;
             drawn.angle = std::abs(bend.angle);
@@ -178,12 +181,16 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
                 }
         if (straight_only && (!straight || drawn.middle.empty()))
             continue;
-        if (!drawn.middle.empty() || !drawn.zone.empty())
-            drawing.bends.push_back(std::move(drawn));
+        if (drawn.middle.empty() && drawn.zone.empty())
+            continue;
+        if (as_in_table && !stated)
+            drawn.name = fmt::format("bend {}", known[k] >= 0 ? size_t(known[k]) + 1 : ++others);
+        drawing.bends.push_back(std::move(drawn));
     }
     for (size_t j = 0; j < taken.size(); ++j)
         if (!taken[j] && !table->bends[j].line.empty())
-            drawing.bends.push_back(drawn_bend(table->bends[j], fmt::format("bend {}", drawing.bends.size() + 1)));
+            drawing.bends.push_back(
+                drawn_bend(table->bends[j], fmt::format("bend {}", as_in_table ? j + 1 : drawing.bends.size() + 1)));
     return drawing;
 }
 

@@ -13,7 +13,8 @@ namespace spia {
 /// @param face of forming the blank into the part: the thickness of the flat sheet at a bend is told by it
 /// @param straight_only leave out what no press brake makes: the radii of drawn parts, whose lines are not straight or end in the sheet
 ///                      (FreeEnds); sharp folds then are those of the table, if there is one
-/// @param table of the bends on this blank: what it has of a bend, radius, angle, K and lines, is drawn; may be null
+/// @param table of the bends on this blank: what it has of a bend, radius, angle, K and lines, is drawn; may be null. With straight_only
+///         bends have the numbers of its rows, else those of the map
 BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& blank, const SheetFields& face,
                          bool straight_only = false, const BendTable* table = nullptr);
 

@@ -64,6 +64,14 @@ void expect_as_made(const Session& session, const BentSolid& solid, const Bounds
     const BlankDrawing drawing = drawn_blank(*session.part, bends_for_shop(*session.part), session.blank->blank,
                                              session.blank->face, true, &*session.bends);
     EXPECT_EQ(drawing.bends.size(), solid.bend.size()) << "a bend line with a text for each";
+    for (const DrawnBend& drawn : drawing.bends) { // by the numbers of the table
+        size_t row = 0;
+        while (row < bends.size() && drawn.name != fmt::format("bend {}", row + 1))
+            ++row;
+        ASSERT_LT(row, bends.size()) << drawn.name;
+        EXPECT_EQ(drawn.angle, bends[row].angle) << drawn.name;
+        EXPECT_EQ(drawn.inner_radius, bends[row].inner_radius) << drawn.name;
+    }
 }
 
 std::string in_words(const BentSolid& solid)
