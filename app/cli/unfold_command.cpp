@@ -25,6 +25,7 @@
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
+#include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/unfold_file.h"
 #include "engine/pipeline/unfold_outputs.h"
@@ -414,6 +415,8 @@ int unfold(const UnfoldArguments& arguments)
     const PolishedBlank* both = polished ? &*polished : nullptr;
     NeutralFibre fibre = part_bends(part, options.thickness, wanted_k(arguments));
     lay_anew(part.mesh, options, fibre, done.run);
+    if (run.blank)
+        add_sharp_folds(part, *run.blank, fibre.table);
     if (done.run.blank)
         for (std::string& doubt : bend_doubts(part, fibre.table, !arguments.k_factor.empty()))
             findings.push_back(std::move(doubt));

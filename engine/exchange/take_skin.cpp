@@ -240,6 +240,16 @@ SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vecto
         doubt(part, fmt::format("{} in a bend: laid flat, its edge is about where the wall crosses the middle of the "
                                 "sheet, not its least diameter",
                                 counted(bent, "hole is sunk", "holes are sunk")));
+    constexpr double all = 1 - 1e-3; // of the thickness
+    std::set<int> without_land;
+    for (const SunkHole& hole : holes)
+        if (hole.cut_off && hole.depth > all * sheet.thickness)
+            without_land.insert(hole.hole);
+    if (!without_land.empty())
+        doubt(part,
+              fmt::format("{} cut off and has no straight wall below: laid flat, its edge is about where the wall "
+                          "crosses the middle of the sheet, not its least diameter",
+                          counted(int(without_land.size()), "sunk hole is", "sunk holes are")));
     const bool exchanged = outer > inner;
     const ThinSolid from = exchanged ? sides_exchanged(sheet) : sheet;
     const std::vector<SunkHole> sunk = exchanged ? sunk_holes(part.mesh, from) : holes;
@@ -316,6 +326,13 @@ void note_skin(PartFile& part)
         fmt::format("a solid of {} faces{}: its {} is taken, sheet {:.6g} mm thick (--skin for another "
                     "surface of it)",
                     solid.faces, solid.open ? ", some of which are missing" : "", what, solid.thickness));
+    constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as thick
+    if (part.cad && solid.most > uneven * solid.thickness)
+        doubt(part,
+              fmt::format(
+                  "the sheet is up to {:.4g} mm thick, {:.3g} times {:.4g} mm: where arcs of both skins have not one "
+                  "axis, inner radius and length of a bend are those of a sheet as thick as elsewhere",
+                  solid.most, solid.most / solid.thickness, solid.thickness));
     const std::string least = fmt::format("{:.4g}", solid.least), most = fmt::format("{:.4g}", solid.most);
     part.notes.push_back(
         fmt::format("thickness {}; outer skin {:.6g} mm2, inner skin {:.6g} mm2, faces across the "

@@ -101,7 +101,7 @@ Overlap overlap(const TriMesh& part, const Eigen::Matrix2Xd& flat)
         return result;
     // The lips of a slit whose tongue is bent away come to lie on each other up to rounding only. What still lies on itself once
     // all edges are drawn in by more than that does so indeed.
-    constexpr double rounding = 1e-9; // of the size of the layout
+    constexpr double rounding = 1e-6; // of the size of the layout: single precision of STL files is a tenth of that
     const Eigen::Matrix2Xd inner =
         drawn_in(part, loops, flat, rounding * (flat.rowwise().maxCoeff() - flat.rowwise().minCoeff()).norm());
     const std::vector<OutlineCrossing> crossing = outline_crossings(loops, inner);

@@ -18,7 +18,7 @@ struct Overlap {
 };
 
 /// @param flat 2 by #V, without flipped triangles
-/// @returns exact answers (orient2d.h) about what lies on itself by more than rounding, 1e-9 of the layout's size
+/// @returns exact answers (orient2d.h) about what lies on itself by more than rounding, 1e-6 of the layout's size
 Overlap overlap(const TriMesh& part, const Eigen::Matrix2Xd& flat);
 
 } // namespace spia

@@ -9,6 +9,7 @@
 #include "engine/core/text.h"
 #include "engine/exchange/file_content.h"
 #include "engine/unfold/relaid_blank.h"
+#include "engine/unfold/upright.h"
 
 namespace spia {
 namespace {
@@ -87,8 +88,11 @@ void lay_anew(const TriMesh& part, const FlattenOptions& options, NeutralFibre& 
                            "unfold it in one step, or in steps that only bend");
         else {
             Eigen::Matrix2Xd& position = run.blank->position;
-            position = relaid_blank(part, position, fibre.laid, options, progress).blank.position;
-            position.colwise() -= Eigen::Vector2d(position.rowwise().minCoeff()); // it lies as it did, from (0, 0) on
+            // Straight as before, from (0, 0) on; the blank of steps has the rolling direction along x.
+            const auto rolling =
+                options.process.rolling ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
+            position =
+                upright(part, relaid_blank(part, position, fibre.laid, options, progress).blank.position, rolling);
         }
     }
     place_on_blank(fibre, part, *run.blank);

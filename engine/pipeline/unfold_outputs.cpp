@@ -10,6 +10,7 @@
 #include "engine/exchange/blank_outline.h"
 #include "engine/exchange/write_dxf.h"
 #include "engine/exchange/write_vtu.h"
+#include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/line_file.h"
@@ -123,13 +124,14 @@ std::vector<std::filesystem::path> write_unfolding(const std::filesystem::path& 
         return files;
     if (wanted("dxf")) {
         files.push_back(folder / (name + "-blank.dxf"));
-        write_dxf(files.back(), drawn_blank(part, map, *run.blank, run.states.back().face, false, table), dxf);
+        write_dxf(files.back(),
+                  drawn_blank(part, bends_for_shop(part), *run.blank, run.states.back().face, true, table), dxf);
     }
     add(write_deck_files(folder, name, formats, part, *run.blank, run.states.back().face));
     add(write_line_files(folder, name + "-blank", blank_lines(part.mesh, map, *run.blank), without(formats, "dxf")));
     if (polished && wanted("dxf")) {
         files.push_back(folder / (name + "-polished.dxf"));
-        write_dxf(files.back(), drawn_blank(part, map, polished->blank, polished->face), dxf);
+        write_dxf(files.back(), drawn_blank(part, bends_for_shop(part), polished->blank, polished->face, true), dxf);
     }
     if (polished && wanted("vtu")) {
         files.push_back(folder / (name + "-polished.vtu"));

@@ -277,8 +277,10 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
     if (!(layers.thickness > 0) || !std::isfinite(layers.thickness))
         throw InputError(fmt::format("the sheet thickness is {} mm; it must be positive", layers.thickness));
     if (layers.k && layers.mesh_at != 0)
-        throw InputError("a K factor says where the neutral fibre lies, and a skin was asked for in its place: leave "
-                         "out one of them (--k-factor or --skin)");
+        throw InputError(
+            "a K factor says where the neutral fibre lies, but a skin of the solid is laid flat in place of its middle "
+            "surface: leave one of them out (--k-factor or --skin); where no skin was asked for the notes say why "
+            "there is no middle surface");
     constexpr double flat = 0.05 * degree; // what turns less is a plane that CAD tilted
     const FreeEnds ends(part);
     std::vector<Candidate> candidates;

@@ -246,11 +246,11 @@ TEST(OverlapOf, LipsThatLieOnEachOtherUpToRoundingTouch)
         const Eigen::Rotation2Dd turn(4 * unit(draw));
         Eigen::Matrix2Xd flat = size / 20 * (turn.toRotationMatrix() * sheet.mesh.position.topRows<2>());
         for (double& x : flat.reshaped())
-            x += 1e-13 * size * unit(draw);
+            x += (round % 2 ? 1e-13 : 1e-7) * size * unit(draw);
         SCOPED_TRACE(round);
         EXPECT_TRUE(overlap(sheet.mesh, flat).none());
         for (const int v : sheet.lip) // out over the other side
-            flat.col(v) += 1e-6 * size * (turn * Eigen::Vector2d(1, -1));
+            flat.col(v) += 1e-5 * size * (turn * Eigen::Vector2d(1, -1));
         EXPECT_FALSE(overlap(sheet.mesh, flat).crossings.empty());
     }
 }
