@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/mesh/cylinder_fit.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/face_neighbours.h"
 
@@ -14,17 +15,6 @@ namespace {
 
 constexpr double same = 1e-3,
                  wider = 0.02; // of the thickness, as sunk_holes() has them
-
-std::vector<int> vertices_of(const TriMesh& solid, const std::vector<int>& faces)
-{
-    std::vector<int> result;
-    for (const int f : faces)
-        for (const int v : solid.triangle.col(f))
-            result.push_back(v);
-    std::ranges::sort(result);
-    result.erase(std::ranges::unique(result).begin(), result.end());
-    return result;
-}
 
 /// The circle across the direction in which places lie least apart.
 std::optional<RoundEdge> circle_of(const Eigen::Matrix3Xd& places, double within)
@@ -84,7 +74,7 @@ SunkHole CutOffHoles::cut_off(const Meeting& meeting, SheetSide skin, const Eige
 std::vector<SunkHole> CutOffHoles::of(const RoundHole& hole) const
 {
     const double t = sheet_.thickness;
-    const std::vector<int> vertex = vertices_of(solid_, hole.wall);
+    const std::vector<int> vertex = corners(solid_, hole.wall);
     const auto radius = [&](int v) { return hole.mouth.off_axis(solid_.position.col(v)).norm(); };
     const auto height = [&](int v) { return hole.mouth.height(solid_.position.col(v)); };
     const double low = height(solid_.triangle(0, hole.beyond.front())); // of the other skin
@@ -163,7 +153,7 @@ std::vector<SunkHole> CutOffHoles::over_bend(const std::vector<int>& wall) const
     const auto meeting = meetings(wall);
     if (meeting[0].wall.empty() || meeting[1].wall.empty())
         return {};
-    const std::vector<int> vertex = vertices_of(solid_, wall);
+    const std::vector<int> vertex = corners(solid_, wall);
     std::vector<SunkHole> found;
     for (const RoundEdge& circle : sharp_circles(wall)) {
         const auto narrower = [&](int v) {

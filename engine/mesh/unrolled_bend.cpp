@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "engine/mesh/cylinder_fit.h"
 #include "engine/mesh/face_neighbours.h"
 #include "engine/mesh/off_axis.h"
 #include "engine/mesh/topology.h"
@@ -97,17 +98,6 @@ void add_flats(const MiddleOfSolid& part, const Eigen::Matrix3Xi& beside, Zone& 
                 }
 }
 
-std::vector<int> vertices_of(const TriMesh& mesh, const std::vector<int>& faces)
-{
-    std::vector<int> vertices;
-    for (const int f : faces)
-        for (const int v : mesh.triangle.col(f))
-            vertices.push_back(v);
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return vertices;
-}
-
 /// Whether the outer skin is on the inner side of the bend.
 bool is_hollow(const MiddleOfSolid& part, const StatedSurface& on, const Zone& zone)
 {
@@ -160,7 +150,7 @@ std::optional<UnrolledBend> flattened(const MiddleOfSolid& part, const StatedSur
         p.point -= half * p.direction;
         surfaces.push_back(p);
     }
-    const std::vector<int> vertices = vertices_of(part.middle.mesh, zone.face);
+    const std::vector<int> vertices = corners(part.middle.mesh, zone.face);
     const Eigen::Matrix3Xd below = below_skin(part, on, zone, hollow);
     const auto skin = UnrolledSkin::of(surfaces, below(Eigen::all, vertices), part.within);
     if (!skin)
