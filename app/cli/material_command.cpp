@@ -2,8 +2,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/forming/material_fit.h"
 #include "engine/forming/material_text.h"
 

@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include "app/cli/terminal.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
 

@@ -10,8 +10,8 @@
 #include "app/viewer/render/gif_file.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/views/colour_scale.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/mesh/topology.h"
 
 namespace fs = std::filesystem;

@@ -29,8 +29,8 @@
 #include "app/viewer/views/views.h"
 #include "app/viewer/window_files.h"
 #include "app/viewer/window_report.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 
 namespace spia::viewer {
 namespace {

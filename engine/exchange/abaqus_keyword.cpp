@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 namespace {

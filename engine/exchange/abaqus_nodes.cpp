@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 namespace {

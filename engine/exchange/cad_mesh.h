@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/core/progress.h"
-#include "engine/exchange/cad_options.h"
 #include "engine/mesh/soup.h"
 #include "engine/mesh/stated_curve.h"
+#include "engine/part/cad_options.h"
 
 namespace spia {
 

@@ -19,7 +19,7 @@
 #include <map>
 #include <set>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 #include "engine/exchange/text_encoding.h"
 
 namespace spia {

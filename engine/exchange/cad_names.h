@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/cad_tree.h"
+#include "engine/part/cad_tree.h"
 
 namespace spia {
 

@@ -17,11 +17,11 @@
 #include <stdexcept>
 
 #include "engine/core/error.h"
+#include "engine/core/file_content.h"
 #include "engine/core/text.h"
 #include "engine/exchange/brep_check.h"
 #include "engine/exchange/cad_damage.h"
 #include "engine/exchange/cad_names.h"
-#include "engine/exchange/file_content.h"
 #include "engine/exchange/iges_check.h"
 #include "engine/exchange/occt_progress.h"
 

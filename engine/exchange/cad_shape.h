@@ -7,7 +7,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/exchange/cad_lost.h"
-#include "engine/exchange/cad_tree.h"
+#include "engine/part/cad_tree.h"
 
 namespace spia {
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 namespace {

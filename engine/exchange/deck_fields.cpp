@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 

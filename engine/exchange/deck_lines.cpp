@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "engine/core/error.h"
-#include "engine/exchange/deck_number.h"
-#include "engine/exchange/file_content.h"
+#include "engine/core/file_content.h"
+#include "engine/core/read_number.h"
 #include "engine/exchange/text_encoding.h"
 #include "engine/exchange/text_lines.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 namespace spia {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 namespace {

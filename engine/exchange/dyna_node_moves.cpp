@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/abaqus_keyword.h"
-#include "engine/exchange/deck_number.h"
 
 namespace spia {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "engine/core/read_number.h"
 #include "engine/core/text.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/dyna_expression.h"
 
 namespace spia {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 

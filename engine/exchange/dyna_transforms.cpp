@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/abaqus_keyword.h"
-#include "engine/exchange/deck_number.h"
 
 namespace spia {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/nurbs/patch_field.h"
 
 /// What the writers of isogeometric files have in common.

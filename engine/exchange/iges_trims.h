@@ -3,7 +3,7 @@
 #include <IGESGeom_TrimmedSurface.hxx>
 #include <span>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/nurbs/trim.h"
 
 namespace spia {

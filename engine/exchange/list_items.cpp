@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/file_content.h"
 #include "engine/exchange/deck_choice.h"
-#include "engine/exchange/file_content.h"
 #include "engine/exchange/mesh_file.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"

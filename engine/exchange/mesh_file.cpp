@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/core/file_content.h"
 #include "engine/core/text.h"
 #include "engine/exchange/checked_file.h"
-#include "engine/exchange/file_content.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
 #include "engine/exchange/read_gltf.h"

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 namespace {

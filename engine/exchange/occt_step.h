@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 namespace spia {
 

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 
 namespace spia {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/forming/blank.h"
 
 namespace spia {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/length_unit.h"
 #include "engine/exchange/deck_builder.h"
 #include "engine/exchange/deck_fields.h"
 #include "engine/exchange/deck_lines.h"
-#include "engine/exchange/length_unit.h"
 
 namespace spia {
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <set>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/abaqus_elements.h"
 #include "engine/exchange/abaqus_instances.h"
 #include "engine/exchange/abaqus_keyword.h"
 #include "engine/exchange/abaqus_nodes.h"
 #include "engine/exchange/deck_builder.h"
 #include "engine/exchange/deck_fields.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/read_deck.h"
 
 // Layouts: Abaqus Keywords Reference Guide and the CalculiX manual (*NODE, *ELEMENT, *ELSET, *SHELL SECTION, *INCLUDE).

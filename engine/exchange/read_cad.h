@@ -8,13 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/length_unit.h"
 #include "engine/core/progress.h"
-#include "engine/exchange/cad_options.h"
-#include "engine/exchange/cad_tree.h"
-#include "engine/exchange/length_unit.h"
 #include "engine/mesh/soup.h"
 #include "engine/mesh/stated_curve.h"
 #include "engine/mesh/stated_surface.h"
+#include "engine/part/cad_options.h"
+#include "engine/part/cad_tree.h"
 
 namespace spia {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/unfold/sheet_lines.h"
 
 namespace spia {

@@ -3,8 +3,8 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/deck_builder.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/dyna_card.h"
 #include "engine/exchange/dyna_node_moves.h"
 #include "engine/exchange/dyna_parts.h"

@@ -2,8 +2,8 @@
 #include <fmt/core.h>
 #include <map>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/deck_builder.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/gmsh_values.h"
 #include "engine/exchange/read_deck.h"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/deck_builder.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/nastran_entries.h"
 #include "engine/exchange/nastran_systems.h"
 #include "engine/exchange/read_deck.h"

@@ -2,10 +2,10 @@
 #include <map>
 #include <set>
 
+#include "engine/core/read_number.h"
 #include "engine/exchange/abaqus_keyword.h"
 #include "engine/exchange/deck_builder.h"
 #include "engine/exchange/deck_fields.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/radioss_submodels.h"
 #include "engine/exchange/radioss_transforms.h"
 #include "engine/exchange/read_deck.h"

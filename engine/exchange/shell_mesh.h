@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 namespace spia {
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/sheet_field_list.h"
 
 namespace spia {

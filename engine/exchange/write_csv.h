@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 
+#include "engine/core/length_unit.h"
 #include "engine/exchange/blank_outline.h"
-#include "engine/exchange/length_unit.h"
 #include "engine/forming/skin_strain.h"
 #include "engine/limits/limits.h"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <span>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/dxf_text.h"
 #include "engine/exchange/outline_curves.h"
 #include "engine/exchange/smooth_spline.h"

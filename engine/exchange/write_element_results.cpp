@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
-#include "engine/exchange/atomic_file.h"
+#include "engine/core/atomic_file.h"
 #include "engine/exchange/fixed_number.h"
 #include "engine/exchange/write_shell_mesh.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
-#include "engine/exchange/atomic_file.h"
+#include "engine/core/atomic_file.h"
 #include "engine/exchange/iga_patches.h"
 
 namespace spia {

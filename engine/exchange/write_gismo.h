@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/nurbs/patch_field.h"
 
 namespace spia {

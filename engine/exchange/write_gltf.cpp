@@ -11,9 +11,9 @@
 #include <sstream>
 #include <tiny_gltf.h>
 
+#include "engine/core/atomic_file.h"
+#include "engine/core/colour_map.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
-#include "engine/exchange/colour_map.h"
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/mesh/topology.h"

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/forming/material.h"
 #include "engine/nurbs/multi_patch.h"
 

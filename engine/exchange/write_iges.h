@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/nurbs/surface.h"
 #include "engine/nurbs/trim.h"
 

@@ -18,8 +18,8 @@
 #include <fmt/core.h>
 #include <vector>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/occt_iges.h"
 #include "engine/exchange/occt_step.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/exchange/atomic_file.h"
+#include "engine/core/atomic_file.h"
 #include "engine/exchange/dxf_text.h"
 #include "engine/exchange/write_lines.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/fixed_number.h"
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/text_encoding.h"

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fmt/core.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/text_encoding.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/limits/limits.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/core/json_file.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/bend_table.h"
 
 namespace spia {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "engine/core/progress.h"
-#include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
+#include "engine/part/part_file.h"
 
 namespace spia {
 

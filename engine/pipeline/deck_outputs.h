@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/read_part.h"
 #include "engine/forming/blank.h"
+#include "engine/part/part_file.h"
 
 namespace spia {
 

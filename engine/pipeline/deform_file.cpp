@@ -2,9 +2,9 @@
 
 #include <set>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/pipeline/file_members.h"
 
 namespace spia {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/json_file.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 
 /// Members of files that people write: every fault is told with its place, and a member that is not known is one.
 namespace spia::members {

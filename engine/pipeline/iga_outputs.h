@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/nurbs/patch_field.h"
 #include "engine/pipeline/session.h"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/write_lines.h"
 #include "engine/pipeline/file_members.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/exchange/read_dxf.h"
 #include "engine/unfold/sheet_lines.h"
 

@@ -4,10 +4,9 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/blank_outline.h"
-#include "engine/exchange/picture.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/exchange/write_csv.h"
 #include "engine/exchange/write_dxf.h"
@@ -16,6 +15,7 @@
 #include "engine/exchange/write_step.h"
 #include "engine/exchange/write_vtu.h"
 #include "engine/nurbs/tessellate.h"
+#include "engine/picture/picture.h"
 #include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/drawn_blank.h"

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/atomic_file.h"
+#include "engine/core/length_unit.h"
 #include "engine/core/progress.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/dxf_options.h"
-#include "engine/exchange/length_unit.h"
 #include "engine/exchange/write_gltf.h"
 #include "engine/pipeline/session.h"
 

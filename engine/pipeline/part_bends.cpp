@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/file_content.h"
 #include "engine/core/text.h"
-#include "engine/exchange/file_content.h"
 #include "engine/unfold/relaid_blank.h"
 #include "engine/unfold/upright.h"
 

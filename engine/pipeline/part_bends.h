@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/neutral_fibre.h"
 #include "engine/unfold/unfold_script.h"
 

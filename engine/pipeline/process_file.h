@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/exchange/read_part.h"
 #include "engine/forming/process.h"
+#include "engine/part/part_file.h"
 
 namespace spia {
 

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "engine/exchange/vertex_numbers.h"
 #include "engine/forming/material_text.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"

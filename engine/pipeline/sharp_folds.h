@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/exchange/read_part.h"
 #include "engine/forming/blank.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/bend_table.h"
 
 namespace spia {

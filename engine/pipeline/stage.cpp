@@ -4,7 +4,7 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/exchange/read_part.h"
 #include "engine/forming/flips.h"
 #include "engine/forming/placing.h"
 #include "engine/forming/rolling.h"
@@ -12,6 +12,7 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/blank_chart.h"
+#include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/sharp_folds.h"

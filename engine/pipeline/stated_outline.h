@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/exchange/blank_drawing.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 
 namespace spia {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"
 #include "engine/unfold/polish.h"

@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <system_error>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/blank_outline.h"
 #include "engine/exchange/write_dxf.h"
 #include "engine/exchange/write_vtu.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/exchange/dxf_options.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"
 #include "engine/unfold/sheet_lines.h"

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <fmt/core.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
+#include "engine/core/file_content.h"
 #include "engine/core/json_file.h"
-#include "engine/exchange/atomic_file.h"
-#include "engine/exchange/file_content.h"
 #include "engine/exchange/provenance.h"
 #include "engine/forming/material_text.h"
 #include "engine/forming/sheet_fields.h"

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/unfold_script.h"
 
 namespace spia {

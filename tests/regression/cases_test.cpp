@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/topology.h"

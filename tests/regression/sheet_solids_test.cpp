@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/outline.h"

@@ -4,7 +4,9 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
 #include "engine/mesh/orient2d.h"
+#include "engine/part/prepare_part.h"
 
 namespace spia {
 namespace {

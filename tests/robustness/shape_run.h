@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
+#include "engine/part/read_options.h"
 
 namespace spia {
 

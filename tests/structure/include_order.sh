@@ -2,7 +2,7 @@
 # A module includes only what stands before it in this list; heavy third-party headers stay where they belong.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-order=(core mesh remesh sparse forming compare limits unfold coons nurbs layout deform exchange pipeline)
+order=(core mesh remesh sparse forming compare limits unfold coons nurbs layout deform part exchange picture pipeline)
 bad=0
 complain() {
     printf '%s\n' "$*"

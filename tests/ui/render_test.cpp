@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "app/viewer/views/colours.h"
+#include "engine/core/colour_map.h"
 #include "engine/core/error.h"
-#include "engine/exchange/colour_map.h"
 #include "tests/ui/hidden_window.h"
 
 namespace spia::viewer {

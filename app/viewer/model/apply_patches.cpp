@@ -3,7 +3,7 @@
 
 #include "app/viewer/model/apply.h"
 #include "app/viewer/model/cut_order.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/measuring.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 

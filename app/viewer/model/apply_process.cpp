@@ -5,7 +5,7 @@
 #include "app/viewer/model/chain.h"
 #include "app/viewer/model/grades.h"
 #include "app/viewer/model/names.h"
-#include "engine/exchange/atomic_file.h"
+#include "engine/core/atomic_file.h"
 #include "engine/forming/material_library.h"
 #include "engine/forming/material_text.h"
 

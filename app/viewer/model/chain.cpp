@@ -5,6 +5,7 @@
 #include "app/viewer/model/fit_choice.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
+#include "engine/exchange/read_part.h"
 
 namespace spia::viewer {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/core/read_number.h"
 #include "engine/core/text.h"
-#include "engine/exchange/deck_number.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_deck.h"
 

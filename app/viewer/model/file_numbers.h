@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 
 namespace spia::viewer {
 

@@ -7,8 +7,8 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 /// Lengths on the screen. Inside the program, in projects, scripts and reports of the state they are mm throughout; what people read
 /// and type is in the unit of their preferences, mm or inch, and comes from here. Files that are exported have units of their own.

@@ -8,7 +8,7 @@
 
 #include "app/viewer/model/document.h"
 #include "app/viewer/model/state.h"
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 #include "engine/mesh/region.h"
 
 namespace spia::viewer {

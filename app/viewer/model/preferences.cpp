@@ -4,8 +4,8 @@
 
 #include "app/viewer/model/members.h"
 #include "app/viewer/model/recent_files.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 
 namespace fs = std::filesystem;
 

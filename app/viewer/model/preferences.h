@@ -5,7 +5,7 @@
 
 #include "app/viewer/model/mouse_style.h"
 #include "app/viewer/model/scene.h"
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 namespace spia::viewer {
 

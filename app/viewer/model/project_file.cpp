@@ -5,8 +5,8 @@
 
 #include "app/viewer/model/k_choice.h"
 #include "app/viewer/model/members.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/exchange/provenance.h"
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/part_bends.h"

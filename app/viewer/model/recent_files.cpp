@@ -13,8 +13,8 @@
 
 #include "app/viewer/model/json_members.h"
 #include "app/viewer/model/project_file.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 
 namespace fs = std::filesystem;
 

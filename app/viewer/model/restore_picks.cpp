@@ -7,8 +7,8 @@
 #include "app/viewer/model/file_numbers.h"
 #include "app/viewer/model/measuring.h"
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 namespace spia::viewer {
 

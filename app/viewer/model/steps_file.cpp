@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/unfolding_steps.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/atomic_file.h"
 #include "engine/pipeline/unfold_file.h"
 
 namespace spia::viewer {

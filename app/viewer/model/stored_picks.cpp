@@ -9,8 +9,8 @@
 #include "app/viewer/model/file_numbers.h"
 #include "app/viewer/model/vertex_picking.h"
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/unfold_script.h"
 
 /// Unfolding step by step: the list that the user edits, and what its last run gave.

@@ -4,7 +4,7 @@
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {

@@ -11,7 +11,7 @@
 #include "app/viewer/views/views.h"
 #include "engine/coons/boundary.h"
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/part/vertex_numbers.h"
 
 namespace spia::viewer {
 namespace {

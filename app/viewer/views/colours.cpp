@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/viewer/model/zone_look.h"
-#include "engine/exchange/colour_map.h"
+#include "engine/core/colour_map.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/exchange/atomic_file.h"
+#include "engine/core/atomic_file.h"
 
 #include <algorithm>
 #include <atomic>

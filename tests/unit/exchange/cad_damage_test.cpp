@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "engine/core/error.h"
-#include "engine/exchange/file_content.h"
+#include "engine/core/file_content.h"
 #include "engine/exchange/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"

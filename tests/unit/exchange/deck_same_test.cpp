@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <locale>
 
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/unit/exchange/sample_decks.h"

@@ -2,7 +2,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
+#include "engine/part/prepare_part.h"
+#include "engine/part/read_options.h"
 #include "tests/support/mesh_tools.h"
 
 namespace spia {

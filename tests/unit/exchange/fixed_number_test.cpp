@@ -6,7 +6,7 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 

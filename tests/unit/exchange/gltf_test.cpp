@@ -6,8 +6,8 @@
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #include <tiny_gltf.h>
 
+#include "engine/core/colour_map.h"
 #include "engine/core/error.h"
-#include "engine/exchange/colour_map.h"
 #include "engine/exchange/write_gltf.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/sample_chain.h"

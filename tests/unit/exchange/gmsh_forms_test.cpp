@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "tests/unit/exchange/sample_decks.h"
 
 namespace spia {

@@ -2,7 +2,8 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
+#include "engine/part/read_options.h"
 #include "tests/support/mesh_tools.h"
 
 namespace spia {

@@ -12,9 +12,10 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/part_shells.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/exchange/read_part.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/vertex_numbers.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

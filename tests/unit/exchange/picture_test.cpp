@@ -1,4 +1,4 @@
-#include "engine/exchange/picture.h"
+#include "engine/picture/picture.h"
 
 #include <gtest/gtest.h>
 #define STB_IMAGE_IMPLEMENTATION
@@ -9,10 +9,10 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "engine/core/colour_map.h"
 #include "engine/core/error.h"
-#include "engine/exchange/canvas.h"
-#include "engine/exchange/colour_map.h"
-#include "engine/exchange/stroke_font.h"
+#include "engine/picture/canvas.h"
+#include "engine/picture/stroke_font.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/sample_chain.h"

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/unfold_by_itself.h"

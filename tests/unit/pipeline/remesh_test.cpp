@@ -7,10 +7,11 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"

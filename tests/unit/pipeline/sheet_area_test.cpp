@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/cad/exact_volume.h"
 #include "tests/support/flat_area.h"

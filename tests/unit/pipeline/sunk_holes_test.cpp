@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/exchange/read_part.h"
 #include "engine/mesh/round_edge.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/drawn_blank.h"

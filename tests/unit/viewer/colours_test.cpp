@@ -10,7 +10,7 @@
 
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/palette.h"
-#include "engine/exchange/colour_map.h"
+#include "engine/core/colour_map.h"
 
 namespace spia::viewer {
 namespace {

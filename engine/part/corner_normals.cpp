@@ -1,4 +1,4 @@
-#include "engine/exchange/corner_normals.h"
+#include "engine/part/corner_normals.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "engine/exchange/remesh_part.h"
+#include "engine/part/remesh_part.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_part.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/part_file.h"
 #include "engine/unfold/bend_zones.h"
 #include "engine/unfold/free_ends.h"
 

@@ -1,4 +1,4 @@
-#include "engine/exchange/cad_tree.h"
+#include "engine/part/cad_tree.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 namespace spia {
 namespace {

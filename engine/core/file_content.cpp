@@ -1,4 +1,4 @@
-#include "engine/exchange/file_content.h"
+#include "engine/core/file_content.h"
 
 #include <fmt/core.h>
 #include <fstream>

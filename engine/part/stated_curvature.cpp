@@ -1,4 +1,4 @@
-#include "engine/exchange/stated_curvature.h"
+#include "engine/part/stated_curvature.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,6 +1,7 @@
 #pragma once
-#include "engine/exchange/corner_normals.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/corner_normals.h"
+#include "engine/part/part_file.h"
+#include "engine/part/read_options.h"
 
 namespace spia {
 

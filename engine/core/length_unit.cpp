@@ -1,4 +1,4 @@
-#include "engine/exchange/length_unit.h"
+#include "engine/core/length_unit.h"
 
 #include <array>
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include "engine/exchange/deck_number.h"
+#include "engine/core/read_number.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "engine/exchange/take_skin.h"
+#include "engine/part/take_skin.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "engine/exchange/tell_marks.h"
 #include "engine/mesh/holes_over_bends.h"
 #include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/measured_cylinders.h"
@@ -18,6 +17,7 @@
 #include "engine/mesh/sunk_holes.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/without_marks.h"
+#include "engine/part/mark_findings.h"
 
 namespace spia {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/exchange/stroke_font.h"
+#include "engine/picture/stroke_font.h"
 
 #include <algorithm>
 

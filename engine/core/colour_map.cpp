@@ -1,4 +1,4 @@
-#include "engine/exchange/colour_map.h"
+#include "engine/core/colour_map.h"
 
 #include <algorithm>
 #include <cmath>

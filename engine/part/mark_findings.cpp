@@ -1,4 +1,4 @@
-#include "engine/exchange/tell_marks.h"
+#include "engine/part/mark_findings.h"
 
 #include <algorithm>
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include "engine/exchange/canvas.h"
+#include "engine/picture/canvas.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <stb/stb_image_write.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/stroke_font.h"
+#include "engine/picture/stroke_font.h"
 
 namespace spia {
 

@@ -1,11 +1,11 @@
-#include "engine/exchange/mesh_targets.h"
+#include "engine/part/mesh_targets.h"
 
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_part.h"
+#include "engine/part/part_file.h"
 #include "engine/remesh/triangle_quality.h"
 
 namespace spia {

@@ -1,4 +1,4 @@
-#include "engine/exchange/picture.h"
+#include "engine/picture/picture.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "engine/exchange/atomic_file.h"
-#include "engine/exchange/canvas.h"
-#include "engine/exchange/colour_map.h"
+#include "engine/core/atomic_file.h"
+#include "engine/core/colour_map.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
+#include "engine/picture/canvas.h"
 
 namespace spia {
 namespace {

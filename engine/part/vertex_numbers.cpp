@@ -1,12 +1,12 @@
-#include "engine/exchange/vertex_numbers.h"
+#include "engine/part/vertex_numbers.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
-#include "engine/exchange/read_part.h"
 #include "engine/mesh/edge_graph.h"
 #include "engine/mesh/topology.h"
+#include "engine/part/part_file.h"
 
 namespace spia {
 namespace {
