@@ -5,7 +5,7 @@
 #include "app/cli/commands.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
 
 namespace spia::cli {
 

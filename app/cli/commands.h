@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/dxf_options.h"
+#include "engine/exchange/lines/dxf_options.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::cli {

@@ -11,7 +11,7 @@
 #include <tbb/version.h>
 
 #include "app/viewer/render/graphics_card.h"
-#include "engine/exchange/cad_kernel_version.h"
+#include "engine/exchange/cad/cad_kernel_version.h"
 #include "engine/sparse/sparse_version.h"
 
 namespace spia::viewer {

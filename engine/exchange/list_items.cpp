@@ -7,10 +7,10 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file_content.h"
-#include "engine/exchange/deck_choice.h"
-#include "engine/exchange/mesh_file.h"
-#include "engine/exchange/read_cad.h"
-#include "engine/exchange/read_deck.h"
+#include "engine/exchange/cad/read_cad.h"
+#include "engine/exchange/deck/deck_choice.h"
+#include "engine/exchange/deck/read_deck.h"
+#include "engine/exchange/mesh/mesh_file.h"
 
 namespace spia {
 namespace {

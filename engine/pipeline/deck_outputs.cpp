@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "engine/exchange/fixed_number.h"
-#include "engine/exchange/original_results.h"
-#include "engine/exchange/part_shells.h"
-#include "engine/exchange/write_element_results.h"
-#include "engine/exchange/write_shell_mesh.h"
+#include "engine/exchange/deck/original_results.h"
+#include "engine/exchange/deck/part_shells.h"
+#include "engine/exchange/deck/write_element_results.h"
+#include "engine/exchange/deck/write_shell_mesh.h"
+#include "engine/exchange/text/fixed_number.h"
 
 namespace spia {
 namespace {

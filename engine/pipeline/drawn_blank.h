@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/exchange/blank_drawing.h"
+#include "engine/exchange/lines/blank_drawing.h"
 #include "engine/part/part_file.h"
 #include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"

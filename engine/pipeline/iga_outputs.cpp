@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "engine/coons/carry_field.h"
-#include "engine/exchange/write_geopdes.h"
-#include "engine/exchange/write_gismo.h"
-#include "engine/exchange/write_iga_dyna.h"
-#include "engine/exchange/write_mfem.h"
+#include "engine/exchange/iga/write_geopdes.h"
+#include "engine/exchange/iga/write_gismo.h"
+#include "engine/exchange/iga/write_iga_dyna.h"
+#include "engine/exchange/iga/write_mfem.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/nurbs/blank_chart.h"
 #include "engine/nurbs/evaluate.h"

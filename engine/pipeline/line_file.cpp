@@ -5,7 +5,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/exchange/write_lines.h"
+#include "engine/exchange/lines/write_lines.h"
 #include "engine/pipeline/file_members.h"
 
 namespace spia {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/length_unit.h"
-#include "engine/exchange/read_dxf.h"
+#include "engine/exchange/lines/read_dxf.h"
 #include "engine/unfold/sheet_lines.h"
 
 namespace spia {

@@ -6,8 +6,8 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/length_unit.h"
 #include "engine/core/progress.h"
-#include "engine/exchange/dxf_options.h"
-#include "engine/exchange/write_gltf.h"
+#include "engine/exchange/lines/dxf_options.h"
+#include "engine/exchange/mesh/write_gltf.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {

@@ -7,9 +7,9 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/exchange/blank_outline.h"
-#include "engine/exchange/write_dxf.h"
-#include "engine/exchange/write_vtu.h"
+#include "engine/exchange/lines/blank_outline.h"
+#include "engine/exchange/lines/write_dxf.h"
+#include "engine/exchange/mesh/write_vtu.h"
 #include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/drawn_blank.h"

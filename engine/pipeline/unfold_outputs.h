@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/dxf_options.h"
+#include "engine/exchange/lines/dxf_options.h"
 #include "engine/part/part_file.h"
 #include "engine/unfold/bend_table.h"
 #include "engine/unfold/bends.h"

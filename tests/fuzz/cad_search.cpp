@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/child_process.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/child_process.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "tests/fuzz/cad_target.h"
 #include "tests/fuzz/mutate.h"
 

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "tests/fuzz/cad_target.h"
 
 namespace spia::fuzz {

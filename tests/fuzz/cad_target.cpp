@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/cad_findings.h"
-#include "engine/exchange/read_cad.h"
-#include "engine/exchange/write_iges.h"
-#include "engine/exchange/write_step.h"
+#include "engine/exchange/cad/cad_findings.h"
+#include "engine/exchange/cad/read_cad.h"
+#include "engine/exchange/cad/write_iges.h"
+#include "engine/exchange/cad/write_step.h"
 #include "engine/part/part_file.h"
 #include "engine/part/prepare_part.h"
 #include "tests/fuzz/require.h"

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/checked_file.h"
-#include "engine/exchange/deck_choice.h"
-#include "engine/exchange/read_deck.h"
-#include "engine/exchange/read_dxf.h"
-#include "engine/exchange/read_gltf.h"
-#include "engine/exchange/read_openmesh.h"
+#include "engine/exchange/deck/deck_choice.h"
+#include "engine/exchange/deck/read_deck.h"
+#include "engine/exchange/lines/read_dxf.h"
+#include "engine/exchange/mesh/checked_file.h"
+#include "engine/exchange/mesh/read_gltf.h"
+#include "engine/exchange/mesh/read_openmesh.h"
 #include "engine/forming/two_columns.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/part_file.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "engine/exchange/read_surfaces.h"
-#include "engine/exchange/write_step.h"
+#include "engine/exchange/cad/read_surfaces.h"
+#include "engine/exchange/cad/write_step.h"
 #include "engine/forming/material_library.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/pipeline/session.h"

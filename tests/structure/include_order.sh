@@ -18,9 +18,12 @@ for module in "${order[@]}"; do
     done < <(grep -rnE '#include "(engine|app|tests)/' "engine/$module" | grep -vE "#include \"engine/($pattern)/")
 done
 while IFS= read -r line; do
-    complain "only engine/exchange knows the CAD kernel and glTF: $line"
-done < <(grep -rnE '#include <(.*tiny_gltf|Standard_|Geom_|TopoDS|BRep|IGES|STEP|Interface_|Message_|XSControl)' engine app |
-    grep -v '^engine/exchange/')
+    complain "only engine/exchange/cad and the lines as STEP and IGES know the CAD kernel: $line"
+done < <(grep -rnE '#include <(Standard_|Geom_|TopoDS|BRep|IGES|STEP|Interface_|Message_|XSControl)' engine app |
+    grep -vE '^engine/exchange/(cad/|lines/write_lines)')
+while IFS= read -r line; do
+    complain "only engine/exchange/mesh knows glTF: $line"
+done < <(grep -rnE '#include <.*tiny_gltf' engine app | grep -v '^engine/exchange/mesh/')
 while IFS= read -r line; do
     complain "only engine/sparse knows SuiteSparse: $line"
 done < <(grep -rnE '#include <(cholmod|umfpack|SuiteSparse)' engine app tests | grep -vE '^(engine/sparse|tests/bench)/')

@@ -4,8 +4,8 @@
 
 #include "engine/core/read_number.h"
 #include "engine/core/text.h"
-#include "engine/exchange/read_cad.h"
-#include "engine/exchange/read_deck.h"
+#include "engine/exchange/cad/read_cad.h"
+#include "engine/exchange/deck/read_deck.h"
 
 namespace spia::viewer {
 namespace {

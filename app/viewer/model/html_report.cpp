@@ -12,7 +12,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/exchange/provenance.h"
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text/text_encoding.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/shortcomings.h"
 

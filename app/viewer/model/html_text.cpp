@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text/text_encoding.h"
 
 namespace spia::viewer {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/svg_chart.h"
 #include "app/viewer/model/zone_look.h"
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text/text_encoding.h"
 
 namespace spia::viewer {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/viewer/model/shown_lengths.h"
 #include "app/viewer/model/svg_chart.h"
 #include "app/viewer/model/viewer_words.h"
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text/text_encoding.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <limits>
 
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text/text_encoding.h"
 
 namespace spia::viewer {
 namespace {

@@ -20,7 +20,7 @@
 #include <fmt/core.h>
 #include <numbers>
 
-#include "engine/exchange/occt_session.h"
+#include "engine/exchange/cad/occt_session.h"
 #include "tests/support/cad/section_face.h"
 #include "tests/support/cad/write_solid.h"
 #include "tests/support/lots.h"

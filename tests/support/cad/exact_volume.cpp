@@ -5,7 +5,7 @@
 #include <STEPControl_Reader.hxx>
 #include <stdexcept>
 
-#include "engine/exchange/occt_session.h"
+#include "engine/exchange/cad/occt_session.h"
 
 namespace spia::shapes {
 

@@ -6,7 +6,7 @@
 #include <STEPControl_Writer.hxx>
 #include <stdexcept>
 
-#include "engine/exchange/occt_session.h"
+#include "engine/exchange/cad/occt_session.h"
 
 namespace spia::shapes {
 

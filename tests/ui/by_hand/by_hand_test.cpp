@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "app/viewer/model/script.h"
-#include "engine/exchange/write_step.h"
+#include "engine/exchange/cad/write_step.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/ui/by_hand/drop_source.h"
 #include "tests/ui/by_hand/hands.h"

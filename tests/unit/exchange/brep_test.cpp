@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/exchange/brep_check.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/brep_check.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "tests/unit/exchange/sample_faces.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

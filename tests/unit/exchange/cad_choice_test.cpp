@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/unit/exchange/sample_assembly.h"

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file_content.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
 #include "tests/unit/exchange/sample_solids.h"

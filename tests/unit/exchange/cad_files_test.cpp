@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_surfaces.h"
-#include "engine/exchange/write_iges.h"
-#include "engine/exchange/write_step.h"
+#include "engine/exchange/cad/read_surfaces.h"
+#include "engine/exchange/cad/write_iges.h"
+#include "engine/exchange/cad/write_step.h"
 #include "tests/unit/exchange/sample_surface.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

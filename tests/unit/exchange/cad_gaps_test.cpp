@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "engine/exchange/cad_gaps.h"
-#include "engine/exchange/occt_session.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/cad_gaps.h"
+#include "engine/exchange/cad/occt_session.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "tests/unit/exchange/sample_faces.h"
 #include "tests/unit/exchange/scratch_folder.h"

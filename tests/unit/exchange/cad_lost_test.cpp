@@ -1,4 +1,4 @@
-#include "engine/exchange/cad_lost.h"
+#include "engine/exchange/cad/cad_lost.h"
 
 #include <gtest/gtest.h>
 #include <vector>

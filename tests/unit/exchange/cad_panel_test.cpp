@@ -3,7 +3,7 @@
 #include <array>
 #include <gtest/gtest.h>
 
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
 #include "engine/mesh/topology.h"

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
+#include "engine/exchange/cad/write_iges.h"
+#include "engine/exchange/cad/write_step.h"
 #include "engine/exchange/read_part.h"
-#include "engine/exchange/write_iges.h"
-#include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/weld.h"
 #include "tests/support/known_surfaces.h"

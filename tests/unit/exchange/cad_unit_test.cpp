@@ -3,9 +3,9 @@
 #include <string>
 
 #include "engine/core/error.h"
+#include "engine/exchange/cad/write_iges.h"
+#include "engine/exchange/cad/write_step.h"
 #include "engine/exchange/read_part.h"
-#include "engine/exchange/write_iges.h"
-#include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/scratch_folder.h"

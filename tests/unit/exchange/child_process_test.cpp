@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
-#include "engine/exchange/child_process.h"
+#include "engine/exchange/cad/child_process.h"
 
 namespace spia {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "engine/exchange/deck_choice.h"
+#include "engine/exchange/deck/deck_choice.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

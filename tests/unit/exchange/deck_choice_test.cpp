@@ -1,4 +1,4 @@
-#include "engine/exchange/deck_choice.h"
+#include "engine/exchange/deck/deck_choice.h"
 
 #include <fstream>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-#include "engine/exchange/deck_choice.h"
+#include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/read_part.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"

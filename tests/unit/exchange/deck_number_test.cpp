@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/exchange/node_numbers.h"
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/deck/node_numbers.h"
+#include "engine/exchange/text/text_encoding.h"
 
 namespace spia {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/exchange/fixed_number.h"
+#include "engine/exchange/text/fixed_number.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 
 #include "engine/core/colour_map.h"
 #include "engine/core/error.h"
-#include "engine/exchange/write_gltf.h"
+#include "engine/exchange/mesh/write_gltf.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"

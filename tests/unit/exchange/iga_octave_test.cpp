@@ -5,9 +5,9 @@
 #include <sstream>
 #include <sys/wait.h>
 
-#include "engine/exchange/write_geopdes.h"
-#include "engine/exchange/write_gismo.h"
-#include "engine/exchange/write_mfem.h"
+#include "engine/exchange/iga/write_geopdes.h"
+#include "engine/exchange/iga/write_gismo.h"
+#include "engine/exchange/iga/write_mfem.h"
 #include "engine/nurbs/evaluate.h"
 #include "tests/support/joined_patches.h"
 #include "tests/unit/exchange/scratch_folder.h"

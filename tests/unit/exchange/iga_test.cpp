@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/mfem_topology.h"
-#include "engine/exchange/write_geopdes.h"
-#include "engine/exchange/write_gismo.h"
-#include "engine/exchange/write_iga_dyna.h"
-#include "engine/exchange/write_mfem.h"
+#include "engine/exchange/iga/mfem_topology.h"
+#include "engine/exchange/iga/write_geopdes.h"
+#include "engine/exchange/iga/write_gismo.h"
+#include "engine/exchange/iga/write_iga_dyna.h"
+#include "engine/exchange/iga/write_mfem.h"
 #include "tests/support/iga_readers.h"
 #include "tests/support/joined_patches.h"
 #include "tests/support/known_surfaces.h"

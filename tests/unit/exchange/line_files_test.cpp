@@ -3,8 +3,8 @@
 #include <regex>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_dxf.h"
-#include "engine/exchange/write_lines.h"
+#include "engine/exchange/lines/read_dxf.h"
+#include "engine/exchange/lines/write_lines.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_cad.h"
+#include "engine/exchange/cad/read_cad.h"
 #include "engine/exchange/read_part.h"
 #include "tests/unit/exchange/sample_assembly.h"
 #include "tests/unit/exchange/scratch_folder.h"

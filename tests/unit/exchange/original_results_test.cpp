@@ -1,4 +1,4 @@
-#include "engine/exchange/original_results.h"
+#include "engine/exchange/deck/original_results.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/exchange/part_shells.h"
+#include "engine/exchange/deck/part_shells.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"

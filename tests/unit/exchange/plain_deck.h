@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/exchange/deck.h"
+#include "engine/exchange/deck/deck.h"
 
 namespace spia::sample {
 

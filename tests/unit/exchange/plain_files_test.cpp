@@ -6,9 +6,9 @@
 #include <regex>
 
 #include "engine/core/error.h"
-#include "engine/exchange/write_csv.h"
-#include "engine/exchange/write_dxf.h"
-#include "engine/exchange/write_vtu.h"
+#include "engine/exchange/lines/write_dxf.h"
+#include "engine/exchange/mesh/write_vtu.h"
+#include "engine/exchange/text/write_csv.h"
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

@@ -21,7 +21,7 @@
 #include <gp_Pln.hxx>
 #include <stdexcept>
 
-#include "engine/exchange/occt_session.h"
+#include "engine/exchange/cad/occt_session.h"
 
 namespace spia {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_deck.h"
+#include "engine/exchange/deck/read_deck.h"
 
 namespace spia::sample {
 

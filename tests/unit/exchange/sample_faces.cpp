@@ -28,8 +28,8 @@
 #include <gp_Pln.hxx>
 #include <stdexcept>
 
-#include "engine/exchange/occt_session.h"
-#include "engine/exchange/occt_surface.h"
+#include "engine/exchange/cad/occt_session.h"
+#include "engine/exchange/cad/occt_surface.h"
 #include "tests/support/known_surfaces.h"
 
 namespace spia {

@@ -12,8 +12,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "engine/exchange/occt_session.h"
-#include "engine/exchange/occt_surface.h"
+#include "engine/exchange/cad/occt_session.h"
+#include "engine/exchange/cad/occt_surface.h"
 
 namespace spia {
 namespace {

@@ -4,7 +4,7 @@
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <STEPControl_Writer.hxx>
 
-#include "engine/exchange/occt_session.h"
+#include "engine/exchange/cad/occt_session.h"
 
 namespace spia {
 namespace {

@@ -1,9 +1,9 @@
-#include "engine/exchange/write_shell_mesh.h"
+#include "engine/exchange/deck/write_shell_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/text_encoding.h"
+#include "engine/exchange/text/text_encoding.h"
 #include "tests/unit/exchange/sample_decks.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "engine/core/error.h"
-#include "engine/exchange/outline_curves.h"
-#include "engine/exchange/read_dxf.h"
-#include "engine/exchange/smooth_spline.h"
-#include "engine/exchange/write_dxf.h"
+#include "engine/exchange/lines/outline_curves.h"
+#include "engine/exchange/lines/read_dxf.h"
+#include "engine/exchange/lines/smooth_spline.h"
+#include "engine/exchange/lines/write_dxf.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "engine/exchange/cad/write_iges.h"
+#include "engine/exchange/cad/write_step.h"
 #include "engine/exchange/read_part.h"
-#include "engine/exchange/write_iges.h"
-#include "engine/exchange/write_step.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
 #include "tests/unit/exchange/sample_faces.h"

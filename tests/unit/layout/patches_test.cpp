@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "engine/core/error.h"
-#include "engine/exchange/read_surfaces.h"
-#include "engine/exchange/write_step.h"
+#include "engine/exchange/cad/read_surfaces.h"
+#include "engine/exchange/cad/write_step.h"
 #include "engine/layout/fit_patches.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"

@@ -12,7 +12,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/read_number.h"
-#include "engine/exchange/part_shells.h"
+#include "engine/exchange/deck/part_shells.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material_library.h"
 #include "engine/forming/sheet_fields.h"

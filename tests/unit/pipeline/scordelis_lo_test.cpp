@@ -6,9 +6,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "engine/exchange/write_geopdes.h"
-#include "engine/exchange/write_gismo.h"
-#include "engine/exchange/write_mfem.h"
+#include "engine/exchange/iga/write_geopdes.h"
+#include "engine/exchange/iga/write_gismo.h"
+#include "engine/exchange/iga/write_mfem.h"
 #include "engine/forming/material_library.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/pipeline/session.h"

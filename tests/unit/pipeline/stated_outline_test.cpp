@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
-#include "engine/exchange/read_dxf.h"
-#include "engine/exchange/write_dxf.h"
+#include "engine/exchange/lines/read_dxf.h"
+#include "engine/exchange/lines/write_dxf.h"
 #include "engine/forming/material_library.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/session.h"

@@ -1,9 +1,0 @@
-#include "engine/exchange/cad_kernel_version.h"
-
-#include <Standard_Version.hxx>
-
-namespace spia {
-
-std::string cad_kernel_version() { return OCC_VERSION_COMPLETE; }
-
-} // namespace spia
