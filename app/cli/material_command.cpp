@@ -4,8 +4,8 @@
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/forming/material_fit.h"
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_fit.h"
+#include "engine/forming/material/material_text.h"
 
 namespace spia::cli {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
-#include "engine/forming/material_library.h"
-#include "engine/forming/membrane_law.h"
+#include "engine/forming/material/material_library.h"
+#include "engine/forming/material/membrane_law.h"
 
 namespace spia::cli {
 

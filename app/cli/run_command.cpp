@@ -10,7 +10,7 @@
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/deform_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"

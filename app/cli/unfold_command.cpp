@@ -16,7 +16,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/deck_outputs.h"

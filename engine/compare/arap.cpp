@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/parallel.h"
-#include "engine/forming/nearest_rotation.h"
+#include "engine/forming/solver/nearest_rotation.h"
 
 namespace spia {
 

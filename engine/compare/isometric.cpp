@@ -3,8 +3,8 @@
 #include "engine/compare/flat_map.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/forming/initial_guess.h"
-#include "engine/forming/stamping_direction.h"
+#include "engine/forming/solver/initial_guess.h"
+#include "engine/forming/solver/stamping_direction.h"
 
 namespace spia {
 namespace {

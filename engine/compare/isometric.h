@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "engine/core/progress.h"
-#include "engine/forming/membrane.h"
+#include "engine/forming/solver/membrane.h"
 #include "engine/sparse/block_matrix.h"
 #include "engine/sparse/cholesky.h"
 

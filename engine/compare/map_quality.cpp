@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/forming/energy_stage.h"
-#include "engine/forming/membrane.h"
+#include "engine/forming/solver/energy_stage.h"
+#include "engine/forming/solver/membrane.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/forming/energy_stage.h"
+#include "engine/forming/solver/energy_stage.h"
 
 namespace spia {
 namespace {

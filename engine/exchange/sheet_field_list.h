@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/forming/blank.h"
-#include "engine/forming/skin_strain.h"
+#include "engine/forming/solver/skin_strain.h"
 #include "engine/limits/limits.h"
 #include "engine/mesh/tri_mesh.h"
 

@@ -4,12 +4,12 @@
 
 #include "engine/core/progress.h"
 #include "engine/forming/blank.h"
-#include "engine/forming/energy_stage.h"
-#include "engine/forming/initial_guess.h"
-#include "engine/forming/material.h"
-#include "engine/forming/process.h"
-#include "engine/forming/skin_strain.h"
-#include "engine/forming/stamping_direction.h"
+#include "engine/forming/material/material.h"
+#include "engine/forming/process/process.h"
+#include "engine/forming/solver/energy_stage.h"
+#include "engine/forming/solver/initial_guess.h"
+#include "engine/forming/solver/skin_strain.h"
+#include "engine/forming/solver/stamping_direction.h"
 #include "engine/mesh/overlap.h"
 #include "engine/mesh/tri_mesh.h"
 

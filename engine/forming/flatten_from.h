@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/forming/flatten.h"
-#include "engine/forming/laid_lengths.h"
+#include "engine/forming/solver/laid_lengths.h"
 
 namespace spia {
 

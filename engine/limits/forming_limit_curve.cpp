@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
-#include "engine/forming/two_columns.h"
+#include "engine/forming/material/two_columns.h"
 
 namespace spia {
 namespace {

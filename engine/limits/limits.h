@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/forming/blank.h"
-#include "engine/forming/process.h"
+#include "engine/forming/process/process.h"
 #include "engine/limits/forming_limit_curve.h"
 #include "engine/mesh/tri_mesh.h"
 

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "engine/forming/contact_pressure.h"
-#include "engine/forming/held_edges.h"
+#include "engine/forming/process/contact_pressure.h"
+#include "engine/forming/process/held_edges.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

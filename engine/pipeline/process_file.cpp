@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "engine/core/json_file.h"
-#include "engine/forming/drawbead.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
+#include "engine/forming/process/drawbead.h"
 #include "engine/pipeline/file_members.h"
 
 namespace spia {

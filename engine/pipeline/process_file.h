@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/forming/process.h"
+#include "engine/forming/process/process.h"
 #include "engine/part/part_file.h"
 
 namespace spia {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_text.h"
 #include "engine/mesh/distortion.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "engine/forming/membrane_law.h"
+#include "engine/forming/material/membrane_law.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"

@@ -11,8 +11,8 @@
 #include "engine/core/file_content.h"
 #include "engine/core/json_file.h"
 #include "engine/exchange/provenance.h"
-#include "engine/forming/material_text.h"
-#include "engine/forming/sheet_fields.h"
+#include "engine/forming/material/material_text.h"
+#include "engine/forming/solver/sheet_fields.h"
 
 namespace spia {
 namespace {

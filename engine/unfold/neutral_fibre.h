@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/forming/blank.h"
-#include "engine/forming/laid_lengths.h"
+#include "engine/forming/solver/laid_lengths.h"
 #include "engine/unfold/bend_table.h"
 #include "engine/unfold/bend_zones.h"
 #include "engine/unfold/k_factor.h"

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "engine/core/error.h"
-#include "engine/forming/energy_stage.h"
-#include "engine/forming/placing.h"
-#include "engine/forming/rigid_steps.h"
+#include "engine/forming/solver/energy_stage.h"
+#include "engine/forming/solver/placing.h"
+#include "engine/forming/solver/rigid_steps.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"

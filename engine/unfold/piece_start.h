@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
 
-#include "engine/forming/initial_guess.h"
-#include "engine/forming/stages.h"
+#include "engine/forming/solver/initial_guess.h"
+#include "engine/forming/solver/stages.h"
 #include "engine/unfold/freed_piece.h"
 
 namespace spia {

@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/flatten_from.h"
-#include "engine/forming/flips.h"
+#include "engine/forming/solver/flips.h"
 #include "engine/mesh/segment_distance.h"
 #include "engine/mesh/topology.h"
 

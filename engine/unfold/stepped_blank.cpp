@@ -5,11 +5,11 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
-#include "engine/forming/process.h"
-#include "engine/forming/seen_along.h"
-#include "engine/forming/sheet_fields.h"
-#include "engine/forming/skin_strain.h"
-#include "engine/forming/volume_error.h"
+#include "engine/forming/process/process.h"
+#include "engine/forming/solver/seen_along.h"
+#include "engine/forming/solver/sheet_fields.h"
+#include "engine/forming/solver/skin_strain.h"
+#include "engine/forming/solver/volume_error.h"
 
 namespace spia {
 namespace {

@@ -6,10 +6,10 @@
 #include <fmt/core.h>
 
 #include "engine/core/error.h"
-#include "engine/forming/contact_pressure.h"
-#include "engine/forming/membrane.h"
-#include "engine/forming/nearest_rotation.h"
-#include "engine/forming/smallest_turn.h"
+#include "engine/forming/process/contact_pressure.h"
+#include "engine/forming/process/smallest_turn.h"
+#include "engine/forming/solver/membrane.h"
+#include "engine/forming/solver/nearest_rotation.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/piece_picture.h"
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/forming/external_forces.h"
+#include "engine/forming/process/external_forces.h"
 #include "engine/unfold/binder_face.h"
 #include "engine/unfold/freed_piece.h"
 #include "engine/unfold/unfold_pick.h"

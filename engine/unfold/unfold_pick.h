@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/forming/process.h"
+#include "engine/forming/process/process.h"
 #include "engine/unfold/binder_face.h"
 
 namespace spia {

@@ -9,11 +9,11 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/forming/flips.h"
-#include "engine/forming/placing.h"
-#include "engine/forming/process.h"
-#include "engine/forming/rolling.h"
-#include "engine/forming/sheet_fields.h"
+#include "engine/forming/process/process.h"
+#include "engine/forming/process/rolling.h"
+#include "engine/forming/solver/flips.h"
+#include "engine/forming/solver/placing.h"
+#include "engine/forming/solver/sheet_fields.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/fit_height.h"

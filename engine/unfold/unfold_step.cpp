@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "engine/core/error.h"
-#include "engine/forming/sheet_fields.h"
+#include "engine/forming/solver/sheet_fields.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/fit_height.h"
 #include "engine/unfold/freed_piece.h"

@@ -11,7 +11,7 @@
 
 #include "engine/coons/boundary.h"
 #include "engine/forming/flatten.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/unfold_step.h"
 #include "tests/support/developable.h"

@@ -19,7 +19,7 @@
 #include "engine/compare/map_quality.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/flatten.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/inner_panel.h"
 

@@ -12,7 +12,7 @@
 #include "engine/exchange/mesh/checked_file.h"
 #include "engine/exchange/mesh/read_gltf.h"
 #include "engine/exchange/mesh/read_openmesh.h"
-#include "engine/forming/two_columns.h"
+#include "engine/forming/material/two_columns.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/part_file.h"
 #include "engine/part/prepare_part.h"

@@ -5,7 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/seam_file.h"

@@ -6,7 +6,7 @@
 
 #include "engine/exchange/cad/read_surfaces.h"
 #include "engine/exchange/cad/write_step.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/pipeline/session.h"
 

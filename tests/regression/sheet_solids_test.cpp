@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/unfold/unfold_by_itself.h"
 
 namespace spia {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/robustness/shape_run.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shape_family.h"

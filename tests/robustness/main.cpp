@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <map>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/robustness/layout_run.h"
 #include "tests/robustness/shape_run.h"
 #include "tests/robustness/unfold_run.h"

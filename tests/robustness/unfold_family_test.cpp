@@ -2,7 +2,7 @@
 // there need be none.
 #include <gtest/gtest.h>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/robustness/unfold_run.h"
 
 namespace spia {

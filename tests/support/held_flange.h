@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "engine/forming/hardening.h"
+#include "engine/forming/material/hardening.h"
 #include "tests/support/profile.h"
 
 namespace spia::shapes {

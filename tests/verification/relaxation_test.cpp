@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "engine/forming/equilibrium.h"
 #include "engine/forming/flatten.h"
+#include "engine/forming/solver/equilibrium.h"
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 

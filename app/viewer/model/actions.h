@@ -12,7 +12,7 @@
 #include "app/viewer/model/state.h"
 #include "app/viewer/model/step_friction.h"
 #include "app/viewer/model/step_target.h"
-#include "engine/forming/material_fit.h"
+#include "engine/forming/material/material_fit.h"
 #include "engine/pipeline/outputs.h"
 
 /// What a user can do. Buttons, shortcuts, scripts and tests put actions into a queue; apply() carries them out

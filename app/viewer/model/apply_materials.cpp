@@ -5,7 +5,7 @@
 #include "app/viewer/model/apply.h"
 #include "app/viewer/model/grades.h"
 #include "engine/core/atomic_file.h"
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_text.h"
 
 namespace spia::viewer {
 namespace {

@@ -4,7 +4,7 @@
 #include "app/viewer/model/apply.h"
 #include "app/viewer/model/grades.h"
 #include "app/viewer/model/members.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 
 namespace spia::viewer {
 

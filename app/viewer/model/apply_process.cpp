@@ -6,8 +6,8 @@
 #include "app/viewer/model/grades.h"
 #include "app/viewer/model/names.h"
 #include "engine/core/atomic_file.h"
-#include "engine/forming/material_library.h"
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_library.h"
+#include "engine/forming/material/material_text.h"
 
 namespace spia::viewer {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/viewer/model/names.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 
 namespace spia::viewer {
 

@@ -7,8 +7,8 @@
 #include "app/viewer/model/recent_files.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/forming/fit_hardening.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/fit_hardening.h"
+#include "engine/forming/material/material_library.h"
 
 namespace fs = std::filesystem;
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/forming/material.h"
-#include "engine/forming/material_check.h"
+#include "engine/forming/material/material.h"
+#include "engine/forming/material/material_check.h"
 
 /// The sheet grades that can be chosen: the built-in ones, which are read-only, and the user's own, a file each in own_materials().
 namespace spia::viewer {

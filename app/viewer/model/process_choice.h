@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/forming/drawbead.h"
+#include "engine/forming/process/drawbead.h"
 
 /// What the user says about the tools, on regions and lines of the part. process_of() in document.h makes the solver's
 /// conditions of it.

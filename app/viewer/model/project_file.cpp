@@ -8,7 +8,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/exchange/provenance.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/part_bends.h"
 
 namespace fs = std::filesystem;

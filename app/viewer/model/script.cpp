@@ -7,7 +7,7 @@
 
 #include "app/viewer/model/members.h"
 #include "engine/core/error.h"
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_text.h"
 
 namespace spia::viewer {
 

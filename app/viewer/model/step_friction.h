@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "engine/forming/process.h"
+#include "engine/forming/process/process.h"
 
 /// What the target of a step rubs against the sheet that is laid on it, as users give it.
 namespace spia::viewer {

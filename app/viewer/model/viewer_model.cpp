@@ -10,7 +10,7 @@
 #include "app/viewer/model/lengths.h"
 #include "app/viewer/model/viewer_words.h"
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 
 namespace spia::viewer {
 

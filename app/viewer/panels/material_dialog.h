@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/viewer/views/scene_cache.h"
-#include "engine/forming/material_fit.h"
+#include "engine/forming/material/material_fit.h"
 
 namespace spia::viewer {
 

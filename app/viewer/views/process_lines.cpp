@@ -6,7 +6,7 @@
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 #include "engine/core/error.h"
-#include "engine/forming/line_on_part.h"
+#include "engine/forming/process/line_on_part.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/core/length_unit.h"
-#include "engine/forming/material.h"
+#include "engine/forming/material/material.h"
 #include "engine/nurbs/multi_patch.h"
 
 namespace spia {

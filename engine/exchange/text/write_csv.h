@@ -3,7 +3,7 @@
 
 #include "engine/core/length_unit.h"
 #include "engine/exchange/lines/blank_outline.h"
-#include "engine/forming/skin_strain.h"
+#include "engine/forming/solver/skin_strain.h"
 #include "engine/limits/limits.h"
 
 namespace spia {

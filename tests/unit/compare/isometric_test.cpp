@@ -7,7 +7,7 @@
 #include "engine/compare/map_quality.h"
 #include "engine/compare/slim.h"
 #include "engine/core/error.h"
-#include "engine/forming/energy_stage.h"
+#include "engine/forming/solver/energy_stage.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_tools.h"

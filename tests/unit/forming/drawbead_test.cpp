@@ -1,4 +1,4 @@
-#include "engine/forming/drawbead.h"
+#include "engine/forming/process/drawbead.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The energy stage with held vertices.
-#include "engine/forming/energy_stage.h"
+#include "engine/forming/solver/energy_stage.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

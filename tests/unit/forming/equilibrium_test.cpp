@@ -1,4 +1,4 @@
-#include "engine/forming/equilibrium.h"
+#include "engine/forming/solver/equilibrium.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "engine/forming/hardening.h"
+#include "engine/forming/material/hardening.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "engine/forming/held_edges.h"
+#include "engine/forming/process/held_edges.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

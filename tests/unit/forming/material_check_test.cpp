@@ -1,4 +1,4 @@
-#include "engine/forming/material_check.h"
+#include "engine/forming/material/material_check.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_text.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

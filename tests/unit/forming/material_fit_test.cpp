@@ -1,4 +1,4 @@
-#include "engine/forming/material_fit.h"
+#include "engine/forming/material/material_fit.h"
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "engine/forming/material_text.h"
+#include "engine/forming/material/material_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

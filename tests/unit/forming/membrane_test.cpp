@@ -1,4 +1,4 @@
-#include "engine/forming/membrane.h"
+#include "engine/forming/solver/membrane.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "engine/forming/process.h"
+#include "engine/forming/process/process.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/forming/equilibrium.h"
+#include "engine/forming/solver/equilibrium.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/developable.h"

@@ -1,4 +1,4 @@
-#include "engine/forming/sheet_fields.h"
+#include "engine/forming/solver/sheet_fields.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

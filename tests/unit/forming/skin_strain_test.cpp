@@ -1,4 +1,4 @@
-#include "engine/forming/skin_strain.h"
+#include "engine/forming/solver/skin_strain.h"
 
 #include <gtest/gtest.h>
 

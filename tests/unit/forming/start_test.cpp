@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/forming/energy_stage.h"
-#include "engine/forming/initial_guess.h"
-#include "engine/forming/stamping_direction.h"
+#include "engine/forming/solver/energy_stage.h"
+#include "engine/forming/solver/initial_guess.h"
+#include "engine/forming/solver/stamping_direction.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"

@@ -1,4 +1,4 @@
-#include "engine/forming/tensile_test.h"
+#include "engine/forming/material/tensile_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "engine/forming/fit_hardening.h"
+#include "engine/forming/material/fit_hardening.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_check.h"
+#include "engine/forming/material/material_check.h"
 
 namespace spia {
 namespace {

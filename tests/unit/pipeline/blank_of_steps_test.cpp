@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
-#include "engine/forming/membrane.h"
+#include "engine/forming/material/material_library.h"
+#include "engine/forming/solver/membrane.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/outputs.h"

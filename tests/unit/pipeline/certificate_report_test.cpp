@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/report.h"
 #include "tests/support/joined_patches.h"

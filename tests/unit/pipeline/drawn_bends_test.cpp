@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/session.h"

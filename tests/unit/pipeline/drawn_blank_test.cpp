@@ -5,7 +5,7 @@
 #include <random>
 
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/bent_parts.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/prism.h"

@@ -6,7 +6,7 @@
 
 #include "engine/coons/carry_field.h"
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/nurbs/project.h"
 #include "engine/pipeline/outputs.h"
 #include "tests/support/iga_readers.h"

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/part_bends.h"

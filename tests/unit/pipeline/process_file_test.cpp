@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
-#include "engine/forming/drawbead.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
+#include "engine/forming/process/drawbead.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/shortcomings.h"

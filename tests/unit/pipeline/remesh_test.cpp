@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/vertex_numbers.h"

@@ -9,7 +9,7 @@
 #include "engine/exchange/iga/write_geopdes.h"
 #include "engine/exchange/iga/write_gismo.h"
 #include "engine/exchange/iga/write_mfem.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/grid_surface.h"

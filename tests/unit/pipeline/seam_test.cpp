@@ -6,7 +6,7 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
 

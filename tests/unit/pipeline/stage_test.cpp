@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"

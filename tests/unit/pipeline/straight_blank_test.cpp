@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/report.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/developable.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/usual_tolerance.h"
 #include "tests/support/grid_surface.h"

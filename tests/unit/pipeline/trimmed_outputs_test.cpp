@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/exchange/read_part.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"

@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/unit/exchange/scratch_folder.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/json_file.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/unfold_file.h"
 #include "tests/support/bent_parts.h"
 

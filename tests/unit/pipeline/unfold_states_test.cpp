@@ -10,7 +10,7 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/unfold/sequence.h"
 #include "tests/support/bent_parts.h"
 #include "tests/unit/exchange/scratch_folder.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/unfold/unfold_script.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/grid_surface.h"

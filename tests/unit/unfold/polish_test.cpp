@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/flatten_from.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/revolved.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/unfold/fit_binder.h"
 #include "engine/unfold/unfold_script.h"
 #include "tests/support/bent_parts.h"

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/flatten.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/support/developable.h"
 
 namespace spia {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/unfold/unfold_script.h"
 #include "tests/support/developable.h"
 

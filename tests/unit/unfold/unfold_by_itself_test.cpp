@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/region.h"
 #include "engine/mesh/topology.h"
 #include "engine/unfold/carriers.h"

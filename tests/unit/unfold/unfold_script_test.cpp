@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/grid_surface.h"

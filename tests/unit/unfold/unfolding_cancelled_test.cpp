@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/bent_parts.h"
 

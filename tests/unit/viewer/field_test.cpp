@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/shapes.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/viewer/viewer_samples.h"

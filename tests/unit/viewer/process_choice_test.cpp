@@ -7,7 +7,7 @@
 #include "app/viewer/model/viewer_model.h"
 #include "app/viewer/model/viewer_words.h"
 #include "app/viewer/views/process_lines.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "tests/unit/viewer/model_fixture.h"
 

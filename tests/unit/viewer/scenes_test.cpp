@@ -12,7 +12,7 @@
 #include "app/viewer/views/strain_glyphs.h"
 #include "app/viewer/views/surface_shape.h"
 #include "engine/coons/cell_quality.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/support/shapes.h"
 
 namespace spia::viewer {

@@ -5,7 +5,7 @@
 
 #include "app/viewer/model/chain.h"
 #include "app/viewer/model/project_file.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_file.h"
 #include "tests/unit/exchange/scratch_folder.h"

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "app/viewer/model/document.h"
-#include "engine/forming/material_library.h"
+#include "engine/forming/material/material_library.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::viewer {

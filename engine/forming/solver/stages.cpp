@@ -1,0 +1,272 @@
+#include "engine/forming/solver/stages.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <optional>
+
+#include "engine/forming/solver/equilibrium.h"
+#include "engine/forming/solver/placing.h"
+#include "engine/forming/solver/stuck_places.h"
+#include "engine/mesh/topology.h"
+
+namespace spia {
+namespace {
+
+/// Largest logarithmic strain over the faces.
+double largest_strain(const TriMesh& part, const std::vector<Element>& element, const Eigen::Matrix2Xd& X)
+{
+    double largest = 0;
+    for (int f = 0; f < part.triangles(); ++f)
+        largest = std::max(largest, svd(inverse_gradient(element[size_t(f)], corners(X, part.triangle.col(f))))
+                                        .s.array()
+                                        .log()
+                                        .abs()
+                                        .maxCoeff());
+    return largest;
+}
+
+/// Newton decrements of the energy stage, relative: to try the equilibrium from, to go on from, as a start for the
+/// equilibrium, as a result of its own.
+constexpr double first_try = 0.1, rough = 1e-2, near_enough = 1e-3, exact = 1e-6;
+
+/// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
+/// is no number to begin with.
+EnergyResult energy_stage(const Job& job, Curve curve, Eigen::Matrix2Xd X, double decrement, int most_steps,
+                          SolveReport& report, const Progress& progress)
+{
+    std::vector<double> shares{1};
+    if (largest_strain(job.part, job.element, X) > 2)
+        shares = {0.25, 0.5, 1};
+    EnergyResult result;
+    for (size_t level = 0; level < shares.size(); ++level) {
+        EnergyOptions energy;
+        energy.most_steps = most_steps;
+        energy.watch = job.options.watch;
+        if (job.anchored)
+            energy.held = job.external.held;
+        energy.decrement = level + 1 == shares.size() ? decrement : rough;
+        result = minimise_energy(
+            job.part.triangle, job.element, sheet_with(job, curve, shares[level]), X, job.matrix, job.cholesky, energy,
+            progress.part(double(level) / double(shares.size()), double(level + 1) / double(shares.size())));
+        X = result.position;
+        report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
+    }
+    return result;
+}
+
+void take(EquilibriumResult& equilibrium, SolveReport& report)
+{
+    report.newton.insert(report.newton.end(), equilibrium.steps.begin(), equilibrium.steps.end());
+    report.residual = equilibrium.residual;
+    report.resultant = equilibrium.resultant;
+    report.converged = equilibrium.ended == Ended::converged;
+}
+
+/// The equations as they are, from a start X; none: they did not converge.
+std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix2Xd X, const EquilibriumOptions& newton,
+                                                   SolveReport& report, const Progress& progress)
+{
+    place(job, X);
+    const Sheet sheet = sheet_with(job, Curve::given);
+    VirtualWork work(job.part, job.element, sheet, job.external);
+    EquilibriumResult result =
+        solve_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky, newton, progress);
+    take(result, report);
+    if (!report.converged)
+        return std::nullopt;
+    report.reason = "converged";
+    report.system = SolvedSystem::strict;
+    return std::move(result.position);
+}
+
+} // namespace
+
+Sheet sheet_with(const Job& job, Curve curve, double growth)
+{
+    const FlattenOptions& options = job.options;
+    const auto from = [&](double strain) {
+        StressCurve::Options how = options.curve;
+        how.trusted_strain = strain;
+        how.continuation_rate *= growth;
+        return sheet_of(options.material, options.thickness, how, options.process, job.part, job.plane);
+    };
+    Sheet sheet = from(trusted_strain(job, curve, options.material.hardening));
+    for (size_t piece = 0; piece < options.process.tailored.size(); ++piece) {
+        const Hardening& own = options.process.tailored[piece].material.hardening;
+        sheet.law[piece + 1] = from(trusted_strain(job, curve, own)).law[piece + 1];
+    }
+    return sheet;
+}
+
+double pull_of(const ExternalForces& external, const TriMesh& part, const FlattenOptions& options)
+{
+    double force = 0, around = 0;
+    for (const Restraint& each : external.restraint)
+        force += each.force;
+    const Eigen::VectorXd area = area_vectors(part).colwise().norm();
+    for (const Eigen::VectorXd* traction : {&external.traction, &external.travelling})
+        if (traction->size() > 0)
+            force += traction->dot(area);
+    if (force == 0)
+        return 0;
+    const std::vector<int> outline = boundary_loops(part).front();
+    for (size_t k = 0; k < outline.size(); ++k)
+        around += (part.position.col(outline[(k + 1) % outline.size()]) - part.position.col(outline[k])).norm();
+    return force / (around * lock_force(options.material, options.thickness));
+}
+
+double trusted_strain(const Job& job, Curve curve, const Hardening& grade)
+{
+    constexpr double much = 0.1; // square cup: from a pull of 0.3 on strain would gather in rows
+    const double given = job.options.curve.trusted_strain, uniform = uniform_strain(grade, given);
+    return curve == Curve::continued ? uniform : uniform + (given - uniform) * std::exp(-job.pull / much);
+}
+
+void place(const Job& job, Eigen::Matrix2Xd& X)
+{
+    if (job.anchored)
+        return;
+    place_under_part(job.part, job.element, job.plane, X);
+    if (!job.external.held.empty())
+        place_on(job.external.held, X);
+}
+
+Sheet solved_sheet(const Job& job, const SolveReport& report)
+{
+    const bool as_given = report.trusted_strain == trusted_strain(job, Curve::given, job.options.material.hardening);
+    return sheet_with(job, as_given ? Curve::given : Curve::continued);
+}
+
+std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
+                               int vertices)
+{
+    std::string words = report.converged ? "converged" : "the virtual-work system was only solved in its relaxed form";
+    if (report.trusted_strain < wanted_strain)
+        words +=
+            fmt::format(" with the hardening curve continued from the uniform strain {:.2f} on instead of {:.2f} ({})",
+                        report.trusted_strain, wanted_strain, obstacle);
+    if (report.relaxed_vertices > 0)
+        words +=
+            fmt::format("; equilibrium is relaxed at {} of {} vertices, where the mesh does not resolve how the strain "
+                        "changes",
+                        report.relaxed_vertices, vertices);
+    return words;
+}
+
+namespace {
+
+/// Whether two blanks differ by a hundredth of their size at most. The curve as given lets the sheet soften: far from the blank of
+/// the continued one its equations may have another solution, in which strain gathers in a few rows of elements.
+bool near_each_other(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b)
+{
+    constexpr double near = 0.01;
+    return (a - b).colwise().norm().maxCoeff() <= near * (b.rowwise().maxCoeff() - b.rowwise().minCoeff()).norm();
+}
+
+EquilibriumOptions newton_of(const FlattenOptions& options)
+{
+    return {options.most_newton_steps, options.tolerance, options.watch};
+}
+
+EquilibriumOptions quick(EquilibriumOptions newton)
+{
+    newton.most_steps = std::min(20, newton.most_steps);
+    newton.patient = false;
+    return newton;
+}
+
+/// With the curve as asked for, after its own energy stage and with a sparse LU in reserve.
+/// @param obstacle why there is none
+std::optional<Eigen::Matrix2Xd> as_asked_for(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report,
+                                             std::string& obstacle, const Progress& progress)
+{
+    constexpr int few_steps = 40; // more means that strain is gathering in single elements
+    const EnergyResult energy =
+        energy_stage(job, Curve::given, X, near_enough, std::min(few_steps, job.options.most_energy_steps), report,
+                     progress.part(0, 0.3));
+    obstacle = "the energy stage did not end";
+    if (energy.ended != Ended::converged)
+        return std::nullopt;
+    std::optional<Eigen::Matrix2Xd> solved =
+        strict_equilibrium(job, energy.position, newton_of(job.options), report, progress.part(0.3, 1));
+    obstacle = fmt::format("the equations stalled at a residual of {:.1e}", report.residual);
+    return solved;
+}
+
+/// With the curve continued from the uniform strain on, equations relaxed where they have to be; at last the blank of the energy
+/// stage.
+Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const std::string& obstacle,
+                           const Progress& progress)
+{
+    const FlattenOptions& options = job.options;
+    const Sheet sheet = sheet_with(job, Curve::continued);
+    report.trusted_strain = trusted_strain(job, Curve::continued, options.material.hardening);
+    VirtualWork work(job.part, job.element, sheet, job.external);
+    EnergyResult held{std::move(X)};
+    double from = 0;
+    for (const double decrement : {near_enough, exact}) { // most often the first will do
+        held = energy_stage(job, Curve::continued, std::move(held.position), decrement, options.most_energy_steps,
+                            report, progress.part(from, from + 0.12));
+        place(job, held.position);
+        EquilibriumResult result =
+            solve_relaxed_equilibrium(job.part, job.element, work, held.position, job.matrix, job.cholesky,
+                                      newton_of(options), progress.part(from + 0.12, from + 0.5));
+        take(result, report);
+        from += 0.5;
+        if (!report.converged)
+            continue;
+        report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
+        if (report.relaxed_vertices == 0) { // from here the curve as given may be near
+            SolveReport again = report;
+            again.trusted_strain = trusted_strain(job, Curve::given, options.material.hardening);
+            const std::optional<Eigen::Matrix2Xd> solved =
+                strict_equilibrium(job, result.position, quick(newton_of(options)), again, progress.part(from, from));
+            if (solved && near_each_other(*solved, result.position)) {
+                report = std::move(again);
+                return *solved;
+            }
+            report.newton = std::move(again.newton);
+        }
+        report.converged = report.relaxed_vertices < job.part.vertices(); // else nothing is left of the system
+        report.system = !report.converged             ? SolvedSystem::energy
+                        : report.relaxed_vertices > 0 ? SolvedSystem::relaxed
+                                                      : SolvedSystem::continued;
+        report.reason = converged_in_words(report, obstacle, options.curve.trusted_strain, job.part.vertices());
+        return std::move(result.position);
+    }
+    report.reason = fmt::format(
+        "the virtual-work system was not solved (residual {:.1e} after {} steps); the blank is the one of least energy "
+        "with the thickness held{}",
+        report.residual, report.newton.size(), held.ended == Ended::converged ? "" : ", itself not fully converged");
+    return std::move(held.position);
+}
+
+} // namespace
+
+Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
+{
+    const FlattenOptions& options = job.options;
+    report.trusted_strain = trusted_strain(job, Curve::given, options.material.hardening);
+    X = energy_stage(job, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
+                     progress.part(0, 0.2))
+            .position;
+    if (job.external.travelling.size() > 0) {
+        Eigen::Matrix2Xd placed = X;
+        place(job, placed);
+        job.external.stuck = stuck_places(job.part, job.element, job.external, placed);
+    }
+    if (std::optional<Eigen::Matrix2Xd> solved =
+            strict_equilibrium(job, X, quick(newton_of(options)), report, progress.part(0.2, 0.4)))
+        return std::move(*solved);
+    X = energy_stage(job, Curve::continued, std::move(X), rough, options.most_energy_steps, report,
+                     progress.part(0.4, 0.45))
+            .position;
+    std::string obstacle;
+    if (std::optional<Eigen::Matrix2Xd> solved = as_asked_for(job, X, report, obstacle, progress.part(0.45, 0.6)))
+        return std::move(*solved);
+    return continued(job, std::move(X), report, obstacle, progress.part(0.6, 1));
+}
+
+} // namespace spia
