@@ -32,9 +32,9 @@
 #include "engine/pipeline/unfold_shortcomings.h"
 #include "engine/pipeline/unfold_states.h"
 #include "engine/unfold/map_lines.h"
-#include "engine/unfold/polish.h"
+#include "engine/unfold/step/polish.h"
+#include "engine/unfold/step/upright.h"
 #include "engine/unfold/unfold_by_itself.h"
-#include "engine/unfold/upright.h"
 
 namespace spia::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/part_file.h"
-#include "engine/unfold/bend_zones.h"
-#include "engine/unfold/free_ends.h"
+#include "engine/unfold/plan/bend_zones.h"
+#include "engine/unfold/plan/free_ends.h"
 
 namespace spia {
 namespace {

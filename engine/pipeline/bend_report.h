@@ -4,7 +4,7 @@
 
 #include "engine/core/json_file.h"
 #include "engine/part/part_file.h"
-#include "engine/unfold/bend_table.h"
+#include "engine/unfold/plan/bend_table.h"
 
 namespace spia {
 

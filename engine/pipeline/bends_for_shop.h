@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/part/part_file.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bends.h"
 
 namespace spia {
 

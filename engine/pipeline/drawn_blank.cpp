@@ -12,7 +12,7 @@
 #include "engine/pipeline/parts_of_table.h"
 #include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/stated_outline.h"
-#include "engine/unfold/free_ends.h"
+#include "engine/unfold/plan/free_ends.h"
 #include "engine/unfold/sheet_lines.h"
 
 namespace spia {

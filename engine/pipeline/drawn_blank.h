@@ -1,8 +1,8 @@
 #pragma once
 #include "engine/exchange/lines/blank_drawing.h"
 #include "engine/part/part_file.h"
-#include "engine/unfold/bend_table.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bend_table.h"
+#include "engine/unfold/plan/bends.h"
 
 namespace spia {
 

@@ -8,8 +8,8 @@
 #include "engine/core/error.h"
 #include "engine/core/file_content.h"
 #include "engine/core/text.h"
-#include "engine/unfold/relaid_blank.h"
-#include "engine/unfold/upright.h"
+#include "engine/unfold/step/relaid_blank.h"
+#include "engine/unfold/step/upright.h"
 
 namespace spia {
 namespace {

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "engine/part/part_file.h"
-#include "engine/unfold/neutral_fibre.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/plan/neutral_fibre.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

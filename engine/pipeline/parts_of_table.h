@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "engine/unfold/bend_table.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bend_table.h"
+#include "engine/unfold/plan/bends.h"
 
 namespace spia {
 

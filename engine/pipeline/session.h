@@ -20,9 +20,9 @@
 #include "engine/part/part_file.h"
 #include "engine/part/read_options.h"
 #include "engine/pipeline/corner_cut.h"
-#include "engine/unfold/bend_table.h"
-#include "engine/unfold/k_factor.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/plan/bend_table.h"
+#include "engine/unfold/plan/k_factor.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

@@ -8,8 +8,8 @@
 #include "engine/mesh/edge_uses.h"
 #include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/parts_of_table.h"
-#include "engine/unfold/free_ends.h"
-#include "engine/unfold/neutral_fibre.h"
+#include "engine/unfold/plan/free_ends.h"
+#include "engine/unfold/plan/neutral_fibre.h"
 #include "engine/unfold/sheet_lines.h"
 
 namespace spia {

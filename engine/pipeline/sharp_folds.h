@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/forming/blank.h"
 #include "engine/part/part_file.h"
-#include "engine/unfold/bend_table.h"
+#include "engine/unfold/plan/bend_table.h"
 
 namespace spia {
 

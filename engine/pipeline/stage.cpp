@@ -17,10 +17,10 @@
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/usual_tolerance.h"
-#include "engine/unfold/polish.h"
-#include "engine/unfold/relaid_blank.h"
-#include "engine/unfold/stepped_blank.h"
-#include "engine/unfold/upright.h"
+#include "engine/unfold/step/polish.h"
+#include "engine/unfold/step/relaid_blank.h"
+#include "engine/unfold/step/stepped_blank.h"
+#include "engine/unfold/step/upright.h"
 
 namespace spia {
 namespace {

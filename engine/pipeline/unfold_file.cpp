@@ -10,8 +10,8 @@
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/pipeline/file_members.h"
-#include "engine/unfold/given_face.h"
-#include "engine/unfold/pick_border.h"
+#include "engine/unfold/plan/pick_border.h"
+#include "engine/unfold/target/given_face.h"
 
 namespace spia {
 namespace {

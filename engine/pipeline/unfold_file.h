@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "engine/part/part_file.h"
-#include "engine/unfold/bend_table.h"
-#include "engine/unfold/bends.h"
-#include "engine/unfold/polish.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/plan/bend_table.h"
+#include "engine/unfold/plan/bends.h"
+#include "engine/unfold/step/polish.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

@@ -5,10 +5,10 @@
 
 #include "engine/exchange/lines/dxf_options.h"
 #include "engine/part/part_file.h"
-#include "engine/unfold/bend_table.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bend_table.h"
+#include "engine/unfold/plan/bends.h"
 #include "engine/unfold/sheet_lines.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

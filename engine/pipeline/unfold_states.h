@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/part/part_file.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/mesh/topology.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bends.h"
 
 namespace spia {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
 
-#include "engine/unfold/sequence.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/plan/sequence.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 

@@ -13,7 +13,7 @@
 #include "engine/forming/flatten.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/session.h"
-#include "engine/unfold/unfold_step.h"
+#include "engine/unfold/step/unfold_step.h"
 #include "tests/support/developable.h"
 #include "tests/support/inner_panel.h"
 #include "tests/support/revolved.h"

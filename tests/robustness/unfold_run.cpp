@@ -11,7 +11,7 @@
 #include "engine/compare/abf.h"
 #include "engine/compare/arap.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 
 namespace spia {
 namespace {

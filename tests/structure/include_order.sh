@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A module includes only what stands before it in this list; heavy third-party headers stay where they belong.
+# A module includes only what stands before it in this list, a room of it likewise; heavy third-party headers stay where they belong.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 order=(core mesh remesh sparse forming compare limits unfold coons nurbs layout deform part exchange picture pipeline)
@@ -17,6 +17,20 @@ for module in "${order[@]}"; do
         complain "against the order ($module may include only: ${allowed[*]}): $line"
     done < <(grep -rnE '#include "(engine|app|tests)/' "engine/$module" | grep -vE "#include \"engine/($pattern)/")
 done
+# So do the rooms within a module.
+rooms() {
+    local module=$1 before=""
+    shift
+    for room in "$@"; do
+        before+="${before:+|}$room"
+        while IFS= read -r line; do
+            complain "against the order of the rooms ($module/$room may include only: $before): $line"
+        done < <(grep -rnE "#include \"engine/$module/[a-z]+/" "engine/$module/$room" |
+            grep -vE "#include \"engine/$module/($before)/")
+    done
+}
+rooms forming material process solver
+rooms unfold target plan step
 while IFS= read -r line; do
     complain "only engine/exchange/cad and the lines as STEP and IGES know the CAD kernel: $line"
 done < <(grep -rnE '#include <(Standard_|Geom_|TopoDS|BRep|IGES|STEP|Interface_|Message_|XSControl)' engine app |

@@ -1,5 +1,5 @@
 // Local unfolding against closed forms and an independent solution along the meridian.
-#include "engine/unfold/unfold_step.h"
+#include "engine/unfold/step/unfold_step.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 #include "app/viewer/model/names.h"
 #include "engine/core/error.h"
 #include "engine/mesh/vectors.h"
-#include "engine/unfold/fit_binder.h"
+#include "engine/unfold/target/fit_binder.h"
 
 namespace spia::viewer {
 namespace {

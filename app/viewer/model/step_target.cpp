@@ -8,9 +8,9 @@
 
 #include "app/viewer/model/unfolding_steps.h"
 #include "engine/core/error.h"
-#include "engine/unfold/fit_binder.h"
-#include "engine/unfold/given_face.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
+#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/given_face.h"
 
 namespace spia::viewer {
 namespace {

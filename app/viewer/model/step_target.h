@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/mesh/tri_mesh.h"
-#include "engine/unfold/sequence.h"
+#include "engine/unfold/plan/sequence.h"
 
 /// The face onto which a step lays, as users give it: by numbers, as in the script of steps (engine/pipeline/README.md).
 namespace spia::viewer {

@@ -10,7 +10,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/part/part_file.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 
 /// Unfolding step by step: the list that the user edits, and what its last run gave.
 namespace spia::viewer {

@@ -14,7 +14,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/session.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/lots.h"
 #include "tests/support/mesh_file.h"

@@ -11,7 +11,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/session.h"
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/lots.h"
 #include "tests/unit/exchange/scratch_folder.h"

@@ -11,7 +11,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/unfold/sequence.h"
+#include "engine/unfold/plan/sequence.h"
 #include "tests/support/bent_parts.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

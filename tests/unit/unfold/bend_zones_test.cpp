@@ -1,4 +1,4 @@
-#include "engine/unfold/bend_zones.h"
+#include "engine/unfold/plan/bend_zones.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/unfold/bends.h"
+#include "engine/unfold/plan/bends.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/turns.h"
+#include "engine/unfold/plan/turns.h"
 #include "tests/support/bent_family.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"

@@ -1,4 +1,4 @@
-#include "engine/unfold/fit_binder.h"
+#include "engine/unfold/target/fit_binder.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "engine/unfold/hinge_quality.h"
+#include "engine/unfold/step/hinge_quality.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/developable.h"
 

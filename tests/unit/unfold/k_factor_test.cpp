@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
-#include "engine/unfold/k_factor.h"
+#include "engine/unfold/plan/k_factor.h"
 #include "tests/support/lots.h"
 
 namespace spia {

@@ -1,11 +1,11 @@
-#include "engine/unfold/landed_overlap.h"
+#include "engine/unfold/step/landed_overlap.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>
 
 #include "engine/forming/material/material_library.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"

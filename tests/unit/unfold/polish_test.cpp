@@ -1,4 +1,4 @@
-#include "engine/unfold/polish.h"
+#include "engine/unfold/step/polish.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

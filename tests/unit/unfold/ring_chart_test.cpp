@@ -1,5 +1,5 @@
 // Rings of sheet that go all the way around a cylinder or a cone.
-#include "engine/unfold/ring_chart.h"
+#include "engine/unfold/step/ring_chart.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/cut.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 

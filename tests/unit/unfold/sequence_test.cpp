@@ -1,4 +1,4 @@
-#include "engine/unfold/sequence.h"
+#include "engine/unfold/plan/sequence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/unfold/fit_binder.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
+#include "engine/unfold/target/fit_binder.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"

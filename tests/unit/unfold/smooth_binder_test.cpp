@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/unfold/fit_height.h"
-#include "engine/unfold/turn_binder.h"
-#include "engine/unfold/unfold_step.h"
+#include "engine/unfold/step/unfold_step.h"
+#include "engine/unfold/target/fit_height.h"
+#include "engine/unfold/target/turn_binder.h"
 #include "tests/support/developable.h"
 #include "tests/support/fender.h"
 #include "tests/support/grid_surface.h"

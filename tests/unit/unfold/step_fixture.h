@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/unfold/unfold_step.h"
+#include "engine/unfold/step/unfold_step.h"
 
 namespace spia::steps {
 

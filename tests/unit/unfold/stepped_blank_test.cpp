@@ -1,4 +1,4 @@
-#include "engine/unfold/stepped_blank.h"
+#include "engine/unfold/step/stepped_blank.h"
 
 #include <Eigen/Geometry>
 #include <functional>

@@ -1,5 +1,5 @@
 // Friction between the freed faces and the target of a step.
-#include "engine/unfold/target_friction.h"
+#include "engine/unfold/step/target_friction.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"

@@ -1,4 +1,4 @@
-#include "engine/unfold/target_reach.h"
+#include "engine/unfold/target/target_reach.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 #include "tests/support/developable.h"
 
 namespace spia {

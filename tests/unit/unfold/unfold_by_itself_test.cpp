@@ -9,7 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/region.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/carriers.h"
+#include "engine/unfold/plan/carriers.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/fender.h"
 #include "tests/support/grid_surface.h"

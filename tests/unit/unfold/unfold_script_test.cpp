@@ -1,4 +1,4 @@
-#include "engine/unfold/unfold_script.h"
+#include "engine/unfold/step/unfold_script.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

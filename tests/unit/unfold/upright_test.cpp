@@ -1,4 +1,4 @@
-#include "engine/unfold/upright.h"
+#include "engine/unfold/step/upright.h"
 
 #include <gtest/gtest.h>
 
