@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/face_values.h"
-#include "app/viewer/model/lengths.h"
+#include "app/viewer/model/reports/face_values.h"
+#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/render/gif_file.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/views/colour_scale.h"

@@ -1,6 +1,6 @@
 #pragma once
-#include "app/viewer/model/actions.h"
-#include "app/viewer/model/html_report.h"
+#include "app/viewer/model/actions/actions.h"
+#include "app/viewer/model/reports/html_report.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/render/renderer.h"
 

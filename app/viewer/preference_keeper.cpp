@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/viewer/model/grades.h"
+#include "app/viewer/model/document/grades.h"
 
 namespace spia::viewer {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/jobs/viewer_model.h"
 
 namespace spia::viewer {
 

@@ -12,12 +12,12 @@
 #include <imgui_impl_opengl3.h>
 
 #include "app/viewer/gl_window.h"
-#include "app/viewer/model/frame_times.h"
-#include "app/viewer/model/kept_work.h"
-#include "app/viewer/model/members.h"
-#include "app/viewer/model/recent_files.h"
-#include "app/viewer/model/script_player.h"
-#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/actions/members.h"
+#include "app/viewer/model/actions/script_player.h"
+#include "app/viewer/model/document/recent_files.h"
+#include "app/viewer/model/jobs/frame_times.h"
+#include "app/viewer/model/jobs/kept_work.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/preference_keeper.h"

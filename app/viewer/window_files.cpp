@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include "app/viewer/gl_window.h"
-#include "app/viewer/model/html_report.h"
-#include "app/viewer/model/lights.h"
+#include "app/viewer/model/reports/html_report.h"
+#include "app/viewer/model/reports/lights.h"
 #include "app/viewer/pictures.h"
 #include "app/viewer/render/picture_file.h"
 #include "engine/core/error.h"

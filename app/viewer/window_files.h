@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/viewer/animation.h"
-#include "app/viewer/model/file_writer.h"
+#include "app/viewer/model/jobs/file_writer.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/render/renderer.h"
 

@@ -8,11 +8,11 @@ cd "$(dirname "$0")/../.."
 declare -A name_of
 while read -r type name; do
     name_of[$type]=$name
-done < <(tr -d '\n' <app/viewer/model/script.cpp |
+done < <(tr -d '\n' <app/viewer/model/actions/script.cpp |
     grep -oE 'form<[A-Za-z]+>\(\s*"[a-z_]+"|form_of_inner\(\s*"[a-z_]+",\s*&[A-Za-z]+' |
     sed -E 's/form<([A-Za-z]+)>\(\s*"([a-z_]+)"/\1 \2/; s/form_of_inner\(\s*"([a-z_]+)",\s*&([A-Za-z]+)/\2 \1/')
 [ ${#name_of[@]} -ge 50 ] || {
-    echo "only ${#name_of[@]} actions were found in app/viewer/model/script.cpp"
+    echo "only ${#name_of[@]} actions were found in app/viewer/model/actions/script.cpp"
     exit 1
 }
 pushed=$(cat "$lists"/*.txt 2>/dev/null | sort -u)

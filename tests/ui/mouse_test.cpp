@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "app/viewer/model/camera.h"
-#include "app/viewer/model/script.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/picking/camera.h"
 #include "tests/ui/viewer_process.h"
 
 namespace spia::viewer {

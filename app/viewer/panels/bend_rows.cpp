@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <numbers>
 
-#include "app/viewer/model/k_choice.h"
-#include "app/viewer/model/lengths.h"
+#include "app/viewer/model/document/k_choice.h"
+#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/pipeline/bend_report.h"
 

@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "app/viewer/model/crack_verdict.h"
-#include "app/viewer/model/face_values.h"
-#include "app/viewer/model/figures.h"
-#include "app/viewer/model/point_cloud.h"
-#include "app/viewer/model/section.h"
-#include "app/viewer/model/statistics.h"
+#include "app/viewer/model/picking/section.h"
+#include "app/viewer/model/reports/crack_verdict.h"
+#include "app/viewer/model/reports/face_values.h"
+#include "app/viewer/model/reports/figures.h"
+#include "app/viewer/model/reports/point_cloud.h"
+#include "app/viewer/model/reports/statistics.h"
 #include "app/viewer/views/scene_cache.h"
 
 namespace spia::viewer {

@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/viewer/model/comparison.h"
+#include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/views/scene_cache.h"
 
 namespace spia::viewer {

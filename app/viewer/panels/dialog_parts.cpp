@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <imgui_internal.h> // CloseButton
 
-#include "app/viewer/model/suggested_files.h"
+#include "app/viewer/model/document/suggested_files.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"

@@ -49,7 +49,7 @@ enum class Answer { none, yes, cancel };
 float answer_buttons_height(const Frame& frame); ///< pixels
 Answer answer_buttons(const Frame& frame, const char* yes, bool enabled, const ImVec4& colour);
 
-/// A file in the folder where the user works, see model/suggested_files.h.
+/// A file in the folder where the user works, see model/document/suggested_files.h.
 std::filesystem::path suggested_file(const Frame& frame, const std::string& ending);
 
 /// Open the file dialog where the user works.

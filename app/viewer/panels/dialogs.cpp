@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/project_file.h"
+#include "app/viewer/model/document/project_file.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/text_input.h"

@@ -2,9 +2,9 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "app/viewer/model/lengths.h"
-#include "app/viewer/model/lights.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/reports/lengths.h"
+#include "app/viewer/model/reports/lights.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/document.h"
+#include "app/viewer/model/document/document.h"
 
 namespace spia::viewer {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <fmt/core.h>
 
-#include "app/viewer/model/names.h"
+#include "app/viewer/model/actions/names.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/lights.h"
 #include "app/viewer/panels/text_input.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/export_check.h"
-#include "app/viewer/model/lights.h"
+#include "app/viewer/model/reports/export_check.h"
+#include "app/viewer/model/reports/lights.h"
 #include "app/viewer/views/scene_cache.h"
 #include "engine/pipeline/outputs.h"
 

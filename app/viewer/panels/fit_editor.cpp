@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/export_check.h"
-#include "app/viewer/model/fit_cost.h"
-#include "app/viewer/model/lights.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/reports/export_check.h"
+#include "app/viewer/model/reports/fit_cost.h"
+#include "app/viewer/model/reports/lights.h"
+#include "app/viewer/model/reports/viewer_words.h"
 
 namespace spia::viewer {
 

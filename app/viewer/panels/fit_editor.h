@@ -1,5 +1,5 @@
 #pragma once
-#include "app/viewer/model/fit_choice.h"
+#include "app/viewer/model/document/fit_choice.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {

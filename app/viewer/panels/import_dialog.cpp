@@ -7,9 +7,9 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "app/viewer/model/members.h"
-#include "app/viewer/model/picking.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/actions/members.h"
+#include "app/viewer/model/picking/picking.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/view_tools.h"

@@ -6,10 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include "app/viewer/model/camera.h"
-#include "app/viewer/model/file_listing.h"
-#include "app/viewer/model/mouse_style.h"
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/file_listing.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/picking/camera.h"
+#include "app/viewer/model/picking/mouse_style.h"
 #include "app/viewer/views/import_scene.h"
 #include "app/viewer/views/scene_cache.h"
 #include "engine/core/worker.h"

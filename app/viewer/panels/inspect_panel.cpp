@@ -2,12 +2,12 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/comparison.h"
-#include "app/viewer/model/cut_order.h"
-#include "app/viewer/model/measuring.h"
-#include "app/viewer/model/number_text.h"
-#include "app/viewer/model/statistics.h"
-#include "app/viewer/model/vertex_picking.h"
+#include "app/viewer/model/actions/cut_order.h"
+#include "app/viewer/model/picking/measuring.h"
+#include "app/viewer/model/picking/vertex_picking.h"
+#include "app/viewer/model/reports/comparison.h"
+#include "app/viewer/model/reports/number_text.h"
+#include "app/viewer/model/reports/statistics.h"
 #include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"

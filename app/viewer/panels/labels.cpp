@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "app/viewer/model/picking.h"
+#include "app/viewer/model/picking/picking.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/viewer/model/camera.h"
-#include "app/viewer/model/scene.h"
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/document/state.h"
+#include "app/viewer/model/picking/camera.h"
 #include "app/viewer/views/isolines.h"
 #include "app/viewer/views/label_layout.h"
 #include "engine/mesh/pick.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/remedies.h"
+#include "app/viewer/model/actions/remedies.h"
 
 namespace spia::viewer {
 namespace {

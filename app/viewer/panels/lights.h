@@ -1,5 +1,5 @@
 #pragma once
-#include "app/viewer/model/lights.h"
+#include "app/viewer/model/reports/lights.h"
 #include "app/viewer/panels/widgets.h"
 
 /// Lights and what stands behind them.

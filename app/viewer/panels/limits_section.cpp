@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/face_values.h"
-#include "app/viewer/model/number_text.h"
-#include "app/viewer/model/viewer_words.h"
-#include "app/viewer/model/zone_look.h"
+#include "app/viewer/model/reports/face_values.h"
+#include "app/viewer/model/reports/number_text.h"
+#include "app/viewer/model/reports/viewer_words.h"
+#include "app/viewer/model/reports/zone_look.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "app/viewer/model/manual.h"
+#include "app/viewer/model/reports/manual.h"
 
 namespace spia::viewer {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/suggested_files.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/document/suggested_files.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/stress_plot.h"
 #include "app/viewer/panels/text_input.h"

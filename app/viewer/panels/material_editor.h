@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/grades.h"
+#include "app/viewer/model/document/grades.h"
 #include "app/viewer/views/scene_cache.h"
 
 namespace spia::viewer {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "app/viewer/model/grades.h"
+#include "app/viewer/model/document/grades.h"
 
 namespace spia::viewer {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/first_steps.h"
-#include "app/viewer/model/shown_lengths.h"
+#include "app/viewer/model/reports/first_steps.h"
+#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/state.h"
 
 namespace spia::viewer {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/grades.h"
-#include "app/viewer/model/json_members.h"
-#include "app/viewer/model/lengths.h"
+#include "app/viewer/model/actions/json_members.h"
+#include "app/viewer/model/document/grades.h"
+#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 

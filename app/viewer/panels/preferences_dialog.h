@@ -1,5 +1,5 @@
 #pragma once
-#include "app/viewer/model/preferences.h"
+#include "app/viewer/model/document/preferences.h"
 
 namespace spia::viewer {
 

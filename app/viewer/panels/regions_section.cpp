@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/grades.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/document/grades.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 #include "app/viewer/panels/widgets.h"

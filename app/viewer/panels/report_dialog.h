@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "app/viewer/model/report_options.h"
+#include "app/viewer/model/reports/report_options.h"
 
 namespace spia::viewer {
 

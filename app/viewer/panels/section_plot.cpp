@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/comparison.h"
+#include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/step_parts.h"
 
 namespace spia::viewer {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/grades.h"
-#include "app/viewer/model/number_text.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/document/grades.h"
+#include "app/viewer/model/reports/number_text.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/bend_rows.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/fit_editor.h"

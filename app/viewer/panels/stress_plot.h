@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/grades.h"
+#include "app/viewer/model/document/grades.h"
 
 namespace spia::viewer {
 

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <imgui.h>
 
-#include "app/viewer/model/measuring.h"
+#include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/panels/tool_icons.h"
 #include "app/viewer/panels/tool_table.h"
 #include "app/viewer/panels/widgets.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <imgui.h>
 
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/state.h"
 
 namespace spia::viewer {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/actions.h"
-#include "app/viewer/model/lengths.h"
-#include "app/viewer/model/view_cube.h"
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/actions/actions.h"
+#include "app/viewer/model/jobs/viewer_model.h"
+#include "app/viewer/model/picking/view_cube.h"
+#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/panels/animation_dialog.h"
 #include "app/viewer/panels/charts.h"
 #include "app/viewer/panels/comparison_section.h"

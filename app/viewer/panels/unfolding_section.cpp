@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/chain.h"
+#include "app/viewer/model/document/chain.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/step_parts.h"
 

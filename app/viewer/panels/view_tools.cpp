@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/viewer/model/handles.h"
-#include "app/viewer/model/measuring.h"
+#include "app/viewer/model/picking/handles.h"
+#include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace spia::viewer {

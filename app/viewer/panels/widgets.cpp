@@ -7,9 +7,9 @@
 #include <cmath>
 #include <imgui_internal.h> // ClearActiveID, NavRectRel
 
-#include "app/viewer/model/shown_lengths.h"
-#include "app/viewer/model/viewer_words.h"
-#include "app/viewer/model/wrapped_text.h"
+#include "app/viewer/model/reports/shown_lengths.h"
+#include "app/viewer/model/reports/viewer_words.h"
+#include "app/viewer/model/reports/wrapped_text.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
 

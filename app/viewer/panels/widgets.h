@@ -21,7 +21,7 @@ void step_heading(const Frame& frame, int number, const char* title, Status stat
 /// @param height  pixels; negative: what it leaves below
 void begin_scrolled(const Frame& frame, const char* name, float height);
 
-/// A text in lines of this width (pixels), broken at spaces only; see model/wrapped_text.h.
+/// A text in lines of this width (pixels), broken at spaces only; see model/reports/wrapped_text.h.
 std::string broken(const std::string& text, float room);
 /// A text as wide as there is room; the one way in which texts wrap.
 void wrapped(const std::string& text);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/comparison.h"
+#include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/gui_frame.h"
 #include "app/viewer/panels/lights.h"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 
 namespace spia::viewer {
 

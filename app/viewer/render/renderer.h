@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "app/viewer/model/camera.h"
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/picking/camera.h"
 
 namespace spia::viewer {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 
 namespace spia::viewer {
 

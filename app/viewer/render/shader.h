@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 #include "app/viewer/render/gl_objects.h"
 
 namespace spia::viewer {

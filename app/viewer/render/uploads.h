@@ -4,7 +4,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 #include "app/viewer/render/gl_objects.h"
 
 namespace spia::viewer {

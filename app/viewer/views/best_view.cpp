@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "app/viewer/model/camera.h"
+#include "app/viewer/model/picking/camera.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "app/viewer/model/comparison.h"
+#include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/views/grid_shapes.h"
 #include "app/viewer/views/measurements.h"
 #include "app/viewer/views/palette.h"

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/viewer/model/document.h"
-#include "app/viewer/model/lengths.h"
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/document.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/reports/lengths.h"
 
 namespace spia::viewer {
 

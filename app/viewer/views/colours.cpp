@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/viewer/model/zone_look.h"
+#include "app/viewer/model/reports/zone_look.h"
 #include "engine/core/colour_map.h"
 
 namespace spia::viewer {

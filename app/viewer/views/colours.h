@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 
 namespace spia::viewer {
 

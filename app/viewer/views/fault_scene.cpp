@@ -1,7 +1,7 @@
 #include "app/viewer/views/fault_scene.h"
 
-#include "app/viewer/model/lengths.h"
-#include "app/viewer/model/shown_lengths.h"
+#include "app/viewer/model/reports/lengths.h"
+#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 

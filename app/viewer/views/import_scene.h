@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/viewer/model/camera.h"
-#include "app/viewer/model/file_listing.h"
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/file_listing.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/picking/camera.h"
 
 namespace spia::viewer {
 

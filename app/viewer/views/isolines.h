@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/camera.h"
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/picking/camera.h"
 #include "app/viewer/views/label_layout.h"
 
 namespace spia::viewer {

@@ -2,7 +2,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 
 /// Where texts stand in a view, so that they do not cover each other. All in pixels, from its upper left corner.
 namespace spia::viewer {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"

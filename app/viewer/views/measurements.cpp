@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/viewer/model/measuring.h"
+#include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 

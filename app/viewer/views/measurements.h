@@ -1,6 +1,6 @@
 #pragma once
-#include "app/viewer/model/scene.h"
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/document/state.h"
 #include "app/viewer/views/scene_cache.h"
 
 namespace spia::viewer {

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 
 /// The colours of what is drawn on and around the sheet. Those of the sheet itself are in scene.h and colours.h.
 namespace spia::viewer::palette {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/lengths.h"
+#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
 

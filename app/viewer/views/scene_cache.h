@@ -6,10 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include "app/viewer/model/face_values.h"
-#include "app/viewer/model/figures.h"
-#include "app/viewer/model/scene.h"
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/scene.h"
+#include "app/viewer/model/document/state.h"
+#include "app/viewer/model/reports/face_values.h"
+#include "app/viewer/model/reports/figures.h"
 #include "engine/mesh/closest_point.h"
 
 namespace spia::viewer {

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "app/viewer/model/scene.h"
+#include "app/viewer/model/document/scene.h"
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia::viewer {

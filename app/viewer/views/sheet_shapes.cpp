@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/viewer/model/comparison.h"
+#include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/isolines.h"
 #include "app/viewer/views/marking.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/viewer/model/step_target.h"
+#include "app/viewer/model/document/step_target.h"
 #include "app/viewer/views/best_view.h"
 #include "app/viewer/views/fault_scene.h"
 #include "app/viewer/views/isolines.h"

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "app/viewer/model/handles.h"
-#include "app/viewer/model/lights.h"
+#include "app/viewer/model/picking/handles.h"
+#include "app/viewer/model/reports/lights.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/measurements.h"
 #include "app/viewer/views/palette.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/state.h"
 #include "app/viewer/views/scene_cache.h"
 #include "engine/deform/lattice.h"
 #include "engine/mesh/tri_mesh.h"

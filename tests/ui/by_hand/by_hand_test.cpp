@@ -7,7 +7,7 @@
 #include <numbers>
 #include <thread>
 
-#include "app/viewer/model/script.h"
+#include "app/viewer/model/actions/script.h"
 #include "engine/exchange/cad/write_step.h"
 #include "tests/support/known_surfaces.h"
 #include "tests/ui/by_hand/drop_source.h"

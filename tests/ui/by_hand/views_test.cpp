@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "app/viewer/model/script.h"
+#include "app/viewer/model/actions/script.h"
 #include "tests/ui/by_hand/hands.h"
 
 namespace spia::viewer {

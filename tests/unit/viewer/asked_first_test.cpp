@@ -3,8 +3,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/fit_choice.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/fit_choice.h"
 #include "tests/unit/viewer/model_fixture.h"
 
 namespace spia::viewer {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/camera.h"
+#include "app/viewer/model/picking/camera.h"
 #include "tests/support/bent_parts.h"
 
 namespace spia::viewer {

@@ -1,4 +1,4 @@
-#include "app/viewer/model/camera.h"
+#include "app/viewer/model/picking/camera.h"
 
 #include <gtest/gtest.h>
 #include <random>

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "app/viewer/model/fit_cost.h"
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/jobs/viewer_model.h"
+#include "app/viewer/model/reports/fit_cost.h"
 #include "tests/support/inner_panel.h"
 #include "tests/support/mesh_file.h"
 

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/clear_sight.h"
+#include "app/viewer/model/picking/clear_sight.h"
 #include "engine/mesh/pick.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"

@@ -1,12 +1,12 @@
-#include "app/viewer/model/clip_plane.h"
+#include "app/viewer/model/picking/clip_plane.h"
 
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
 
-#include "app/viewer/model/picking.h"
-#include "app/viewer/model/vertex_picking.h"
+#include "app/viewer/model/picking/picking.h"
+#include "app/viewer/model/picking/vertex_picking.h"
 #include "app/viewer/views/views.h"
 #include "engine/core/json_file.h"
 #include "tests/support/shapes.h"

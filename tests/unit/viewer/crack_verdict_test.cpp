@@ -1,4 +1,4 @@
-#include "app/viewer/model/crack_verdict.h"
+#include "app/viewer/model/reports/crack_verdict.h"
 
 #include <cmath>
 #include <gmock/gmock.h>

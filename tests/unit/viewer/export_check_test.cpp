@@ -1,9 +1,9 @@
-#include "app/viewer/model/export_check.h"
+#include "app/viewer/model/reports/export_check.h"
 
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/lights.h"
-#include "app/viewer/model/state.h"
+#include "app/viewer/model/document/state.h"
+#include "app/viewer/model/reports/lights.h"
 #include "engine/nurbs/interpolate.h"
 
 using testing::HasSubstr;

@@ -1,9 +1,9 @@
-#include "app/viewer/model/face_values.h"
+#include "app/viewer/model/reports/face_values.h"
 
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/figures.h"
-#include "app/viewer/model/number_text.h"
+#include "app/viewer/model/reports/figures.h"
+#include "app/viewer/model/reports/number_text.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/views.h"
 #include "tests/support/shapes.h"

@@ -1,4 +1,4 @@
-#include "app/viewer/model/field.h"
+#include "app/viewer/model/document/field.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/viewer/model/figures.h"
+#include "app/viewer/model/reports/figures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // Looking into a file before it is opened.
-#include "app/viewer/model/file_listing.h"
+#include "app/viewer/model/document/file_listing.h"
 
 #include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <tuple>
 
-#include "app/viewer/model/project_file.h"
-#include "app/viewer/model/script.h"
-#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/document/project_file.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "app/viewer/views/import_scene.h"
 #include "engine/core/error.h"
 #include "tests/unit/exchange/sample_decks.h"

@@ -1,4 +1,4 @@
-#include "app/viewer/model/file_writer.h"
+#include "app/viewer/model/jobs/file_writer.h"
 
 #include <gtest/gtest.h>
 #include <stdexcept>

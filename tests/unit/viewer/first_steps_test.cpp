@@ -1,4 +1,4 @@
-#include "app/viewer/model/first_steps.h"
+#include "app/viewer/model/reports/first_steps.h"
 
 #include <gtest/gtest.h>
 

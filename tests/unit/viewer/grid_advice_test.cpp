@@ -1,4 +1,4 @@
-#include "app/viewer/model/grid_advice.h"
+#include "app/viewer/model/reports/grid_advice.h"
 
 #include <cmath>
 #include <fmt/core.h>

@@ -1,10 +1,10 @@
-#include "app/viewer/model/html_report.h"
+#include "app/viewer/model/reports/html_report.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/statistics.h"
-#include "app/viewer/model/svg_chart.h"
+#include "app/viewer/model/reports/statistics.h"
+#include "app/viewer/model/reports/svg_chart.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
 #include "tests/unit/exchange/scratch_folder.h"

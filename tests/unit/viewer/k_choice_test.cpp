@@ -5,9 +5,9 @@
 #include <numbers>
 #include <random>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/k_choice.h"
-#include "app/viewer/model/project_file.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/k_choice.h"
+#include "app/viewer/model/document/project_file.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"

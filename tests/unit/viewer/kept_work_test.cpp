@@ -1,4 +1,4 @@
-#include "app/viewer/model/kept_work.h"
+#include "app/viewer/model/jobs/kept_work.h"
 
 #include <chrono>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/jobs/viewer_model.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"
 #include "tests/unit/exchange/scratch_folder.h"

@@ -1,9 +1,9 @@
-#include "app/viewer/model/lengths.h"
+#include "app/viewer/model/reports/lengths.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/shown_lengths.h"
+#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/views/colour_scale.h"
 
 namespace spia::viewer {

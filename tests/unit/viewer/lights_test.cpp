@@ -1,9 +1,9 @@
-#include "app/viewer/model/lights.h"
+#include "app/viewer/model/reports/lights.h"
 
 #include <fstream>
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/remedies.h"
+#include "app/viewer/model/actions/remedies.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"

@@ -1,4 +1,4 @@
-#include "app/viewer/model/manual.h"
+#include "app/viewer/model/reports/manual.h"
 
 #include <algorithm>
 #include <fstream>
@@ -75,7 +75,7 @@ std::set<std::string> literals()
     std::set<std::string> all;
     const std::regex literal(R"lit("((?:[^"\\\n]|\\.)*)")lit");
     for (const char* folder : {"panels", "model", "views"})
-        for (const auto& entry : fs::directory_iterator(fs::path(SPIA_SOURCE_DIR) / "app/viewer" / folder)) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPIA_SOURCE_DIR) / "app/viewer" / folder)) {
             std::ostringstream text;
             text << std::ifstream(entry.path()).rdbuf();
             const std::string source = text.str();

@@ -1,4 +1,4 @@
-#include "app/viewer/model/measuring.h"
+#include "app/viewer/model/picking/measuring.h"
 
 #include <algorithm>
 #include <cmath>

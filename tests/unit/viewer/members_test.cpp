@@ -1,4 +1,4 @@
-#include "app/viewer/model/members.h"
+#include "app/viewer/model/actions/members.h"
 
 #include <gtest/gtest.h>
 #include <tuple>

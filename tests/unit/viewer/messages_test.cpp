@@ -1,4 +1,4 @@
-#include "app/viewer/model/message.h"
+#include "app/viewer/model/document/message.h"
 
 #include <fstream>
 #include <gmock/gmock.h>

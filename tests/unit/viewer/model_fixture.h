@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/jobs/viewer_model.h"
 
 namespace spia::viewer {
 

@@ -1,4 +1,4 @@
-#include "app/viewer/model/mouse_style.h"
+#include "app/viewer/model/picking/mouse_style.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "app/viewer/model/names.h"
+#include "app/viewer/model/actions/names.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/cut_order.h"
-#include "app/viewer/model/project_file.h"
+#include "app/viewer/model/actions/cut_order.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/project_file.h"
 #include "app/viewer/views/views.h"
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"

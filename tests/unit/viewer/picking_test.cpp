@@ -1,9 +1,9 @@
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/jobs/viewer_model.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/names.h"
+#include "app/viewer/model/actions/names.h"
 #include "app/viewer/views/views.h"
 #include "tests/unit/viewer/model_fixture.h"
 

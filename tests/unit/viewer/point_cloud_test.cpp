@@ -1,4 +1,4 @@
-#include "app/viewer/model/point_cloud.h"
+#include "app/viewer/model/reports/point_cloud.h"
 
 #include <gtest/gtest.h>
 #include <random>

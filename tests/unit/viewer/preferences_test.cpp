@@ -1,12 +1,12 @@
-#include "app/viewer/model/preferences.h"
+#include "app/viewer/model/document/preferences.h"
 
 #include <fstream>
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/lights.h"
-#include "app/viewer/model/recent_files.h"
-#include "app/viewer/model/script.h"
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/document/recent_files.h"
+#include "app/viewer/model/jobs/viewer_model.h"
+#include "app/viewer/model/reports/lights.h"
 #include "engine/core/error.h"
 #include "tests/unit/viewer/model_fixture.h"
 #include "tests/unit/viewer/own_home.h"

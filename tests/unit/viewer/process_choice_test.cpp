@@ -1,11 +1,11 @@
-#include "app/viewer/model/process_choice.h"
+#include "app/viewer/model/document/process_choice.h"
 
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/viewer_model.h"
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/jobs/viewer_model.h"
+#include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/views/process_lines.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"

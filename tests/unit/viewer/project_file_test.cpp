@@ -1,12 +1,12 @@
-#include "app/viewer/model/project_file.h"
+#include "app/viewer/model/document/project_file.h"
 
 #include <algorithm>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <random>
 
-#include "app/viewer/model/script.h"
-#include "app/viewer/model/vertex_picking.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/picking/vertex_picking.h"
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <stdexcept>
 
-#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/shape_family.h"
 #include "tests/unit/viewer/steps_fixture.h"

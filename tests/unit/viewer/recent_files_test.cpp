@@ -1,12 +1,12 @@
-#include "app/viewer/model/recent_files.h"
+#include "app/viewer/model/document/recent_files.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "app/viewer/model/project_file.h"
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/document/project_file.h"
+#include "app/viewer/model/jobs/viewer_model.h"
 #include "engine/core/error.h"
 #include "tests/unit/viewer/own_home.h"
 #include "tests/unit/viewer/viewer_samples.h"

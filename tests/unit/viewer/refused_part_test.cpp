@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "app/viewer/model/members.h"
-#include "app/viewer/model/state_report.h"
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/actions/members.h"
+#include "app/viewer/model/jobs/viewer_model.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "app/viewer/views/views.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"

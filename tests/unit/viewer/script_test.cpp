@@ -1,4 +1,4 @@
-#include "app/viewer/model/script.h"
+#include "app/viewer/model/actions/script.h"
 
 #include <fmt/core.h>
 #include <functional>

@@ -1,8 +1,8 @@
-#include "app/viewer/model/section.h"
+#include "app/viewer/model/picking/section.h"
 
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/statistics.h"
+#include "app/viewer/model/reports/statistics.h"
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/handles.h"
-#include "app/viewer/model/project_file.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/project_file.h"
+#include "app/viewer/model/picking/handles.h"
 #include "app/viewer/views/views.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/viewer/model_fixture.h"

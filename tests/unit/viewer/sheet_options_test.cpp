@@ -3,8 +3,8 @@
 #include <fstream>
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/project_file.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/project_file.h"
 #include "engine/forming/material/material_library.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/mesh_file.h"

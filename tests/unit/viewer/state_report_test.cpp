@@ -1,8 +1,8 @@
-#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/reports/state_report.h"
 
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/script.h"
+#include "app/viewer/model/actions/script.h"
 #include "tests/unit/viewer/viewer_samples.h"
 
 namespace spia::viewer {

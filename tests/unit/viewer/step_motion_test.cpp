@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "app/viewer/model/step_motion.h"
+#include "app/viewer/model/document/step_motion.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,13 +1,13 @@
 // Targets of one's own for steps.
-#include "app/viewer/model/step_target.h"
+#include "app/viewer/model/document/step_target.h"
 
 #include <cmath>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/script.h"
-#include "app/viewer/model/state_report.h"
-#include "app/viewer/model/stored_picks.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/document/stored_picks.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "engine/mesh/region.h"
 #include "tests/unit/viewer/steps_fixture.h"
 

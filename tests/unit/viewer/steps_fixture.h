@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/unfolding_steps.h"
+#include "app/viewer/model/document/unfolding_steps.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"
 #include "tests/unit/exchange/scratch_folder.h"

@@ -1,8 +1,8 @@
 // The actions on steps as scripts say them, and what the report tells of steps.
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/script.h"
-#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "tests/unit/viewer/steps_fixture.h"
 
 namespace spia::viewer {

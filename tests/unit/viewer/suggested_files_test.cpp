@@ -1,4 +1,4 @@
-#include "app/viewer/model/suggested_files.h"
+#include "app/viewer/model/document/suggested_files.h"
 
 #include "tests/unit/exchange/scratch_folder.h"
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/chain.h"
-#include "app/viewer/model/html_report.h"
-#include "app/viewer/model/script.h"
-#include "app/viewer/model/state_report.h"
+#include "app/viewer/model/actions/script.h"
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/reports/html_report.h"
+#include "app/viewer/model/reports/state_report.h"
 #include "tests/unit/viewer/steps_fixture.h"
 
 namespace spia::viewer {

@@ -1,4 +1,4 @@
-#include "app/viewer/model/vertex_picking.h"
+#include "app/viewer/model/picking/vertex_picking.h"
 
 #include <chrono>
 #include <gtest/gtest.h>

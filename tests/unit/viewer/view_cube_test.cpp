@@ -1,4 +1,4 @@
-#include "app/viewer/model/view_cube.h"
+#include "app/viewer/model/picking/view_cube.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "app/viewer/model/viewer_model.h"
+#include "app/viewer/model/jobs/viewer_model.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {

@@ -1,5 +1,5 @@
 // The part has its place beside what lies over the picture.
-#include "app/viewer/model/view_fitter.h"
+#include "app/viewer/model/picking/view_fitter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "app/viewer/model/document.h"
+#include "app/viewer/model/document/document.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/session.h"
 

@@ -1,4 +1,4 @@
-#include "app/viewer/model/viewer_words.h"
+#include "app/viewer/model/reports/viewer_words.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/viewer/model/wrapped_text.h"
+#include "app/viewer/model/reports/wrapped_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,127 @@
+#include "app/viewer/model/actions/apply.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/picking/clear_sight.h"
+#include "app/viewer/model/picking/view_cube.h"
+#include "app/viewer/model/reports/comparison.h"
+#include "engine/mesh/topology.h"
+
+namespace spia::viewer {
+
+void ViewerModel::Apply::operator()(const SetDisplay& action)
+{
+    state.history.remember("Change display", document,
+                           true); // also while another file is being read, which takes it over
+    document.display = action.display;
+    document.display.per_face |= action.display.field == Field::zone; // nothing lies between two zones
+}
+
+void ViewerModel::Apply::operator()(const SetViewSettings& action)
+{
+    if (action.view.dark != state.view.dark) // a theme that is chosen stays chosen
+        state.preferences.dark = action.view.dark;
+    if (action.view.mouse != state.view.mouse) // as its habits do
+        state.preferences.mouse = action.view.mouse;
+    state.view = action.view;
+}
+
+void ViewerModel::Apply::operator()(const KeepReference& action)
+{
+    state.reference = std::make_shared<const Reference>(reference_of(document, action.name, state.preferences.lengths));
+    model.say(Severity::done, fmt::format("Kept as reference: {}.", state.reference->name));
+}
+
+void ViewerModel::Apply::operator()(const LookFrom& action)
+{
+    for (const View view : all_views)
+        if (view == action.view || (state.view.linked && view != View::blank && action.view != View::blank))
+            state.view.camera[size_t(view)] = look(state.view.camera[size_t(view)], action.from);
+}
+
+void ViewerModel::Apply::operator()(const LookFromSide& action)
+{
+    for (const View view : all_views)
+        if (view == action.view || (state.view.linked && view != View::blank && action.view != View::blank))
+            state.view.camera[size_t(view)] = look_from(state.view.camera[size_t(view)], action.side);
+}
+
+void ViewerModel::Apply::operator()(const FlyTo& action)
+{
+    const TriMesh& mesh = part().mesh;
+    if (action.face < 0 || action.face >= mesh.triangles())
+        throw InputError(fmt::format("The part has no face {}.", action.face));
+    const auto t = mesh.triangle.col(action.face);
+    // From spot to spot the way back leads to where the first one was left.
+    const bool on_the_way = state.spot && state.spot->since == state.view.camera;
+    ShownSpot spot{action.face, on_the_way ? state.spot->before : state.view.camera, {}, session.part};
+    look_at({t[0], t[1], t[2]});
+    spot.since = state.view.camera;
+    state.spot = std::move(spot);
+}
+
+void ViewerModel::Apply::operator()(const HideSpot&)
+{
+    if (!state.spot)
+        return;
+    for (const View view : all_views)
+        if (state.view.camera[size_t(view)] == state.spot->since[size_t(view)])
+            state.view.camera[size_t(view)] = state.spot->before[size_t(view)];
+    state.spot.reset();
+}
+
+void ViewerModel::Apply::operator()(const FlyToVertex& action)
+{
+    require_vertices({action.vertex});
+    look_at({action.vertex});
+}
+
+void ViewerModel::Apply::look_at(const std::vector<int>& vertices)
+{
+    const TriMesh& mesh = part().mesh;
+    const auto middle = [&](const auto& position) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int v : vertices)
+            sum.head(position.rows()) += position.col(v) / double(vertices.size());
+        return glm::dvec3(sum[0], sum[1], sum[2]);
+    };
+    const double size = 0.15 * (mesh.position.rowwise().maxCoeff() - mesh.position.rowwise().minCoeff()).norm();
+    for (const View view : all_views) {
+        if (view == View::blank && !session.blank)
+            continue;
+        Camera& camera = state.view.camera[size_t(view)];
+        camera.target = view == View::blank ? middle(session.blank->blank.position) : middle(mesh.position);
+        camera.height = std::min(camera.height, size);
+    }
+}
+
+void ViewerModel::Apply::operator()(const ShowFault& action)
+{
+    const PartFile* part = examined(state);
+    if (!part)
+        throw InputError("Open a part first.");
+    const auto& findings = part->doctor.findings;
+    if (action.finding < 0 || size_t(action.finding) >= findings.size())
+        throw InputError(fmt::format("The mesh doctor has no finding {}.", action.finding));
+    const auto& place = findings[size_t(action.finding)].place;
+    if (action.entry < 0 || size_t(action.entry) >= place.size())
+        throw InputError(fmt::format("This finding has no place {}.", action.entry));
+    const Eigen::Vector3d& at = place[size_t(action.entry)];
+    constexpr double beyond_any_part = 1e9; // mm
+    if (!at.allFinite() || at.cwiseAbs().maxCoeff() > beyond_any_part)
+        throw InputError("This place has no coordinates that could be shown.");
+    state.fault = ShownFault{action.finding, action.entry, at};
+    const double size = 0.15 * bounding_diagonal(part->mesh);
+    for (const View view : all_views) {
+        Camera& camera = state.view.camera[size_t(view)];
+        if (view == View::part || (state.view.linked && view != View::blank && !shows_refused(state))) {
+            camera.target = glm::dvec3(at[0], at[1], at[2]);
+            camera.turn = clear_sight(part->mesh, at, camera.turn);
+            if (size > 0)
+                camera.height = std::min(camera.height, size);
+        }
+    }
+}
+
+} // namespace spia::viewer

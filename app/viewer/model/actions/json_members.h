@@ -1,0 +1,276 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "app/viewer/model/actions/names.h"
+#include "app/viewer/model/document/field.h"
+#include "engine/core/json_file.h"
+
+/// Structs to and from JSON by a list of their members, once for scripts, projects and reports:
+///
+///     template <> inline constexpr auto members_of<Probe> =
+///         std::tuple{required("face", &Probe::face, Between{0, most}), member("barycentric", &Probe::barycentric)};
+///
+/// Reading is strict (an unknown member or a wrong type is an InputError that names the place and what is allowed there)
+/// and partial: what is not given keeps the value it has.
+namespace spia::viewer {
+
+/// Bounds of a number, both allowed. Not given is allowed, too.
+struct Between {
+    double least, greatest;
+
+    template <class T> void operator()(const T& value, const Place& place) const
+    {
+        if constexpr (std::is_arithmetic_v<T>) {
+            if (!(double(value) >= least && double(value) <= greatest))
+                place.fail(fmt::format("is {} but must be from {} to {}", value, least, greatest));
+        } else if constexpr (requires { value.has_value(); }) {
+            if (value)
+                (*this)(*value, place);
+        } else if constexpr (requires { value.reshaped(); }) {
+            for (Eigen::Index i = 0; i < value.size(); ++i)
+                (*this)(value.reshaped()[i], place.entry(size_t(i)));
+        } else {
+            for (size_t i = 0; i < value.size(); ++i)
+                (*this)(value[i], place.entry(i));
+        }
+    }
+};
+inline constexpr Between any_index{0, std::numeric_limits<int>::max()};
+inline constexpr double most_mm = 1e9; ///< no part is larger: what is beyond is damage
+struct Anything {
+    void operator()(const auto&, const Place&) const {}
+};
+
+template <class S, class T, class Check> struct Member {
+    std::string_view name;
+    T S::*where;
+    bool required;
+    Check check; ///< of the value read: check(value, place)
+};
+template <class S, class T, class Check = Anything>
+constexpr Member<S, T, Check> member(std::string_view name, T S::*where, Check check = {})
+{
+    return {name, where, false, check};
+}
+template <class S, class T, class Check = Anything>
+constexpr Member<S, T, Check> required(std::string_view name, T S::*where, Check check = {})
+{
+    return {name, where, true, check};
+}
+
+struct NoMembers {};
+template <class T> inline constexpr NoMembers members_of{}; ///< specialised: a tuple of Member
+template <class T>
+concept HasMembers = !std::is_same_v<std::remove_const_t<decltype(members_of<T>)>, NoMembers>;
+template <class T>
+concept HasNames = !std::is_same_v<std::remove_const_t<decltype(names_of<T>)>, NoNames>;
+
+template <class T> struct IsOptional : std::false_type {
+};
+template <class T> struct IsOptional<std::optional<T>> : std::true_type {
+};
+template <class T> struct IsList : std::false_type {
+};
+template <class T> struct IsList<std::vector<T>> : std::true_type {
+};
+template <class T> struct IsArray : std::false_type {
+};
+template <class T, size_t n> struct IsArray<std::array<T, n>> : std::true_type {
+};
+template <class T>
+concept IsMatrix = std::is_base_of_v<Eigen::MatrixBase<T>, T>;
+
+template <class T> void read(const Json& json, T& value, const Place& place);
+template <class T> Json written(const T& value);
+
+template <class Members> std::string names(const Members& members)
+{
+    std::string list;
+    std::apply([&](const auto&... m) { ((list += fmt::format("{}{}", list.empty() ? "" : ", ", m.name)), ...); },
+               members);
+    return list.empty() ? "none" : list;
+}
+
+/// @param besides  a member of the JSON object that is none of the struct: the name of an action
+template <class T, class Members>
+void read_members(const Json& json, T& value, const Members& members, const Place& place, std::string_view besides = {})
+{
+    if (!json.is_object())
+        place.fail("must be an object { }");
+    for (const auto& item : json.items()) {
+        const std::string& key = item.key();
+        const bool known = std::apply([&](const auto&... m) { return ((m.name == key) || ...); }, members);
+        if (!known && (besides.empty() || key != besides))
+            place.fail(fmt::format("has no member \"{}\"; there are: {}", key, names(members)));
+    }
+    const auto one = [&](const auto& m) {
+        const auto found = json.find(m.name);
+        if (found != json.end()) {
+            read(*found, value.*m.where, place.member(m.name));
+            m.check(value.*m.where, place.member(m.name));
+        } else if (m.required) {
+            place.fail(fmt::format("needs the member \"{}\"", m.name));
+        }
+    };
+    std::apply([&](const auto&... m) { (one(m), ...); }, members);
+}
+
+template <class T, class Members> void write_members(const T& value, const Members& members, Json& json)
+{
+    std::apply([&](const auto&... m) { ((json[std::string(m.name)] = written(value.*m.where)), ...); }, members);
+}
+
+/// count numbers, or any count where it is negative.
+template <class Write> void read_list(const Json& json, const Place& place, long count, const Write& write)
+{
+    if (!json.is_array() || (count >= 0 && json.size() != size_t(count)))
+        place.fail(count < 0 ? std::string("must be a list [ ]") : fmt::format("must be a list of {} values", count));
+    for (size_t i = 0; i < json.size(); ++i)
+        write(i, json[i], place.entry(i));
+}
+
+template <class T> void read(const Json& json, T& value, const Place& place)
+{
+    if constexpr (std::is_same_v<T, Json>) {
+        value = json;
+    } else if constexpr (std::is_same_v<T, bool>) {
+        if (!json.is_boolean())
+            place.fail("must be true or false");
+        value = json.get<bool>();
+    } else if constexpr (std::is_same_v<T, int>) {
+        constexpr auto most = std::numeric_limits<int>::max();
+        const bool fits = json.is_number_unsigned() ? json.get<std::uint64_t>() <= std::uint64_t(most)
+                                                    : json.is_number_integer() && json.get<std::int64_t>() >= -most;
+        if (!fits)
+            place.fail("must be a whole number");
+        value = json.get<int>();
+    } else if constexpr (std::is_floating_point_v<T>) {
+        if (!json.is_number() || !std::isfinite(json.get<T>()))
+            place.fail("must be a number");
+        value = json.get<T>();
+    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::filesystem::path>) {
+        if (!json.is_string())
+            place.fail("must be a text in \" \"");
+        value = json.get<std::string>();
+        if (std::string(value).find('\0') != std::string::npos)
+            place.fail("must not hold the character 0");
+    } else if constexpr (std::is_same_v<T, Field> || HasNames<T>) {
+        std::string name;
+        read(json, name, place);
+        try {
+            if constexpr (HasNames<T>)
+                value = value_by_name<T>(name);
+            else
+                value = field_by_name(name);
+        } catch (const InputError& error) {
+            place.fail(fmt::format("is wrong: {}", error.what()));
+        }
+    } else if constexpr (IsOptional<T>::value) {
+        if (json.is_null() && !std::is_same_v<T, std::optional<Json>>) {
+            value.reset();
+        } else {
+            typename T::value_type inner = value ? *value : typename T::value_type{};
+            read(json, inner, place);
+            value = std::move(inner);
+        }
+    } else if constexpr (std::is_same_v<T, std::array<Camera, 4>>) { // by view, so that one alone can be given
+        if (!json.is_object())
+            place.fail("must be an object { }");
+        for (const auto& [key, camera] : json.items()) {
+            View view;
+            read(Json(key), view, place);
+            read(camera, value[size_t(view)], place.member(key));
+        }
+    } else if constexpr (IsArray<T>::value) {
+        read_list(json, place, long(value.size()),
+                  [&](size_t i, const Json& each, const Place& at) { read(each, value[i], at); });
+    } else if constexpr (IsList<T>::value) {
+        value.clear();
+        read_list(json, place, -1,
+                  [&](size_t, const Json& each, const Place& at) { read(each, value.emplace_back(), at); });
+    } else if constexpr (IsMatrix<T>) { // column by column
+        constexpr long rows = T::RowsAtCompileTime, columns = T::ColsAtCompileTime;
+        if (columns == Eigen::Dynamic) {
+            if (!json.is_array() || json.size() % size_t(rows) != 0)
+                place.fail(fmt::format("must be a list of numbers, {} for each entry", rows));
+            value.resize(rows, Eigen::Index(json.size()) / rows);
+        }
+        read_list(json, place, value.size(), [&](size_t i, const Json& each, const Place& at) {
+            read(each, value.reshaped()[Eigen::Index(i)], at);
+        });
+    } else if constexpr (requires {
+                             value.length();
+                             value.x;
+                         }) { // of GLM; a quaternion as w, x, y, z
+        if constexpr (std::is_same_v<T, glm::dquat>) {
+            std::array<double, 4> wxyz;
+            read(json, wxyz, place);
+            value = glm::dquat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+        } else {
+            read_list(json, place, value.length(),
+                      [&](size_t i, const Json& each, const Place& at) { read(each, value[int(i)], at); });
+        }
+    } else {
+        static_assert(HasMembers<T>, "list the members of this type in members_of");
+        read_members(json, value, members_of<T>, place);
+    }
+}
+
+/// The JSON that read() reads.
+template <class T> Json written(const T& value)
+{
+    if constexpr (std::is_same_v<T, std::filesystem::path>) {
+        return value.string();
+    } else if constexpr (std::is_same_v<T, Field>) {
+        return info(value).name;
+    } else if constexpr (HasNames<T>) {
+        return name_in_table(value);
+    } else if constexpr (IsOptional<T>::value) {
+        return value ? written(*value) : Json(nullptr);
+    } else if constexpr (std::is_same_v<T, std::array<Camera, 4>>) {
+        Json json = Json::object();
+        for (const View view : all_views)
+            json[std::string(name(view))] = written(value[size_t(view)]);
+        return json;
+    } else if constexpr (IsArray<T>::value || IsList<T>::value) {
+        Json json = Json::array();
+        for (const auto& each : value)
+            json.push_back(written(each));
+        return json;
+    } else if constexpr (IsMatrix<T>) {
+        Json json = Json::array();
+        for (const auto number : value.reshaped())
+            json.push_back(number);
+        return json;
+    } else if constexpr (std::is_same_v<T, glm::dquat>) {
+        return Json{value.w, value.x, value.y, value.z};
+    } else if constexpr (requires {
+                             value.length();
+                             value.x;
+                         }) {
+        Json json = Json::array();
+        for (int i = 0; i < value.length(); ++i)
+            json.push_back(value[i]);
+        return json;
+    } else if constexpr (HasMembers<T>) {
+        Json json = Json::object();
+        write_members(value, members_of<T>, json);
+        return json;
+    } else {
+        return Json(value);
+    }
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,179 @@
+#include "app/viewer/model/jobs/viewer_model.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "app/viewer/model/reports/grid_advice.h"
+#include "app/viewer/model/reports/viewer_words.h"
+
+namespace spia::viewer {
+
+static std::string worst_fault(const PartFile& refused)
+{
+    const auto& findings = refused.doctor.findings;
+    return std::find_if(findings.begin(), findings.end(),
+                        [](const Finding& f) { return f.severity == spia::Severity::fatal; })
+        ->text;
+}
+
+/// The new part is not there: the one before stays, with all that was made of it.
+void ViewerModel::say_not_opened(const Opening& opening, const ChainResult& result)
+{
+    const std::string name = opening.document.session.file.filename().string(),
+                      open = state_.document.session.file.filename().string();
+    if (result.cancelled) {
+        say(Severity::hint, fmt::format("Opening {}: cancelled. {} is still open.", name, open), about_refusal(state_));
+        return;
+    }
+    if (shows_refused(state_)) // of an earlier file
+        state_.view.camera = state_.refused_file->camera;
+    state_.refused = result.refused;
+    state_.refused_file.reset();
+    state_.fault.reset();
+    if (state_.refused) {
+        state_.refused_file = RefusedFile{opening.document.session.file, opening.document.session.options.read};
+        say(Severity::error,
+            fmt::format("{} was refused: {}. {} is still open; the step Part shows the faults of the other file.", name,
+                        worst_fault(*state_.refused), open),
+            about_refused_part(state_));
+        return;
+    }
+    std::string why = result.message;
+    const std::string path = opening.document.session.file.string();
+    std::error_code problem;
+    if (project_ && !std::filesystem::exists(opening.document.session.file, problem))
+        why = fmt::format("the project's part {} is not there any more: put it back, or open the part from where it "
+                          "is now",
+                          path);
+    else if (const size_t at = why.find(path); at != std::string::npos)
+        why.replace(at, path.size(), name);
+    if (why.find(name) == std::string::npos)
+        why = name + " cannot be opened: " + why;
+    say(Severity::error, fmt::format("{} {} is still open.", sentence(why), open));
+}
+
+void ViewerModel::forget_waiting()
+{
+    state_.read_and_waits.reset();
+    if (!std::exchange(waiting_, std::nullopt))
+        return;
+    opening_beside_.reset();
+    opening_ = false;
+    next_.reset(); // was for that part
+    next_in_one_step_ = false;
+}
+
+/// What was read while another part was open takes its place, if it is there. @returns whether it is
+bool ViewerModel::take_opening(const ChainResult& result)
+{
+    Opening opening = std::move(*std::exchange(opening_beside_, std::nullopt));
+    if (result.session.part) {
+        replace_document(std::move(opening));
+        depth_at_start_ = state_.history.depth();
+        return true;
+    }
+    opening_ = false;
+    next_.reset(); // was for the new part
+    next_in_one_step_ = false;
+    say_not_opened(opening, result);
+    return false;
+}
+
+void ViewerModel::replace_document(Opening opening)
+{
+    if (!opening.project) { // how fields are drawn stays chosen from part to part; each begins with the thinning
+        opening.document.display = state_.document.display;
+        opening.document.display.field = FieldDisplay{}.field;
+        opening.document.display.range.reset();
+    }
+    state_.document = std::move(opening.document);
+    project_ = std::move(opening.project);
+    state_.project = std::move(opening.project_file);
+    state_.unsaved = opening.unsaved;
+    state_.view.unfolded = 0;
+    state_.view.step.reset();
+    state_.history = History{};
+    for (Message& message : state_.messages)
+        message.dismissed = true;
+    if (shows_refused(state_))
+        state_.view.camera = state_.refused_file->camera;
+    state_.refused.reset();
+    state_.refused_file.reset();
+    state_.fault.reset();
+    state_.spot.reset();
+    keep_cameras_ = false;
+    ++documents_;
+}
+
+void ViewerModel::say_failed(const ChainResult& result)
+{
+    const bool reading = *result.failed == Stage::read;
+    if (reading) {
+        state_.refused = result.refused;
+        state_.refused_file.reset();
+    }
+    if (!state_.refused || !reading) {
+        say(Severity::error,
+            fmt::format("{} {}", sentence(result.message),
+                        reading                         ? "Choose another file."
+                        : *result.failed == Stage::grid ? grid_advice(result.session)
+                                                        : advice(*result.failed, result.session.options)),
+            about_change(state_));
+        return;
+    }
+    say(Severity::error,
+        fmt::format("{} was refused: {}. {}", state_.document.session.file.filename().string(),
+                    worst_fault(*state_.refused), advice(*result.failed, result.session.options)),
+        about_refused_part(state_));
+    fitter_.fit(state_, View::part);
+}
+
+void ViewerModel::part_opened()
+{
+    Document& document = state_.document;
+    if (!document.session.part)
+        return;
+    state_.view.camera[size_t(View::part)] = look(state_.view.camera[size_t(View::part)], StandardView::isometric);
+    state_.view.clip.on = false; // of another part
+    fitter_.fit(state_);
+    const PartFile& part = *document.session.part;
+    double& thickness = document.session.options.flatten.thickness;
+    if (const auto found = part.thickness_mm; found && !project_) {
+        thickness = *found;
+        document.thickness_from = SheetSource::file;
+    }
+    const size_t notes = notes_on_reading(part).size() + part.doctor.findings.size();
+    if (notes > 0)
+        say(Severity::hint,
+            fmt::format("Opened {}: {}, see the step Part.", document.session.file.filename().string(),
+                        notes == 1 ? "1 note" : fmt::format("{} notes", notes)),
+            about_part(state_));
+}
+
+/// The picks of a project on its part, which may have changed since; then the stages it had.
+void ViewerModel::project_opened(const std::shared_ptr<const ClosestPointSearch>& search)
+{
+    const Project project = std::move(*std::exchange(project_, std::nullopt));
+    Document& document = state_.document;
+    if (!document.session.part)
+        return;
+    for (const std::string& lost : restore(document, project.picks, search)) // the rest of the project is sound
+        say(Severity::warning, lost);
+    const bool dark = state_.view.dark; // of the one who opens it, as the mouse's habits are
+    const MouseStyle mouse = state_.view.mouse;
+    state_.view = project.view;
+    state_.view.dark = dark;
+    state_.view.mouse = mouse;
+    steps_next_ = keep_step_ = project.steps_ran && !document.steps.empty();
+    keep_cameras_ = project.ran && *project.ran > Stage::read; // else nobody has seen a blank yet
+    if (keep_cameras_ && project.blank_of_steps && steps_next_)
+        blank_next_ = BlankNext{*project.blank_of_steps, *project.ran};
+    else if (keep_cameras_) {
+        if (project.blank_of_steps)
+            say(Severity::warning,
+                "The steps have changed since their blank was computed; the part is unfolded in one step. Run the steps and use their blank again.");
+        next_ = std::max(next_.value_or(*project.ran), *project.ran);
+    }
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,417 @@
+#include "app/viewer/model/reports/lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "app/viewer/model/document/chain.h"
+#include "app/viewer/model/document/state.h"
+#include "app/viewer/model/reports/export_check.h"
+#include "app/viewer/model/reports/lengths.h"
+#include "app/viewer/model/reports/number_text.h"
+#include "app/viewer/model/reports/shown_lengths.h"
+#include "app/viewer/model/reports/viewer_words.h"
+#include "engine/coons/cell_quality.h"
+#include "engine/mesh/edge_uses.h"
+#include "engine/mesh/topology.h"
+#include "engine/nurbs/smooth_joins.h"
+#include "engine/pipeline/shortcomings.h"
+#include "engine/pipeline/surface_shortcomings.h"
+
+namespace spia::viewer {
+namespace {
+
+std::string grade(const Document& document)
+{
+    const std::filesystem::path named(document.material);
+    return (named.extension() == ".json" ? named.stem() : named.filename()).string();
+}
+
+void judge_sheet(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
+{
+    if (!document.session.part || (is_given(document.thickness_from) && is_given(document.material_from)))
+        return;
+    const double thickness = document.session.options.flatten.thickness;
+    const std::string& called = document.session.part->material;
+    const std::string file_says = called.empty() ? "" : fmt::format(" The file calls the material \"{}\".", called);
+    const std::string thick = thickness_text(thickness, lengths);
+    Doubt doubt{ChainStep::sheet, {}};
+    if (!is_given(document.thickness_from)) {
+        doubt.text = document.thickness_from == SheetSource::before
+                         ? fmt::format("The thickness {} is that of the previous part; this file gives none.", thick)
+                         : fmt::format("The thickness {} is assumed; the file gives none.", thick);
+    }
+    if (!is_given(document.material_from)) {
+        doubt.text += fmt::format(
+            "{}The grade {} is {}.{}", doubt.text.empty() ? "" : " ", grade(document),
+            document.material_from == SheetSource::before ? "that of the previous part" : "assumed", file_says);
+    }
+    doubt.next = "Choose them here, or confirm.";
+    const bool neither = !is_given(document.thickness_from) && !is_given(document.material_from);
+    doubt.button = neither                            ? fmt::format("Confirm {} of {}", thick, grade(document))
+                   : is_given(document.material_from) ? "Confirm " + thick
+                                                      : "Confirm " + grade(document);
+    doubt.remedy = Remedy::confirm_sheet;
+    doubts.push_back(std::move(doubt));
+}
+
+/// What the engine says of a stage's result, with the click that answers it.
+Doubt with_click(ChainStep step, const std::string& text, const Document& document)
+{
+    const Session& session = document.session;
+    const auto about = [&](std::string_view words) { return text.find(words) != std::string::npos; };
+    Doubt doubt{step, sentence(in_viewer_words(text))};
+    if (about("yields at") || about("mm thick: is that in mm"))
+        doubt.step = ChainStep::sheet;
+    else if (step == ChainStep::unfold && text == session.blank->report.reason) {
+        const auto& steps = document.made_with.steps;
+        doubt.next =
+            steps && !steps->polish ? "See the steps below that have not converged." : advice(session.blank->report);
+    } else if (about("strained beyond")) {
+        doubt.button = "Show where";
+        doubt.remedy = Remedy::show_necking;
+    } else if ((about("crosses itself") || about("winds around")) && document.steps.empty()) {
+        doubt.button = "Propose steps";
+        doubt.remedy = Remedy::propose_steps;
+    } else if (step == ChainStep::grid && about("folded") && session.options.grid.method != GridMethod::harmonic) {
+        doubt.button = "Use the harmonic method";
+        doubt.remedy = Remedy::harmonic_grid;
+    }
+    return doubt;
+}
+
+/// Those that a stage adds to the engine's list.
+void add_shortcomings(ChainStep step, const Session& upto, const Document& document, std::vector<std::string>& known,
+                      std::vector<Doubt>& doubts)
+{
+    for (const std::string& text : shortcomings(upto))
+        if (std::find(known.begin(), known.end(), text) == known.end()) {
+            known.push_back(text);
+            doubts.push_back(with_click(step, text, document));
+        }
+}
+
+/// A part that is hardly larger than its sheet is thick, or of no size that sheet parts have: its unit is likely another.
+void judge_size(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
+{
+    const PartFile& part = *document.session.part;
+    const SessionOptions& options = document.session.options;
+    const double diagonal = bounding_diagonal(part.mesh), thickness = options.flatten.thickness;
+    const auto unit = likelier_unit(part, diagonal, thickness);
+    const bool thick = diagonal < least_size_in_thicknesses * thickness;
+    if (!thick && (!unit || options.read.unit)) // that was said
+        return;
+    Doubt doubt{
+        ChainStep::part,
+        thick ? fmt::format(
+                    "The part is {} across and the sheet {} thick: a sheet is at least {:.0f} times as large as "
+                    "it is thick.",
+                    plain_length(diagonal, lengths), thickness_text(thickness, lengths), least_size_in_thicknesses)
+              : fmt::format("The part is {} across, which is unlikely for a sheet part.",
+                            plain_length(diagonal, lengths)),
+        thick ? "Check the length unit of the file and the thickness." : "Check the length unit of the file."};
+    if (unit) {
+        doubt.button = fmt::format("Read it in {}", name(*unit));
+        doubt.remedy = Remedy::read_in_other_unit;
+    }
+    doubts.push_back(std::move(doubt));
+}
+
+void judge_cracks(const Document& document, std::vector<Doubt>& doubts)
+{
+    if (!document.session.limits)
+        return;
+    const LimitsResult& limits = *document.session.limits;
+    const auto faces = [&](Zone zone) { return limits.zones.share[size_t(zone)].faces; };
+    const auto counted = [](int count, const char* one, const char* more) {
+        return count == 1 ? fmt::format("1 face {}", one) : fmt::format("{} faces {}", count, more);
+    };
+    std::string text;
+    if (const int count = faces(Zone::crack); count > 0)
+        text = fmt::format("{} above the forming limit curve: the sheet cracks there.", counted(count, "is", "are"));
+    if (const int count = faces(Zone::excessive_thinning); count > 0)
+        text += fmt::format("{}{} the allowed thinning of {:.4g} %.", text.empty() ? "" : " ",
+                            counted(count, "exceeds", "exceed"), 100 * limits.settings.max_thinning);
+    if (text.empty())
+        return;
+    Doubt doubt{ChainStep::unfold, text};
+    doubt.button = "Show the zones";
+    doubt.remedy = Remedy::show_zones;
+    doubts.push_back(std::move(doubt));
+}
+
+void judge_cells(const Document& document, std::vector<Doubt>& doubts)
+{
+    const GridResult& grid = document.session.grid->result;
+    const double worst = scaled_jacobians(grid.planar).minCoeff();
+    if (grid.quality.folded_cells > 0 || worst >= least_scaled_jacobian)
+        return;
+    Doubt doubt{
+        ChainStep::grid,
+        fmt::format("A cell is nearly folded (scaled Jacobian {:.3f}); analysis will be inaccurate there.", worst),
+        "Drag the corners to sharp corners of the blank, or choose more cells."};
+    if (grid.route < GridRoute::harmonic) {
+        doubt.next = "Drag the corners to sharp corners of the blank, or:";
+        doubt.button = "Use the harmonic method";
+        doubt.remedy = Remedy::harmonic_grid;
+    }
+    doubts.push_back(std::move(doubt));
+}
+
+/// What the engine says of a fit that has not reached its tolerance has the click that answers it.
+void answer_shortfall(const Document& document, const SurfaceStage& surface, LengthUnit lengths, Doubt& doubt)
+{
+    const SessionOptions& options = document.session.options;
+    const double reached = reached_tolerance(surface);
+    doubt.next = fmt::format("Or raise the tolerance to {}.", length_text(reached, lengths, 3));
+    switch (surface.fit->shortfall.reason) {
+    case FitShortfall::Reason::sharp_edge:
+    case FitShortfall::Reason::outline_corner:
+        if (!options.patches) {
+            doubt.button = "Use several patches";
+            doubt.remedy = Remedy::several_patches;
+            return;
+        }
+        break;
+    case FitShortfall::Reason::data:
+        if (!options.patches) {
+            doubt.button = fmt::format("Make the grid of {} cells", finer_cells(options.grid));
+            doubt.remedy = Remedy::finer_grid;
+            return;
+        }
+        break;
+    default:
+        doubt.button = fmt::format("Allow {} control points", more_control_points(options.max_control_points));
+        doubt.remedy = Remedy::more_control_points;
+        return;
+    }
+    doubt.next = "";
+    doubt.button = fmt::format("Raise the tolerance to {}", length_text(reached, lengths, 3));
+    doubt.remedy = Remedy::looser_tolerance;
+}
+
+void judge_distance(const Document& document, LengthUnit lengths, std::vector<Doubt>& doubts)
+{
+    const SurfaceStage& surface = *document.session.surface;
+    if (surface.fit) { // the engine says whether that is reached
+        for (Doubt& doubt : doubts)
+            if (!surface.fit->reached && doubt.text == sentence(in_viewer_words(surface.fit->shortfall.text)))
+                answer_shortfall(document, surface, lengths, doubt);
+        return;
+    }
+    const FitVerdict verdict = fit_verdict(document.session);
+    if (verdict.fit == Fit::within)
+        return;
+    doubts.push_back(
+        {ChainStep::surface,
+         fmt::format("The surface deviates from the part by up to {}, on {} of its area by more than a usual "
+                     "tolerance, {}.",
+                     length_text(verdict.greatest, lengths, 3), area_share(verdict.beyond),
+                     length_text(verdict.tolerance, lengths, 3)),
+         "", fmt::format("Fit it within {}", length_text(verdict.tolerance, lengths, 3)),
+         Remedy::fit_within_tolerance});
+}
+
+/// A surface with more control points than the part has vertices is bent along the facets of the mesh, which no sheet is.
+void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
+{
+    const SurfaceStage& surface = *document.session.surface;
+    if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's choice
+        return;
+    const int count = shared_controls(fitted_patches(surface)).count, vertices = document.session.part->mesh.vertices();
+    if (count > vertices)
+        doubts.push_back(
+            {ChainStep::surface,
+             fmt::format("The surface has {} control points, more than the part has vertices ({}): it follows the "
+                         "facets of the mesh.",
+                         count, vertices),
+             "A larger tolerance makes it smoother, a finer mesh of the part nearer to the sheet."});
+}
+
+/// Radians, between the normals of neighbouring triangles.
+double greatest_turn(const TriMesh& part)
+{
+    const Eigen::Matrix3Xd normal = area_vectors(part);
+    const auto uses = edge_uses(part.triangles(), [&](int f, int k) { return part.triangle(k, f); });
+    double greatest = 0;
+    for (size_t i = 1; i < uses.size(); ++i)
+        if (uses[i].same_edge(uses[i - 1])) {
+            const Eigen::Vector3d a = normal.col(uses[i - 1].face), b = normal.col(uses[i].face);
+            greatest = std::max(greatest, std::atan2(a.cross(b).norm(), a.dot(b)));
+        }
+    return greatest;
+}
+
+/// Patches that meet at a greater angle than there is anywhere in the part.
+void judge_joints(const Document& document, std::vector<Doubt>& doubts)
+{
+    const auto& joints = document.session.surface->certificate.interfaces;
+    double angle = 0;
+    for (const InterfaceCertificate& joint : joints)
+        angle = std::max(angle, joint.greatest_angle);
+    if (angle <= SmoothJoinsOptions{}.sharp)
+        return;
+    const double turn = greatest_turn(document.session.part->mesh);
+    if (angle <= turn)
+        return;
+    const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
+    doubts.push_back(
+        {ChainStep::surface,
+         fmt::format("Patches meet at up to {:.3g} degrees, where the part turns by {:.2g} degrees from "
+                     "triangle to triangle at most.",
+                     degrees(angle), degrees(turn)),
+         "Choose \"one patch\", or cut elsewhere: \"Smooth joins\" leaves joins of more than 10 degrees."});
+}
+
+void judge_folds(const Document& document, std::vector<Doubt>& doubts)
+{
+    const auto folded = folded_surface(document.session);
+    if (!folded)
+        return;
+    const std::string text = sentence(folded->substr(0, folded->rfind(';'))); // the way out is a click here
+    if (document.session.options.patches) {
+        doubts.push_back({ChainStep::surface, text, "Add a cut there with the tool Vertex, or choose \"one patch\"."});
+        return;
+    }
+    doubts.push_back({ChainStep::surface, text, "Drag the corners to sharp corners of the blank, or:",
+                      fmt::format("Make the grid of {} cells", finer_cells(document.session.options.grid)),
+                      Remedy::finer_grid});
+}
+
+/// The first step of the list that has no good result; empty: none.
+std::string poor_step(const Document& document)
+{
+    for (size_t k = 0; k < document.steps.size(); ++k)
+        switch (step_status(document, k)) {
+        case StepStatus::poor: return fmt::format("Step {} of the unfolding has not converged", k + 1);
+        case StepStatus::failed: return fmt::format("Step {} of the unfolding has no result", k + 1);
+        case StepStatus::needs_pick: return fmt::format("Step {} of the unfolding has lost its fixed faces", k + 1);
+        default: break;
+        }
+    return "";
+}
+
+} // namespace
+
+DoubtsOf doubts_of(const Document& document, LengthUnit lengths)
+{
+    const Session& session = document.session;
+    return {session.part,
+            session.blank,
+            session.limits,
+            session.grid,
+            session.surface,
+            session.deformed,
+            document.unfolding,
+            document.material,
+            session.options.flatten.thickness,
+            document.material_from,
+            document.thickness_from,
+            first_stale(document),
+            lengths};
+}
+
+int finer_cells(const GridOptions& grid)
+{
+    constexpr int most = 2000; // as SetGrid takes
+    return std::min(2 * grid.cells, most);
+}
+
+double wanted_tolerance(const SessionOptions& options) { return options.tolerance.value_or(usual_tolerance); }
+
+int more_control_points(int most)
+{
+    constexpr int greatest = 4'000'000; // as SetFit takes
+    return most > greatest / 2 ? greatest : 2 * most;
+}
+
+double reached_tolerance(const SurfaceStage& surface)
+{
+    const double left = surface.deviation.max();
+    if (!(left > 0))
+        return usual_tolerance;
+    const double digit = std::pow(10, std::floor(std::log10(left)) - 1);
+    return std::ceil(left / digit) * digit;
+}
+
+std::optional<LengthUnit> likelier_unit(const PartFile& part, double diagonal, double thickness)
+{
+    constexpr double small = 5, large = 20'000; // mm, as read_part() says
+    const bool likely = diagonal >= small && diagonal <= large && diagonal >= least_size_in_thicknesses * thickness;
+    if (!(diagonal > 0) || likely || (part.cad && part.cad->unit_stated))
+        return std::nullopt;
+    for (const LengthUnit unit : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::inch}) {
+        const double other = diagonal / millimetres(part.unit) * millimetres(unit);
+        if (unit != part.unit && other >= std::max(4 * small, 2 * least_size_in_thicknesses * thickness) &&
+            other <= large)
+            return unit;
+    }
+    return std::nullopt;
+}
+
+std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
+{
+    std::vector<Doubt> doubts;
+    const Session made = as_made(document);
+    if (!made.part)
+        return doubts;
+    const auto stale = first_stale(document);
+    const auto holds = [&](Stage stage) { return !stale || *stale > stage; };
+    std::vector<std::string> known;
+    Session upto;
+    upto.options = made.options;
+    upto.part = made.part;
+    add_shortcomings(ChainStep::part, upto, document, known, doubts);
+    judge_size(document, lengths, doubts);
+    judge_sheet(document, lengths, doubts);
+    if (made.blank && holds(Stage::solve)) {
+        upto.blank = made.blank;
+        add_shortcomings(ChainStep::unfold, upto, document, known, doubts);
+        judge_cracks(document, doubts);
+    }
+    if (made.grid && holds(Stage::grid)) {
+        upto.grid = made.grid;
+        add_shortcomings(ChainStep::grid, upto, document, known, doubts);
+        judge_cells(document, doubts);
+    }
+    if (made.surface && holds(Stage::fit)) {
+        upto.surface = made.surface;
+        upto.deformed = made.deformed;
+        for (const auto& text : {far_surface(upto), folded_surface(upto)}) // said below, with a click
+            if (text)
+                known.push_back(*text);
+        add_shortcomings(ChainStep::surface, upto, document, known, doubts);
+        judge_distance(document, lengths, doubts);
+        judge_control_points(document, doubts);
+        judge_joints(document, doubts);
+        judge_folds(document, doubts);
+    }
+    for (Doubt& doubt : doubts) { // the engine speaks of mm
+        doubt.text = in_shown_lengths(doubt.text, lengths);
+        doubt.next = in_shown_lengths(doubt.next, lengths);
+    }
+    std::stable_sort(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) { return a.step < b.step; });
+    return doubts;
+}
+
+Readiness readiness(const ViewerState& state)
+{
+    const Document& document = state.document;
+    if (!document.session.part)
+        return state.refused ? Readiness{false, "The part was refused; see its faults in the step Part"}
+                             : Readiness{true, "Open a part, or drop one on the window"};
+    if (shows_refused(state))
+        return {false, fmt::format("Showing {}, which was refused", state.refused_file->file.filename().string())};
+    if (!out_of_date(document).empty())
+        return {false,
+                fmt::format("Out of date from the step {} on: Update all (F5)", heading(*first_stale(document)))};
+    const size_t count = state.doubts ? state.doubts->size() : 0;
+    if (count > 0)
+        return {false, count == 1 ? "1 thing to look at" : fmt::format("{} things to look at", count), true};
+    if (const std::string poor = poor_step(document); !poor.empty())
+        return {false, poor};
+    return {true, "Ready"};
+}
+
+} // namespace spia::viewer

@@ -1,0 +1,21 @@
+#include "app/viewer/model/reports/report_options.h"
+
+namespace spia::viewer {
+
+ViewerState standard_look(const ViewerState& state)
+{
+    ViewerState result;
+    result.document = state.document;
+    result.document.display = FieldDisplay{};
+    result.document.selected.clear();
+    result.document.section.reset();
+    result.view.dark = false;
+    for (const View view : all_views) {
+        Camera& camera = result.view.camera[size_t(view)];
+        camera = look(camera, view == View::blank ? StandardView::top : StandardView::isometric);
+        camera.flat = view == View::blank;
+    }
+    return result;
+}
+
+} // namespace spia::viewer
