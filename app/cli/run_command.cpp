@@ -17,6 +17,7 @@
 #include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/shortcomings.h"
 

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
+#include "engine/pipeline/run_stage.h"
 
 namespace spia::cli {
 namespace {

@@ -123,8 +123,4 @@ Session deform_surface(Session session, bool measure = true, const Progress& pro
 MultiPatch surface_patches(const Session& session);
 const Certificate& surface_certificate(const Session& session);
 
-/// Runs one stage on a copy of the session; the results of later stages, which it makes stale, are dropped.
-/// @throws InputError  if an earlier stage has not run; else what the stage throws
-Session run_stage(Stage stage, Session session, const Progress& progress = {});
-
 } // namespace spia

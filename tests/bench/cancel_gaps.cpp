@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 
 namespace {

@@ -12,6 +12,7 @@
 #include "engine/coons/boundary.h"
 #include "engine/forming/flatten.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/unfold/step/unfold_step.h"
 #include "tests/support/developable.h"

@@ -8,6 +8,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"

@@ -8,6 +8,7 @@
 #include "engine/exchange/cad/write_step.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/certificate.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {

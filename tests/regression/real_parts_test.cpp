@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {

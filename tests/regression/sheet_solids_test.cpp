@@ -12,6 +12,7 @@
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/remesh/triangle_quality.h"
 #include "tests/support/cad/exact_volume.h"

@@ -10,6 +10,7 @@
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"

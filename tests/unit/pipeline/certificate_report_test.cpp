@@ -5,6 +5,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "tests/support/joined_patches.h"
 
 namespace spia {

@@ -17,6 +17,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/forming/solver/sheet_fields.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/sample_decks.h"

@@ -9,6 +9,7 @@
 
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/prism.h"
 #include "tests/unit/exchange/scratch_folder.h"

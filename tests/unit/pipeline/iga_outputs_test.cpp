@@ -9,6 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/project.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/run_stage.h"
 #include "tests/support/iga_readers.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

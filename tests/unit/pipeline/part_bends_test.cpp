@@ -12,6 +12,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
 #include "tests/support/cad/bent_solid.h"

@@ -8,6 +8,7 @@
 #include "engine/forming/process/drawbead.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/shortcomings.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/shapes.h"

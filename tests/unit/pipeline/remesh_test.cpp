@@ -12,6 +12,7 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/vertex_numbers.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"

@@ -11,6 +11,7 @@
 #include "engine/exchange/iga/write_mfem.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/evaluate.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/iga_readers.h"

@@ -9,6 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"

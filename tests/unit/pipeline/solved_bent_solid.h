@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
 

@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/surface_shortcomings.h"

@@ -7,6 +7,7 @@
 
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/unfold/unfold_by_itself.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"

@@ -1,3 +1,4 @@
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/surface_shortcomings.h"
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/shortcomings.h"
 #include "tests/unit/exchange/scratch_folder.h"
 

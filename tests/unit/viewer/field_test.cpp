@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/run_stage.h"
 #include "tests/support/shapes.h"
 
 namespace spia::viewer {

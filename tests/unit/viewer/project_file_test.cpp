@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/run_stage.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/samples.h"

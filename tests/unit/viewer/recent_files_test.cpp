@@ -8,6 +8,7 @@
 #include "app/viewer/model/document/project_file.h"
 #include "app/viewer/model/jobs/viewer_model.h"
 #include "engine/core/error.h"
+#include "engine/pipeline/run_stage.h"
 #include "tests/unit/viewer/own_home.h"
 #include "tests/unit/viewer/viewer_samples.h"
 

@@ -13,6 +13,7 @@
 #include "app/viewer/views/surface_shape.h"
 #include "engine/coons/cell_quality.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/run_stage.h"
 #include "tests/support/shapes.h"
 
 namespace spia::viewer {

@@ -3,6 +3,7 @@
 
 #include "app/viewer/model/document/document.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::viewer {

@@ -6,6 +6,7 @@
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
+#include "engine/pipeline/run_stage.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,3 +1,5 @@
+#include "engine/pipeline/run_stage.h"
+
 #include <algorithm>
 #include <chrono>
 #include <fmt/core.h>
