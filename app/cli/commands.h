@@ -44,7 +44,7 @@ struct RunArguments {
     std::string grid;                                ///< NxM; empty: automatic
     std::vector<int> corners;
     std::vector<double> direction, rolling;
-    double to_bends = 0; ///< share of the lines of the grid
+    double line_grading = 0; ///< share of the lines of the grid
     bool even_cells = false;
     std::string grid_method = "automatic", ends = "averaged", fit_parameters = "blank";
     std::optional<double> tolerance;  ///< mm, of the surface; not given: it runs through the grid

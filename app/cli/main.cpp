@@ -258,7 +258,7 @@ int main(int count, char** values)
         ->capture_default_str();
     run_command
         ->add_option(
-            "--to-bends", run.to_bends,
+            "--to-bends", run.line_grading,
             "share of the lines of the grid that go where the part bends; the others lie evenly (of one patch only)")
         ->check(CLI::Range(0., 0.9))
         ->type_name("0-0.9")

@@ -89,7 +89,7 @@ void print_summary(const Session& session)
         const GridResult& grid = session.grid->result;
         say("grid      {} x {} cells, {}{}{}, {} folded, least scaled Jacobian {:.3f}\n", grid.planar.columns,
             grid.planar.rows, name(grid.route),
-            grid.to_bends > 0 ? fmt::format(", {:.3g} % of the lines by bends", 100 * grid.to_bends) : "",
+            grid.line_grading > 0 ? fmt::format(", {:.3g} % of the lines by bends", 100 * grid.line_grading) : "",
             grid.evened ? ", evened out" : "", grid.quality.folded_cells, grid.quality.min_scaled_jacobian);
     }
     if (!session.surface)

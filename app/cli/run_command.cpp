@@ -83,9 +83,9 @@ SessionOptions options(const RunArguments& arguments)
     result.grid.method = arguments.grid_method == "coons"      ? GridMethod::coons
                          : arguments.grid_method == "harmonic" ? GridMethod::harmonic
                                                                : GridMethod::automatic;
-    if (!(arguments.to_bends >= 0 && arguments.to_bends <= 0.9)) // a NaN passes the check of the option
+    if (!(arguments.line_grading >= 0 && arguments.line_grading <= 0.9)) // a NaN passes the check of the option
         throw InputError("--to-bends is a share of the lines, from 0 to 0.9");
-    result.grid.to_bends = arguments.to_bends;
+    result.grid.line_grading = arguments.line_grading;
     result.grid.even_cells = arguments.even_cells;
     if (arguments.ends == "natural")
         result.interpolate.ends = CurveEnds::natural;
@@ -117,7 +117,7 @@ SessionOptions options(const RunArguments& arguments)
     if (result.patches && (!arguments.corners.empty() || !arguments.grid.empty()))
         throw InputError(
             "--corners and --grid are for one patch; give corners in the file of --patches, or take --patches one");
-    if (result.patches && (arguments.to_bends > 0 || arguments.even_cells))
+    if (result.patches && (arguments.line_grading > 0 || arguments.even_cells))
         throw InputError(
             "--to-bends and --even-cells are for the grid of one patch; take --patches one, or leave them out");
     if (arguments.fit_parameters == "corrected")

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/coons/find_nodes.h"
+#include "engine/coons/graded_lines.h"
 #include "engine/coons/lift.h"
-#include "engine/coons/line_spacing.h"
-#include "engine/coons/mend.h"
+#include "engine/coons/locate_nodes.h"
 #include "engine/coons/place_border.h"
 #include "engine/coons/untangle.h"
+#include "engine/coons/untangle_on_blank.h"
 
 namespace spia {
 namespace {
@@ -123,7 +123,7 @@ GridResult at_lines(const BlankSearch& blank, const BlankBoundary& boundary, con
             result.planar.position.col(result.planar.node(i, j)) =
                 (1 - t) * ((1 - s) * node(0, 0) + s * node(1, 0)) + t * ((1 - s) * node(0, 1) + s * node(1, 1));
         }
-    find_nodes(blank, result);
+    locate_nodes(blank, result);
     return result;
 }
 
@@ -134,7 +134,7 @@ bool is_spoilt(const GridResult& grid, const GridResult& before)
 }
 
 /// The last look that did not spoil the grid; the grid itself if none.
-GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, double share, const GridResult& grid,
+GridResult graded_grid(const BlankSearch& blank, const BlankBoundary& boundary, double share, const GridResult& grid,
                        const Progress& progress)
 {
     const int m = grid.planar.columns, n = grid.planar.rows;
@@ -146,16 +146,16 @@ GridResult spaced_grid(const BlankSearch& blank, const BlankBoundary& boundary, 
         const Progress here = progress.part(double(look) / looks, double(look + 1) / looks);
         here.checkpoint(0, "spacing the lines of the grid");
         const LiftResult lifted = lift(best);
-        u = spaced_lines(over_even(turns(lifted, true), u), m, share);
-        v = spaced_lines(over_even(turns(lifted, false), v), n, share);
-        GridResult spaced = at_lines(blank, boundary, grid, u, v);
-        if (!is_sound(spaced))
-            mend(blank, spaced, here, untangling);
-        spaced.route = grid.route; // its cells are those of that way
-        if (is_spoilt(spaced, grid))
+        u = graded_lines(over_even(turns(lifted, true), u), m, share);
+        v = graded_lines(over_even(turns(lifted, false), v), n, share);
+        GridResult graded = at_lines(blank, boundary, grid, u, v);
+        if (!is_sound(graded))
+            untangle_on_blank(blank, graded, here, untangling);
+        graded.route = grid.route; // its cells are those of that way
+        if (is_spoilt(graded, grid))
             break;
-        spaced.to_bends = share;
-        best = std::move(spaced);
+        graded.line_grading = share;
+        best = std::move(graded);
     }
     return best;
 }
@@ -170,7 +170,7 @@ bool has_bends(const GridResult& grid)
 
 } // namespace
 
-bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double share, GridResult& grid,
+bool grade_lines(const BlankSearch& blank, const BlankBoundary& boundary, double share, GridResult& grid,
                  const Progress& progress)
 {
     grid.no_bends = !has_bends(grid);
@@ -178,9 +178,9 @@ bool space_lines(const BlankSearch& blank, const BlankBoundary& boundary, double
         return false;
     for (int attempt = 0; attempt < attempts; ++attempt, share /= 2) {
         const Progress here = progress.part(double(attempt) / attempts, double(attempt + 1) / attempts);
-        GridResult spaced = spaced_grid(blank, boundary, share, grid, here);
-        if (spaced.to_bends > 0) {
-            grid = std::move(spaced);
+        GridResult graded = graded_grid(blank, boundary, share, grid, here);
+        if (graded.line_grading > 0) {
+            grid = std::move(graded);
             return true;
         }
     }
@@ -194,7 +194,7 @@ bool even_cells(const BlankSearch& blank, GridResult& grid, const Progress& prog
     GridResult evened = grid;
     UntangleOptions options;
     options.keep_spacing = true;
-    mend(blank, evened, progress, options);
+    untangle_on_blank(blank, evened, progress, options);
     if (is_spoilt(evened, grid))
         return false;
     evened.route = grid.route; // nothing had to be untangled

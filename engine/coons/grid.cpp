@@ -11,15 +11,15 @@
 #include <utility>
 
 #include "engine/coons/adapt_grid.h"
+#include "engine/coons/area_balanced_map.h"
 #include "engine/coons/blank_search.h"
 #include "engine/coons/border_check.h"
-#include "engine/coons/find_nodes.h"
 #include "engine/coons/harmonic_map.h"
+#include "engine/coons/locate_nodes.h"
 #include "engine/coons/map_grid.h"
-#include "engine/coons/mend.h"
-#include "engine/coons/opened_map.h"
 #include "engine/coons/place_border.h"
-#include "engine/coons/wound_grid.h"
+#include "engine/coons/spiral_grid.h"
+#include "engine/coons/untangle_on_blank.h"
 #include "engine/core/error.h"
 
 namespace spia {
@@ -59,9 +59,10 @@ void smooth_interior(QuadGrid& grid, int sweeps)
 
 /// Cells as square as the mean length of the grid lines allows, `options.cells` along the longer ones. (The
 /// sides alone would give an ellipse with its corners at the two ends far too few rows.)
-void choose_counts(const GridWorkshop& shop, const GridOptions& options, int& columns, int& rows)
+void choose_counts(const GridContext& context, const GridOptions& options, int& columns, int& rows)
 {
-    QuadGrid trial = empty_grid(shop, options.cells, options.cells, even_border(options.cells, options.cells)).planar;
+    QuadGrid trial =
+        empty_grid(context, options.cells, options.cells, even_border(options.cells, options.cells)).planar;
     blend_opposite_sides(trial);
     double u = 0, v = 0;
     for (int j = 0; j <= trial.rows; ++j)
@@ -78,69 +79,71 @@ void choose_counts(const GridWorkshop& shop, const GridOptions& options, int& co
     rows = options.rows > 0 ? options.rows : count(v);
 }
 
-GridResult coons_patch(const GridWorkshop& shop, int columns, int rows, const GridOptions& options,
+GridResult coons_patch(const GridContext& context, int columns, int rows, const GridOptions& options,
                        const Progress& progress)
 {
-    GridResult grid = empty_grid(shop, columns, rows, even_border(columns, rows));
+    GridResult grid = empty_grid(context, columns, rows, even_border(columns, rows));
     blend_opposite_sides(grid.planar);
-    find_nodes(shop.blank, grid);
+    locate_nodes(context.blank, grid);
     for (int sweeps = 0; !is_sound(grid) && sweeps < options.smoothing; sweeps += sweeps_between_looks) {
         progress.checkpoint(double(sweeps) / options.smoothing, "smoothing the grid");
         smooth_interior(grid.planar, std::min(sweeps_between_looks, options.smoothing - sweeps));
         grid.route = GridRoute::smoothed_coons;
-        find_nodes(shop.blank, grid);
+        locate_nodes(context.blank, grid);
     }
     return grid;
 }
 
-/// The grid of a map, mended where it folds. Sound, or the last one tried.
-GridResult mended_grid(const SquareMap& map, const GridWorkshop& shop, const MapLines& lines,
-                       const BorderParameters& border, const Progress& progress)
+/// The grid of a map, untangled where it folds. Sound, or the last one tried.
+GridResult untangled_grid(const SquareMap& map, const GridContext& context, const MapLines& lines,
+                          const BorderParameters& border, const Progress& progress)
 {
-    GridResult grid = grid_of_map(map, shop, lines, border);
-    if (is_sound(grid) || !border_is_possible(grid, shop.blank.overlaps_itself()))
+    GridResult grid = grid_of_map(map, context, lines, border);
+    if (is_sound(grid) || !border_is_possible(grid, context.blank.overlaps_itself()))
         return grid;
-    mend(shop.blank, grid, progress.part(0, 0.5));
+    untangle_on_blank(context.blank, grid, progress.part(0, 0.5));
     if (!is_sound(grid) && map.route == GridRoute::harmonic) {
         // Where the map squeezes much of the blank into a corner, the patch is the better start.
         blend_opposite_sides(grid.planar);
-        mend(shop.blank, grid, progress.part(0.5, 1));
+        untangle_on_blank(context.blank, grid, progress.part(0.5, 1));
     }
     return grid;
 }
 
 /// Border nodes that divide the sides evenly, else that slide as little as they have to for cells to follow the outline.
-GridResult harmonic_grid(GridWorkshop& shop, int columns, int rows, const Progress& progress)
+GridResult harmonic_grid(GridContext& context, int columns, int rows, const Progress& progress)
 {
-    if (!shop.harmonic)
-        shop.harmonic.emplace(harmonic_map(*shop.filled, shop.boundary, progress.part(0, 0.2)), GridRoute::harmonic);
+    if (!context.harmonic)
+        context.harmonic.emplace(harmonic_map(*context.filled, context.boundary, progress.part(0, 0.2)),
+                                 GridRoute::harmonic);
     GridResult grid;
     for (const double reach : slides) {
-        const BorderParameters border =
-            reach > 0 ? slid_border(*shop.filled, shop.boundary, columns, rows, reach) : even_border(columns, rows);
-        grid = mended_grid(*shop.harmonic, shop, even_lines(columns, rows), border, progress.part(0.2, 1));
-        if (is_sound(grid) || border_is_possible(grid, shop.blank.overlaps_itself()))
+        const BorderParameters border = reach > 0 ? slid_border(*context.filled, context.boundary, columns, rows, reach)
+                                                  : even_border(columns, rows);
+        grid = untangled_grid(*context.harmonic, context, even_lines(columns, rows), border, progress.part(0.2, 1));
+        if (is_sound(grid) || border_is_possible(grid, context.blank.overlaps_itself()))
             break;
     }
     return grid;
 }
 
 /// The same from a map that leaves lobes and windings their area, first with border nodes that divide the sides evenly.
-GridResult opened_grid(const GridWorkshop& shop, int columns, int rows, GridResult best, const Progress& progress)
+GridResult area_balanced_grid(const GridContext& context, int columns, int rows, GridResult best,
+                              const Progress& progress)
 {
     const MapLines lines = even_lines(columns, rows);
     for (const bool slide : {false, true}) {
         const Progress here = progress.part(0.5 * slide, 0.5 + 0.5 * slide);
-        std::optional<HarmonicMap> opened =
-            opened_map(shop.harmonic->map, {.oblong = double(columns) / rows, .slide = slide}, here.part(0, 0.5));
+        std::optional<HarmonicMap> opened = area_balanced_map(
+            context.harmonic->map, {.oblong = double(columns) / rows, .slide = slide}, here.part(0, 0.5));
         if (!opened)
             continue;
-        const SquareMap map(std::move(*opened), GridRoute::opened);
+        const SquareMap map(std::move(*opened), GridRoute::area_balanced);
         GridResult grid =
-            mended_grid(map, shop, lines, border_of_map(map.map, shop.boundary, lines), here.part(0.5, 1));
+            untangled_grid(map, context, lines, border_of_map(map.map, context.boundary, lines), here.part(0.5, 1));
         if (is_sound(grid))
             return grid;
-        if (const bool overlaps = shop.blank.overlaps_itself();
+        if (const bool overlaps = context.blank.overlaps_itself();
             !border_is_possible(best, overlaps) && border_is_possible(grid, overlaps))
             best = std::move(grid);
     }
@@ -148,10 +151,10 @@ GridResult opened_grid(const GridWorkshop& shop, int columns, int rows, GridResu
 }
 
 /// Length of the outline over that of a square of the same area: 1 for a square, about 1.5 for a part with lobes.
-double outline_over_square(const GridWorkshop& shop)
+double outline_over_square(const GridContext& context)
 {
-    const std::vector<int>& outline = shop.filled->outline;
-    const Eigen::Matrix2Xd& plane = shop.filled->plane;
+    const std::vector<int>& outline = context.filled->outline;
+    const Eigen::Matrix2Xd& plane = context.filled->plane;
     double length = 0, area = 0;
     for (size_t i = 0; i < outline.size(); ++i) {
         const Eigen::Vector2d a = plane.col(outline[i]), b = plane.col(outline[(i + 1) % outline.size()]);
@@ -161,11 +164,11 @@ double outline_over_square(const GridWorkshop& shop)
     return length / (4 * std::sqrt(std::max(area, 1e-300)));
 }
 
-[[noreturn]] void throw_impossible(const GridWorkshop& shop, const GridResult& grid,
+[[noreturn]] void throw_impossible(const GridContext& context, const GridResult& grid,
                                    const std::vector<int>& file_number)
 {
     const auto number = [&](int v) { return file_number.empty() ? v : file_number[size_t(v)]; };
-    const auto& corner = shop.boundary.corner;
+    const auto& corner = context.boundary.corner;
     const int m = grid.planar.columns, n = grid.planar.rows;
     if (const int k = impossible_corner(grid.planar); k >= 0)
         throw InputError(fmt::format("the {} x {} grid folds at corner vertex {}: the outline does not turn "
@@ -174,8 +177,8 @@ double outline_over_square(const GridWorkshop& shop)
                                      "choose a corner where the outline is "
                                      "convex, or let the corners be proposed",
                                      m, n, number(corner[size_t(k)]), corner_angle_deg(grid.planar, k)));
-    if (!follows_outline(grid, shop.blank.overlaps_itself())) {
-        if (const auto [vertex, angle_deg] = widest_vertex(*shop.filled); angle_deg > 360)
+    if (!follows_outline(grid, context.blank.overlaps_itself())) {
+        if (const auto [vertex, angle_deg] = widest_vertex(*context.filled); angle_deg > 360)
             throw InputError(fmt::format(
                 "the blank lies on itself around boundary vertex {} (inner angle {:.0f} degrees), and the cells of a "
                 "{} x {} grid cannot turn around such a place; cut the part there into two",
@@ -184,7 +187,7 @@ double outline_over_square(const GridWorkshop& shop)
                                      "joined by straight lines, do not follow it; choose a finer grid",
                                      m, n));
     }
-    if (const double winding = outline_over_square(shop); winding > 4)
+    if (const double winding = outline_over_square(context); winding > 4)
         throw InputError(fmt::format(
             "the blank winds too much for one four-sided patch: its outline is {:.0f} times as long as that of a square of the "
             "same area, and {} of the {} x {} cells stay folded; cut the part into simpler pieces",
@@ -210,9 +213,9 @@ std::string_view name(GridRoute route)
     case GridRoute::coons: return "Coons patch";
     case GridRoute::smoothed_coons: return "smoothed Coons patch";
     case GridRoute::harmonic: return "harmonic map";
-    case GridRoute::opened: return "opened harmonic map";
+    case GridRoute::area_balanced: return "opened harmonic map";
     case GridRoute::untangled: return "untangled harmonic map";
-    case GridRoute::wound: return "opened map, its cells unfolded to their mean shapes";
+    case GridRoute::spiral: return "opened map, its cells unfolded to their mean shapes";
     }
     return "";
 }
@@ -231,14 +234,14 @@ std::vector<std::array<int, 2>> finer_counts(int cells)
     return counts;
 }
 
-GridResult sound_grid(GridWorkshop& shop, const GridOptions& options, const Progress& progress)
+GridResult sound_grid(GridContext& context, const GridOptions& options, const Progress& progress)
 {
     int columns = 0, rows = 0;
-    choose_counts(shop, options, columns, rows);
+    choose_counts(context, options, columns, rows);
 
     GridResult grid;
     if (options.method != GridMethod::harmonic) {
-        grid = coons_patch(shop, columns, rows, options, progress.part(0.1, 0.2));
+        grid = coons_patch(context, columns, rows, options, progress.part(0.1, 0.2));
         if (is_sound(grid) || options.method == GridMethod::coons)
             return grid;
     }
@@ -247,21 +250,21 @@ GridResult sound_grid(GridWorkshop& shop, const GridOptions& options, const Prog
     for (int level = 0; level < levels; ++level) {
         const Progress here = progress.part(0.2 + 0.3 * level / levels, 0.2 + 0.3 * (level + 1) / levels);
         const int m = columns << level, n = rows << level;
-        grid = harmonic_grid(shop, m, n, here.part(0, 0.5));
+        grid = harmonic_grid(context, m, n, here.part(0, 0.5));
         if (!is_sound(grid))
-            grid = opened_grid(shop, m, n, std::move(grid), here.part(0.5, 1));
+            grid = area_balanced_grid(context, m, n, std::move(grid), here.part(0.5, 1));
         grid.refinements = level;
         if (is_sound(grid))
             return grid;
     }
-    if (border_is_possible(grid, shop.blank.overlaps_itself())) {
+    if (border_is_possible(grid, context.blank.overlaps_itself())) {
         std::vector<std::array<int, 2>> counts = {{columns, rows}};
         if (may_refine)
             counts = finer_counts(options.cells);
-        if (std::optional<GridResult> wound = wound_grid(shop, counts, progress.part(0.5, 1)))
-            return std::move(*wound);
+        if (std::optional<GridResult> spiral = spiral_grid(context, counts, progress.part(0.5, 1)))
+            return std::move(*spiral);
     }
-    throw_impossible(shop, grid, options.file_number);
+    throw_impossible(context, grid, options.file_number);
 }
 
 } // namespace
@@ -269,18 +272,18 @@ GridResult sound_grid(GridWorkshop& shop, const GridOptions& options, const Prog
 GridResult coons_grid(const TriMesh& part, const Blank& blank, const BlankBoundary& boundary,
                       const GridOptions& options, const Progress& progress)
 {
-    if (!(options.to_bends >= 0 && options.to_bends <= 0.9))
+    if (!(options.line_grading >= 0 && options.line_grading <= 0.9))
         throw InputError("the share of the lines that go to bends must be from 0 to 0.9");
     auto filled = std::make_shared<const FilledMesh>(fill_holes(part, blank.position, progress.part(0, 0.1)));
     progress.checkpoint(0.1, "searching the blank");
-    GridWorkshop shop{filled, boundary, BlankSearch(*filled)};
-    const bool adapt = options.to_bends > 0 || options.even_cells;
-    GridResult grid = sound_grid(shop, options, adapt ? progress.part(0, 0.7) : progress);
+    GridContext context{filled, boundary, BlankSearch(*filled)};
+    const bool adapt = options.line_grading > 0 || options.even_cells;
+    GridResult grid = sound_grid(context, options, adapt ? progress.part(0, 0.7) : progress);
     if (is_sound(grid)) { // the Coons patch may be asked for as it is
-        if (options.to_bends > 0)
-            space_lines(shop.blank, boundary, options.to_bends, grid, progress.part(0.7, 0.8));
+        if (options.line_grading > 0)
+            grade_lines(context.blank, boundary, options.line_grading, grid, progress.part(0.7, 0.8));
         if (options.even_cells)
-            even_cells(shop.blank, grid, progress.part(0.8, 1));
+            even_cells(context.blank, grid, progress.part(0.8, 1));
     }
     return grid;
 }

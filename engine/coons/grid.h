@@ -26,25 +26,25 @@ struct GridOptions {
     int cells = 40;     ///< on the longer sides, where columns or rows is 0
     int smoothing = 50; ///< the most Laplacian sweeps over a Coons patch that folds
     GridMethod method = GridMethod::automatic;
-    double to_bends = 0;     ///< share of the lines that go where the part bends, 0 to 0.9: see space_lines()
+    double line_grading = 0; ///< share of the lines that go where the part bends, 0 to 0.9: see grade_lines()
     bool even_cells = false; ///< right angles and even sizes inside, where the grid stays sound: see even_cells()
     std::vector<int> file_number = {}; ///< per vertex of the part its number in messages; empty: as in the mesh
 };
 
 /// Which way the grid came about.
-enum class GridRoute { coons, smoothed_coons, harmonic, opened, untangled, wound };
+enum class GridRoute { coons, smoothed_coons, harmonic, area_balanced, untangled, spiral };
 std::string_view name(GridRoute route);
 
 /// A planar quad grid that fills the blank, and where each of its nodes lies on the part.
 struct GridResult {
     QuadGrid planar; ///< in the plane of the blank, z = 0; the border nodes lie on the outline
     GridRoute route = GridRoute::coons;
-    CellQuality quality;   ///< no folded cell but with GridMethod::coons
-    int nodes_outside = 0; ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
-    int refinements = 0;   ///< how often an automatic cell count was doubled to get there
-    double to_bends = 0;   ///< share of the lines that went there; less than asked for where cells would have folded
-    bool no_bends = false; ///< lines were to go there, but it sees none between its nodes
-    bool evened = false;   ///< inside; not, though asked for, where nodes would have left the blank
+    CellQuality quality;     ///< no folded cell but with GridMethod::coons
+    int nodes_outside = 0;   ///< not on the blank or on two layers of it; 0 but with GridMethod::coons
+    int refinements = 0;     ///< how often an automatic cell count was doubled to get there
+    double line_grading = 0; ///< share of the lines that went there; less than asked for where cells would have folded
+    bool no_bends = false;   ///< lines were to go there, but it sees none between its nodes
+    bool evened = false;     ///< inside; not, though asked for, where nodes would have left the blank
     /// Per side, counter-clockwise, the chord-length parameters of its border nodes: from 0 to 1, rising.
     std::array<Eigen::VectorXd, 4> border;
     std::vector<MeshPoint> place;             ///< per node, on filled->mesh; face -1 if it is outside
@@ -54,8 +54,8 @@ struct GridResult {
 /// Fills the blank with columns x rows quads between its four sides. The border nodes divide the sides evenly
 /// by length. Inside: bilinearly blended Coons patch (eq. 25); if a cell folds or a node misses the blank,
 /// Laplacian smoothing; then the harmonic map of the blank onto the unit square, inverted at the grid nodes;
-/// then untangling, from the harmonic map or from one that gives lobes their area (opened_map()), on a finer grid if the
-/// cell counts are automatic; last wound_grid(), on up to 640 x 640 cells if they are. Holes of the part are filled for
+/// then untangling, from the harmonic map or from one that gives lobes their area (area_balanced_map()), on a finer grid if the
+/// cell counts are automatic; last spiral_grid(), on up to 640 x 640 cells if they are. Holes of the part are filled for
 /// this. A sound grid is then adapted as the options ask.
 /// @param boundary of the same blank, see split_boundary()
 /// @throws InputError if every way folds a cell; the message says at which corner, and what to choose instead;

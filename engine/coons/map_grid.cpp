@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/coons/find_nodes.h"
+#include "engine/coons/locate_nodes.h"
 #include "engine/core/parallel.h"
 
 namespace spia {
@@ -45,31 +45,31 @@ BorderParameters border_of_map(const HarmonicMap& map, const BlankBoundary& boun
     return border;
 }
 
-GridResult empty_grid(const GridWorkshop& shop, int columns, int rows, const BorderParameters& border)
+GridResult empty_grid(const GridContext& context, int columns, int rows, const BorderParameters& border)
 {
     GridResult grid;
-    grid.filled = shop.filled;
+    grid.filled = context.filled;
     grid.border = border;
     grid.planar.columns = columns;
     grid.planar.rows = rows;
     grid.planar.position = Eigen::Matrix3Xd::Zero(3, grid.planar.nodes());
     grid.place.resize(size_t(grid.planar.nodes()));
-    place_border(*shop.filled, shop.boundary, border, grid.planar, grid.place);
+    place_border(*context.filled, context.boundary, border, grid.planar, grid.place);
     return grid;
 }
 
-GridResult grid_of_map(const SquareMap& map, const GridWorkshop& shop, const MapLines& lines,
+GridResult grid_of_map(const SquareMap& map, const GridContext& context, const MapLines& lines,
                        const BorderParameters& border)
 {
     const int columns = int(lines.u.size()) - 1, rows = int(lines.v.size()) - 1;
-    GridResult grid = empty_grid(shop, columns, rows, border);
+    GridResult grid = empty_grid(context, columns, rows, border);
     grid.route = map.route;
     parallel_for(grid.planar.nodes(), [&](int n) {
         if (is_border(grid.planar, n))
             return;
         MeshPoint& place = grid.place[size_t(n)];
         place = map.map.in_filled_mesh(map.square.nearest({lines.u[n % (columns + 1)], lines.v[n / (columns + 1)]}));
-        grid.planar.position.col(n) << shop.blank.position(place), 0;
+        grid.planar.position.col(n) << context.blank.position(place), 0;
     });
     grid.quality = cell_quality(grid.planar);
     return grid;

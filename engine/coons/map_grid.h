@@ -27,7 +27,7 @@ struct SquareMap {
 };
 
 /// Everything the ways to a grid share: the blank as a search structure, and the harmonic map once it is needed.
-struct GridWorkshop {
+struct GridContext {
     std::shared_ptr<const FilledMesh> filled;
     BlankBoundary boundary;
     BlankSearch blank;
@@ -45,10 +45,10 @@ MapLines even_lines(int columns, int rows);
 BorderParameters border_of_map(const HarmonicMap& map, const BlankBoundary& boundary, const MapLines& lines);
 
 /// A grid whose inner nodes are at the origin and nowhere on the blank yet.
-GridResult empty_grid(const GridWorkshop& shop, int columns, int rows, const BorderParameters& border);
+GridResult empty_grid(const GridContext& context, int columns, int rows, const BorderParameters& border);
 
 /// A map onto the unit square, inverted where the lines cross. Each node keeps the triangle it was found in.
-GridResult grid_of_map(const SquareMap& map, const GridWorkshop& shop, const MapLines& lines,
+GridResult grid_of_map(const SquareMap& map, const GridContext& context, const MapLines& lines,
                        const BorderParameters& border);
 
 } // namespace spia

@@ -111,12 +111,12 @@ void untangle(QuadGrid& planar, const std::vector<Pull>& pulls, const UntangleOp
         return; // no inner node
     const Eigen::Vector2d size = wanted_cell(planar);
     Eigen::Matrix2Xd position = planar.position.topRows(2);
-    UnfoldOptions unfold;
-    unfold.most_steps = options.most_steps;
-    unfold.area_weight = options.area_weight;
-    unfold.element_area = size.prod();
-    unfold_elements(position, cell_corners(planar, wanted_cells(planar, size, options.keep_spacing)), pulls, unfold,
-                    progress);
+    UntangleElementsOptions element_options;
+    element_options.most_steps = options.most_steps;
+    element_options.area_weight = options.area_weight;
+    element_options.element_area = size.prod();
+    untangle_elements(position, cell_corners(planar, wanted_cells(planar, size, options.keep_spacing)), pulls,
+                      element_options, progress);
     planar.position.topRows(2) = position;
 }
 

@@ -352,7 +352,7 @@ Json grid_json(const Session& session)
             {"rows", grid.planar.rows},
             {"folded_cells", grid.quality.folded_cells},
             {"method", name(grid.route)},
-            {"to_bends", grid.to_bends},
+            {"to_bends", grid.line_grading},
             {"no_bends", grid.no_bends},
             {"evened", grid.evened},
             {"min_scaled_jacobian", grid.quality.min_scaled_jacobian},

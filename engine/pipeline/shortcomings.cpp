@@ -71,11 +71,11 @@ std::vector<std::string> grid_shortcomings(const Session& session)
     if (!session.grid)
         return list;
     const GridResult& grid = session.grid->result;
-    if (grid.route == GridRoute::wound)
+    if (grid.route == GridRoute::spiral)
         list.push_back(fmt::format(
             "between these corners the blank winds: a grid without folds needs long, skewed cells, {} x {} of them; corners at the ends of the winding strip give better cells",
             grid.planar.columns, grid.planar.rows));
-    const bool asked_for = session.options.grid.to_bends > 0 || session.options.grid.even_cells;
+    const bool asked_for = session.options.grid.line_grading > 0 || session.options.grid.even_cells;
     if (asked_for && grid.quality.folded_cells > 0) {
         list.push_back("grid lines were not moved to bends and cells not improved, because the grid folds before that");
         return list;
@@ -85,10 +85,10 @@ std::vector<std::string> grid_shortcomings(const Session& session)
             grid.planar.columns < 2 && grid.planar.rows < 2
                 ? "the grid has no inner lines to move to bends; choose more cells"
                 : "no grid lines were moved to bends, because none were found between its nodes; if the part has bends, choose more cells");
-    else if (const double asked = session.options.grid.to_bends; grid.to_bends < asked)
+    else if (const double asked = session.options.grid.line_grading; grid.line_grading < asked)
         list.push_back(fmt::format(
             "{:.3g} % of the grid lines were moved to bends, not {:.3g} %: with more, cells would fold or leave the blank; choose more cells",
-            100 * grid.to_bends, 100 * asked));
+            100 * grid.line_grading, 100 * asked));
     if (session.options.grid.even_cells && !grid.evened)
         list.push_back(grid.planar.columns < 2 || grid.planar.rows < 2
                            ? "the grid has no inner nodes to move; choose more cells to improve cell angles"

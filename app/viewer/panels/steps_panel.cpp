@@ -240,9 +240,9 @@ std::string route_words(GridRoute route)
     case GridRoute::coons: return "Coons";
     case GridRoute::smoothed_coons: return "Coons, smoothed";
     case GridRoute::harmonic: return "harmonic";
-    case GridRoute::opened: return "harmonic, opened";
+    case GridRoute::area_balanced: return "harmonic, opened";
     case GridRoute::untangled: return "harmonic, folds removed";
-    case GridRoute::wound: return "along the winding";
+    case GridRoute::spiral: return "along the winding";
     }
     return "";
 }
@@ -304,10 +304,10 @@ void grid_step(Frame& frame)
         grid.smoothing = std::clamp(grid.smoothing, 0, 100000);
         tooltip("How often the nodes of a Coons grid with folded cells are smoothed at most");
     }
-    double percent = 100 * grid.to_bends;
+    double percent = 100 * grid.line_grading;
     ImGui::SetNextItemWidth(width);
     if (typed_number(frame, "Lines to bends, %", percent, "%.0f")) {
-        grid.to_bends = std::clamp(percent / 100, 0., 0.9);
+        grid.line_grading = std::clamp(percent / 100, 0., 0.9);
         changed = true;
     }
     tooltip(

@@ -52,12 +52,12 @@ struct Strip {
             vertex[k] = outlines::nearest_vertex(flat, place[k]);
         return vertex;
     }
-    GridResult grid(double to_bends) const
+    GridResult grid(double line_grading) const
     {
         GridOptions options;
         options.columns = 40;
         options.rows = 10;
-        options.to_bends = to_bends;
+        options.line_grading = line_grading;
         return coons_grid(part, blank, boundary, options);
     }
 };
@@ -78,29 +78,29 @@ double chord_height(const GridResult& grid)
     return greatest;
 }
 
-TEST(SpaceLines, GoToTheBendOfAStrip)
+TEST(GradeLines, GoToTheBendOfAStrip)
 {
     const Strip strip;
-    const GridResult even = strip.grid(0), spaced = strip.grid(0.5);
-    EXPECT_EQ(even.to_bends, 0);
-    EXPECT_GT(spaced.to_bends, 0);
-    EXPECT_EQ(shapes::fault_of(spaced, strip.boundary), "");
-    EXPECT_LT(chord_height(spaced), chord_height(even) / 8);
+    const GridResult even = strip.grid(0), graded = strip.grid(0.5);
+    EXPECT_EQ(even.line_grading, 0);
+    EXPECT_GT(graded.line_grading, 0);
+    EXPECT_EQ(shapes::fault_of(graded, strip.boundary), "");
+    EXPECT_LT(chord_height(graded), chord_height(even) / 8);
     int inside = 0; // 1.3 of an even grid
     for (int i = 0; i <= 40; ++i) {
-        const double s = spaced.planar.position(0, spaced.planar.node(i, 5));
+        const double s = graded.planar.position(0, graded.planar.node(i, 5));
         inside += s > bend_at && s < bend_at + radius * pi / 2;
     }
     EXPECT_GE(inside, 10);
     for (int j = 0; j <= 10; ++j)
         for (int i = 0; i <= 40; ++i) {
-            const Eigen::Vector3d node = spaced.planar.position.col(spaced.planar.node(i, j));
-            EXPECT_NEAR(node.x(), spaced.planar.position(0, spaced.planar.node(i, 5)), 1e-9) << "they stay straight";
+            const Eigen::Vector3d node = graded.planar.position.col(graded.planar.node(i, j));
+            EXPECT_NEAR(node.x(), graded.planar.position(0, graded.planar.node(i, 5)), 1e-9) << "they stay straight";
             EXPECT_NEAR(node.y(), 4 * j, 1e-9) << "nothing bends across these lines";
         }
 }
 
-TEST(SpaceLines, MoreOfThemTheLargerTheShare)
+TEST(GradeLines, MoreOfThemTheLargerTheShare)
 {
     const Strip strip;
     double before = chord_height(strip.grid(0));
@@ -119,14 +119,14 @@ double farthest_line(const TriMesh& part, bool bends)
     const BlankBoundary boundary = split_boundary(blank, part, propose_corners(blank, part));
     GridOptions options;
     const GridResult even = coons_grid(part, blank, boundary, options);
-    options.to_bends = 0.6;
-    const GridResult spaced = coons_grid(part, blank, boundary, options);
-    EXPECT_EQ(spaced.to_bends > 0, bends);
-    EXPECT_EQ(spaced.no_bends, !bends);
-    return (spaced.planar.position - even.planar.position).cwiseAbs().maxCoeff() / (120. / even.planar.columns);
+    options.line_grading = 0.6;
+    const GridResult graded = coons_grid(part, blank, boundary, options);
+    EXPECT_EQ(graded.line_grading > 0, bends);
+    EXPECT_EQ(graded.no_bends, !bends);
+    return (graded.planar.position - even.planar.position).cwiseAbs().maxCoeff() / (120. / even.planar.columns);
 }
 
-TEST(SpaceLines, StayWhereNothingBends)
+TEST(GradeLines, StayWhereNothingBends)
 {
     TriMesh part = shapes::plate();
     EXPECT_EQ(farthest_line(part, false), 0);
@@ -135,22 +135,22 @@ TEST(SpaceLines, StayWhereNothingBends)
     EXPECT_EQ(farthest_line(part, false), 0);
 }
 
-TEST(SpaceLines, CannotMoveWhereThereAreNone)
+TEST(GradeLines, CannotMoveWhereThereAreNone)
 {
     Strip strip;
     GridOptions options;
     options.columns = options.rows = 1;
-    options.to_bends = 0.5;
+    options.line_grading = 0.5;
     for (int v = 0; v < strip.part.vertices(); ++v) // twisted: the normals of the only cell's corners differ
         strip.part.position(2, v) += 1e-3 * strip.flat.position(0, v) * strip.flat.position(1, v);
     options.even_cells = true;
     const GridResult one = coons_grid(strip.part, strip.blank, strip.boundary, options);
     EXPECT_TRUE(one.no_bends);
-    EXPECT_EQ(one.to_bends, 0);
+    EXPECT_EQ(one.line_grading, 0);
     EXPECT_FALSE(one.evened);
 }
 
-TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
+TEST(GradeLines, AreNotDrawnByWhatFillsAHole)
 {
     TriMesh part = shapes::plate();
     for (int v = 0; v < part.vertices(); ++v) { // rolled up evenly: what fills its holes is flatter than it
@@ -161,7 +161,7 @@ TEST(SpaceLines, AreNotDrawnByWhatFillsAHole)
     EXPECT_LT(farthest_line(part, true), 0.3);
 }
 
-TEST(SpaceLines, SeeABendBesideHolesWhereThereIsNothingElse)
+TEST(GradeLines, SeeABendBesideHolesWhereThereIsNothingElse)
 {
     // The inner nodes of 3 x 3 cells lie in holes: every other one is beside one.
     TriMesh part = shapes::plate({120, 80, {{{40, 26}, 9}, {{80, 26}, 9}, {{40, 54}, 9}, {{80, 54}, 9}}, 4000});
@@ -170,17 +170,17 @@ TEST(SpaceLines, SeeABendBesideHolesWhereThereIsNothingElse)
         part.position(2, v) = 0.5 * std::abs(part.position(0, v) - 62);
     GridOptions options;
     options.columns = options.rows = 3;
-    options.to_bends = 0.5;
+    options.line_grading = 0.5;
     const GridResult grid = coons_grid(part, blank, split_boundary(blank, part, propose_corners(blank, part)), options);
     EXPECT_FALSE(grid.no_bends);
-    EXPECT_GT(grid.to_bends, 0);
-    options.to_bends = 0;
+    EXPECT_GT(grid.line_grading, 0);
+    options.line_grading = 0;
     const GridResult even = coons_grid(part, blank, split_boundary(blank, part, propose_corners(blank, part)), options);
     const std::vector<char> on_fill = lift(even).on_fill;
     EXPECT_EQ(std::count(on_fill.begin(), on_fill.end(), 1), 4) << "else this test says nothing";
 }
 
-TEST(SpaceLines, RefusesAShareWithoutSense)
+TEST(GradeLines, RefusesAShareWithoutSense)
 {
     const Strip strip;
     EXPECT_THROW(strip.grid(-0.1), InputError);
@@ -241,12 +241,12 @@ TEST(EvenCells, KeepTheSpacingOfTheLines)
     GridOptions options;
     options.columns = 40;
     options.rows = 10;
-    options.to_bends = 0.5;
-    const GridResult spaced = coons_grid(strip.part, strip.blank, strip.boundary, options);
+    options.line_grading = 0.5;
+    const GridResult graded = coons_grid(strip.part, strip.blank, strip.boundary, options);
     options.even_cells = true;
     const GridResult both = coons_grid(strip.part, strip.blank, strip.boundary, options);
-    EXPECT_TRUE(both.to_bends == 0.5 && both.evened);
-    EXPECT_LT((both.planar.position - spaced.planar.position).cwiseAbs().maxCoeff(), 1e-3)
+    EXPECT_TRUE(both.line_grading == 0.5 && both.evened);
+    EXPECT_LT((both.planar.position - graded.planar.position).cwiseAbs().maxCoeff(), 1e-3)
         << "rectangles have right angles";
 }
 
@@ -255,7 +255,7 @@ class AdaptedOutline : public testing::TestWithParam<int> {};
 /// Outlines by lot, with waves across them for the part, as if they had been formed.
 TEST_P(AdaptedOutline, HasAGridWithoutAFold)
 {
-    int spaced = 0, evened = 0;
+    int graded = 0, evened = 0;
     for (int number = 0; number < 4; ++number) {
         const shapes::OutlineByLot lot = shapes::outline_by_lot(GetParam(), number);
         TriMesh part = lot.part;
@@ -265,14 +265,14 @@ TEST_P(AdaptedOutline, HasAGridWithoutAFold)
         const Blank blank{lot.part.position.topRows(2)};
         const BlankBoundary boundary = split_boundary(blank, part, lot.corner);
         GridOptions options;
-        options.to_bends = 0.6;
+        options.line_grading = 0.6;
         options.even_cells = number % 2 == 0;
         const GridResult grid = coons_grid(part, blank, boundary, options);
         EXPECT_EQ(shapes::fault_of(grid, boundary), "") << lot.name;
-        spaced += grid.to_bends > 0;
+        graded += grid.line_grading > 0;
         evened += grid.evened;
     }
-    EXPECT_GE(spaced, 3);
+    EXPECT_GE(graded, 3);
     EXPECT_GE(evened, 1);
 }
 

@@ -13,7 +13,7 @@ TEST_P(OutlineKind, HasAGridWithoutAFold)
 {
     std::vector<int> numbers = {0, 1, 2, 3, 4, 5, 6, 7};
     if (shapes::outline_kind(GetParam()) == "spiral")
-        numbers = {0, 1, 12}; // they take seconds each; 12 has a grid by wound_grid() alone
+        numbers = {0, 1, 12}; // they take seconds each; 12 has a grid by spiral_grid() alone
     for (const int number : numbers) {
         const shapes::OutlineByLot lot = shapes::outline_by_lot(GetParam(), number);
         const shapes::GridByLot made = shapes::grid_by_lot(lot);

@@ -229,7 +229,7 @@ TEST(Report, SaysThatABlankWinds)
     };
     EXPECT_EQ(winds(), 0);
     GridStage grid = *session.grid;
-    grid.result.route = GridRoute::wound;
+    grid.result.route = GridRoute::spiral;
     session.grid = std::make_shared<GridStage>(grid);
     EXPECT_EQ(winds(), 1);
 }

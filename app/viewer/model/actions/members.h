@@ -121,7 +121,7 @@ inline constexpr auto members_of<GridOptions> =
                member("cells", &GridOptions::cells, Between{1, 2000}),
                member("smoothing", &GridOptions::smoothing, Between{0, 100000}),
                member("method", &GridOptions::method),
-               member("to_bends", &GridOptions::to_bends, Between{0, 0.9}),
+               member("to_bends", &GridOptions::line_grading, Between{0, 0.9}),
                member("even_cells", &GridOptions::even_cells)};
 
 template <>

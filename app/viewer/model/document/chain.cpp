@@ -27,7 +27,7 @@ bool same(const FlattenOptions& a, const FlattenOptions& b)
 bool same(const GridOptions& a, const GridOptions& b)
 {
     return a.columns == b.columns && a.rows == b.rows && a.cells == b.cells && a.smoothing == b.smoothing &&
-           a.method == b.method && a.to_bends == b.to_bends && a.even_cells == b.even_cells;
+           a.method == b.method && a.line_grading == b.line_grading && a.even_cells == b.even_cells;
 }
 
 /// The part to be looked at, if its mesh is sick; null if the file cannot be read at all.

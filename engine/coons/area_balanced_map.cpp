@@ -1,4 +1,4 @@
-#include "engine/coons/opened_map.h"
+#include "engine/coons/area_balanced_map.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/coons/unfold_elements.h"
+#include "engine/coons/untangle_elements.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/orient2d.h"
 
@@ -130,7 +130,7 @@ bool is_one_to_one(const HarmonicMap& map)
     return true;
 }
 
-void open(HarmonicMap& map, const OpenOptions& how, const Progress& progress)
+void open(HarmonicMap& map, const AreaBalanceOptions& how, const Progress& progress)
 {
     const Used used(map);
     double area = 0;
@@ -139,12 +139,12 @@ void open(HarmonicMap& map, const OpenOptions& how, const Progress& progress)
     Eigen::Matrix2Xd position(2, Eigen::Index(used.vertex.size()));
     for (size_t i = 0; i < used.vertex.size(); ++i)
         position.col(Eigen::Index(i)) = map.square.col(used.vertex[i]).array() * size;
-    UnfoldOptions options;
+    UntangleElementsOptions options;
     options.most_steps = most_steps;
     options.area_weight = how.area_weight;
     options.element_area = area / double(map.triangle.cols());
     options.thin = thin;
-    unfold_elements(position, elements, {}, options, progress);
+    untangle_elements(position, elements, {}, options, progress);
     for (size_t i = 0; i < used.vertex.size(); ++i)
         for (int k = 0; k < 2; ++k) // what stays keeps its bits
             if (!elements.fixed(k, Eigen::Index(i)))
@@ -153,7 +153,8 @@ void open(HarmonicMap& map, const OpenOptions& how, const Progress& progress)
 
 } // namespace
 
-std::optional<HarmonicMap> opened_map(const HarmonicMap& map, const OpenOptions& options, const Progress& progress)
+std::optional<HarmonicMap> area_balanced_map(const HarmonicMap& map, const AreaBalanceOptions& options,
+                                             const Progress& progress)
 {
     HarmonicMap opened = map;
     for (int level = 0;; ++level) {

@@ -1,4 +1,4 @@
-#include "engine/coons/line_spacing.h"
+#include "engine/coons/graded_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ Eigen::ArrayXd with_slope(Eigen::ArrayXd spacing, double slope)
 
 } // namespace
 
-Eigen::VectorXd spaced_lines(const Eigen::VectorXd& weight, int intervals, double share, double growth)
+Eigen::VectorXd graded_lines(const Eigen::VectorXd& weight, int intervals, double share, double growth)
 {
     Eigen::VectorXd lines = Eigen::VectorXd::LinSpaced(intervals + 1, 0, intervals) / intervals;
     if (!(weight.sum() > 0) || !(share > 0) || intervals < 2)

@@ -1,4 +1,4 @@
-#include "engine/coons/unfold_elements.h"
+#include "engine/coons/untangle_elements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +25,10 @@ constexpr double slower = 0.5; // chi of the worst element falls to this part of
 constexpr double armijo = 1e-4;
 constexpr int most_halvings = 40;
 
-class Unfolder {
+class ElementUntangler {
 public:
-    Unfolder(Eigen::Matrix2Xd& position, const PlanarElements& elements, const std::vector<Pull>& pulls,
-             const UnfoldOptions& options)
+    ElementUntangler(Eigen::Matrix2Xd& position, const PlanarElements& elements, const std::vector<Pull>& pulls,
+                     const UntangleElementsOptions& options)
         : position_(position), elements_(elements), pulls_(pulls), options_(options),
           matrix_(elements.triangle, int(position.cols())), factor_(matrix_)
     {
@@ -178,7 +178,7 @@ private:
     Eigen::Matrix2Xd& position_;
     const PlanarElements& elements_;
     const std::vector<Pull>& pulls_;
-    const UnfoldOptions& options_;
+    const UntangleElementsOptions& options_;
     ElementEnergy energy_;
     std::vector<Eigen::Matrix<double, 6, 1>> slope_;
     std::vector<Matrix6d> stiffness_;
@@ -190,10 +190,10 @@ private:
 
 } // namespace
 
-double unfold_elements(Eigen::Matrix2Xd& position, const PlanarElements& elements, const std::vector<Pull>& pulls,
-                       const UnfoldOptions& options, const Progress& progress)
+double untangle_elements(Eigen::Matrix2Xd& position, const PlanarElements& elements, const std::vector<Pull>& pulls,
+                         const UntangleElementsOptions& options, const Progress& progress)
 {
-    return Unfolder(position, elements, pulls, options).run(progress);
+    return ElementUntangler(position, elements, pulls, options).run(progress);
 }
 
 } // namespace spia

@@ -1,4 +1,4 @@
-#include "engine/coons/find_nodes.h"
+#include "engine/coons/locate_nodes.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ std::vector<MeshPoint> places_around(const GridResult& grid, int node)
 
 namespace {
 
-void find_layer_by_layer(const BlankSearch& blank, GridResult& grid)
+void locate_layer_by_layer(const BlankSearch& blank, GridResult& grid)
 {
     std::vector<int> front, next;
     std::vector<char> queued(grid.place.size(), 0);
@@ -61,10 +61,10 @@ void find_layer_by_layer(const BlankSearch& blank, GridResult& grid)
 
 } // namespace
 
-void find_nodes(const BlankSearch& blank, GridResult& grid)
+void locate_nodes(const BlankSearch& blank, GridResult& grid)
 {
     if (blank.overlaps_itself())
-        find_layer_by_layer(blank, grid);
+        locate_layer_by_layer(blank, grid);
     else
         parallel_for(grid.planar.nodes(), [&](int n) {
             if (!is_border(grid.planar, n))

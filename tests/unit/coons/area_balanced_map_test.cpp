@@ -1,4 +1,4 @@
-#include "engine/coons/opened_map.h"
+#include "engine/coons/area_balanced_map.h"
 
 #include <gtest/gtest.h>
 
@@ -40,13 +40,13 @@ double share_of_finger(const HarmonicMap& map)
 
 } // namespace
 
-TEST(OpenedMap, GivesALobeItsShareOfTheSquareWithoutAFold)
+TEST(AreaBalancedMap, GivesALobeItsShareOfTheSquareWithoutAFold)
 {
     const Finger finger;
     const double share_of_blank = 4.0 / 108;
     ASSERT_LT(share_of_finger(finger.harmonic), 0.02 * share_of_blank);
     for (const bool slide : {false, true}) {
-        const auto opened = opened_map(finger.harmonic, {.slide = slide});
+        const auto opened = area_balanced_map(finger.harmonic, {.slide = slide});
         ASSERT_TRUE(opened);
         // Fixed sides give the finger what its long edge takes of them; sliding ones shrink that.
         EXPECT_GT(share_of_finger(*opened), (slide ? 0.08 : 0.3) * share_of_blank);
@@ -57,10 +57,11 @@ TEST(OpenedMap, GivesALobeItsShareOfTheSquareWithoutAFold)
     }
 }
 
-TEST(OpenedMap, SidesStayOnTheSidesOfTheSquareAndSlideOnlyIfAsked)
+TEST(AreaBalancedMap, SidesStayOnTheSidesOfTheSquareAndSlideOnlyIfAsked)
 {
     const Finger finger;
-    const auto fixed = opened_map(finger.harmonic, {}), slid = opened_map(finger.harmonic, {.slide = true});
+    const auto fixed = area_balanced_map(finger.harmonic, {}),
+               slid = area_balanced_map(finger.harmonic, {.slide = true});
     ASSERT_TRUE(fixed && slid);
     double most = 0;
     for (int k = 0; k < 4; ++k)

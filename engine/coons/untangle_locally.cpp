@@ -1,4 +1,4 @@
-#include "engine/coons/keep_shapes.h"
+#include "engine/coons/untangle_locally.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/coons/cell_quality.h"
-#include "engine/coons/unfold_elements.h"
+#include "engine/coons/untangle_elements.h"
 
 namespace spia {
 
@@ -124,7 +124,7 @@ double mean_area(const PlanarElements& elements)
 
 } // namespace
 
-void keep_shapes(QuadGrid& planar, int around, const Progress& progress)
+void untangle_locally(QuadGrid& planar, int around, const Progress& progress)
 {
     if (planar.columns < 2 || planar.rows < 2)
         return; // no inner node
@@ -138,12 +138,12 @@ void keep_shapes(QuadGrid& planar, int around, const Progress& progress)
         const Corners corners = cell_corners(planar, wanted, movable(planar, folded, reach));
         const Eigen::Matrix2Xd before = planar.position(Eigen::seq(0, 1), corners.node);
         Eigen::Matrix2Xd position = before;
-        UnfoldOptions options;
+        UntangleElementsOptions options;
         options.most_steps = most_steps;
         options.area_weight = area_weight;
         options.element_area = mean_area(corners.elements);
-        unfold_elements(position, corners.elements, {}, options,
-                        progress.part(double(pass) / most_passes, double(pass + 1) / most_passes));
+        untangle_elements(position, corners.elements, {}, options,
+                          progress.part(double(pass) / most_passes, double(pass + 1) / most_passes));
         planar.position(Eigen::seq(0, 1), corners.node) = position;
         std::vector<int> now = folded_cells(planar);
         if (now.size() > folded.size()) { // others fold that did not

@@ -21,7 +21,7 @@ struct Pull {
     double weight = 1;
 };
 
-struct UnfoldOptions {
+struct UntangleElementsOptions {
     int most_steps = 100;      ///< Newton steps
     double area_weight = 0.05; ///< of equal areas against good shapes
     double element_area = 1;   ///< mm2, what pulls are measured by
@@ -32,7 +32,7 @@ struct UnfoldOptions {
 /// ElementEnergy with eps brought to zero, by projected Newton steps. Once every determinant is above `thin`, none falls to
 /// zero again.
 /// @return the smallest determinant of the maps from the wanted shapes: not positive where a triangle stays folded
-double unfold_elements(Eigen::Matrix2Xd& position, const PlanarElements& elements, const std::vector<Pull>& pulls,
-                       const UnfoldOptions& options, const Progress& progress = {});
+double untangle_elements(Eigen::Matrix2Xd& position, const PlanarElements& elements, const std::vector<Pull>& pulls,
+                         const UntangleElementsOptions& options, const Progress& progress = {});
 
 } // namespace spia

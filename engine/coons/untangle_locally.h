@@ -10,6 +10,6 @@ namespace spia {
 /// a few do not do: on a fine grid that is a small part. The border stays. A grid that cannot be unfolded comes back
 /// as far as it went: look at it with cell_quality().
 /// @param around  cells on either side that the mean is taken of; more of them where that mean is folded as well
-void keep_shapes(QuadGrid& planar, int around, const Progress& progress = {});
+void untangle_locally(QuadGrid& planar, int around, const Progress& progress = {});
 
 } // namespace spia

@@ -1,4 +1,4 @@
-#include "engine/coons/keep_shapes.h"
+#include "engine/coons/untangle_locally.h"
 
 #include <gtest/gtest.h>
 
@@ -32,14 +32,14 @@ QuadGrid sheared_cells(double share)
 
 } // namespace
 
-TEST(KeepShapes, CellsThatFoldAreUnfoldedToTheMeanShapeOfTheOthers)
+TEST(UntangleLocally, CellsThatFoldAreUnfoldedToTheMeanShapeOfTheOthers)
 {
     const QuadGrid exact = sheared_cells(0);
     QuadGrid grid = sheared_cells(1);
     ASSERT_EQ(cell_quality(exact).folded_cells, 0);
     ASSERT_GT(cell_quality(grid).folded_cells, 20);
     const double before = (grid.position - exact.position).norm();
-    keep_shapes(grid, 4);
+    untangle_locally(grid, 4);
     EXPECT_EQ(cell_quality(grid).folded_cells, 0);
     EXPECT_LT((grid.position - exact.position).norm(), 0.3 * before);
     for (int n = 0; n < grid.nodes(); ++n) {
@@ -50,14 +50,14 @@ TEST(KeepShapes, CellsThatFoldAreUnfoldedToTheMeanShapeOfTheOthers)
     }
 }
 
-TEST(KeepShapes, CellsFarFromAFoldStayToTheLastBit)
+TEST(UntangleLocally, CellsFarFromAFoldStayToTheLastBit)
 {
     QuadGrid grid = sheared_cells(0);
     const int folded = grid.node(columns - 2, rows - 2);
     grid.position.col(folded).head<2>() -= 1.3 * along_column;
     const QuadGrid before = grid;
     ASSERT_GT(cell_quality(grid).folded_cells, 0);
-    keep_shapes(grid, 2);
+    untangle_locally(grid, 2);
     EXPECT_EQ(cell_quality(grid).folded_cells, 0);
     EXPECT_NE(grid.position.col(folded), before.position.col(folded));
     for (int j = 0; j <= rows; ++j)
@@ -65,11 +65,11 @@ TEST(KeepShapes, CellsFarFromAFoldStayToTheLastBit)
             EXPECT_EQ(grid.position.col(grid.node(i, j)), before.position.col(grid.node(i, j)));
 }
 
-TEST(KeepShapes, CellsOfOneShapeStayWhereTheyAre)
+TEST(UntangleLocally, CellsOfOneShapeStayWhereTheyAre)
 {
     const QuadGrid exact = sheared_cells(0);
     QuadGrid kept = exact;
-    keep_shapes(kept, 4);
+    untangle_locally(kept, 4);
     EXPECT_LT((kept.position - exact.position).cwiseAbs().maxCoeff(), 1e-6);
 }
 

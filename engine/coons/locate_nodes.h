@@ -17,7 +17,7 @@ std::vector<MeshPoint> places_around(const GridResult& grid, int node);
 
 /// Finds the inner nodes on the blank from their positions in the plane, and judges the cells. On a blank that
 /// overlaps itself it goes from the border inwards, and puts each node on the layer of its neighbours.
-void find_nodes(const BlankSearch& blank, GridResult& grid);
+void locate_nodes(const BlankSearch& blank, GridResult& grid);
 
 /// No cell folds and every node is on the blank.
 bool is_sound(const GridResult& grid);

@@ -1,10 +1,10 @@
-#include "engine/coons/mend.h"
+#include "engine/coons/untangle_on_blank.h"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "engine/coons/find_nodes.h"
+#include "engine/coons/locate_nodes.h"
 #include "engine/coons/untangle.h"
 
 namespace spia {
@@ -83,7 +83,8 @@ Eigen::Vector2d way_back(const BlankSearch& blank, const GridResult& grid, int n
 
 } // namespace
 
-void mend(const BlankSearch& blank, GridResult& grid, const Progress& progress, const UntangleOptions& options)
+void untangle_on_blank(const BlankSearch& blank, GridResult& grid, const Progress& progress,
+                       const UntangleOptions& options)
 {
     grid.route = GridRoute::untangled;
     std::vector<Pull> pulls;
@@ -91,7 +92,7 @@ void mend(const BlankSearch& blank, GridResult& grid, const Progress& progress, 
     for (int round = 0; round < most_rounds; ++round) {
         untangle(grid.planar, pulls, options,
                  progress.part(double(round) / most_rounds, double(round + 1) / most_rounds));
-        find_nodes(blank, grid);
+        locate_nodes(blank, grid);
         if (is_sound(grid) || grid.quality.folded_cells > 0)
             return;
         GridResult settled = grid;
@@ -111,7 +112,7 @@ void mend(const BlankSearch& blank, GridResult& grid, const Progress& progress, 
                 settled.planar.position.col(n) << pull.target, 0;
             }
         }
-        find_nodes(blank, settled);
+        locate_nodes(blank, settled);
         if (is_sound(settled)) {
             grid = std::move(settled);
             return;

@@ -9,6 +9,6 @@ namespace spia {
 /// @param share   of the lines that the weight deals out, 0 to 1
 /// @param growth  above 1
 /// @return intervals + 1 places rising from 0 to 1
-Eigen::VectorXd spaced_lines(const Eigen::VectorXd& weight, int intervals, double share, double growth = 1.5);
+Eigen::VectorXd graded_lines(const Eigen::VectorXd& weight, int intervals, double share, double growth = 1.5);
 
 } // namespace spia
