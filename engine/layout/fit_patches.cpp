@@ -12,7 +12,7 @@
 #include "engine/mesh/locate.h"
 #include "engine/nurbs/fit_curve.h"
 #include "engine/nurbs/fit_patch.h"
-#include "engine/nurbs/missing_knots.h"
+#include "engine/nurbs/refinement_indicators.h"
 #include "engine/nurbs/span_borders.h"
 
 namespace spia {
@@ -212,9 +212,9 @@ double control_points(const Strips& strips, const Layout& layout, int degree)
 void refine_for(int p, Strips& strips, const Strips& before, const Layout& layout, const Fitted& fitted,
                 const PatchesJudgement& judgement)
 {
-    const MissingKnots urgency =
-        missing_knots(fitted.patches.patch[size_t(p)], judgement.missing[size_t(p)], fitted.points[size_t(p)],
-                      fitted.along_u[size_t(p)], fitted.along_v[size_t(p)]);
+    const RefinementIndicators urgency =
+        refinement_indicators(fitted.patches.patch[size_t(p)], judgement.missing[size_t(p)], fitted.points[size_t(p)],
+                              fitted.along_u[size_t(p)], fitted.along_v[size_t(p)]);
     for (const size_t k : {size_t(0), size_t(1)}) {
         const CurveUse use = layout.patch[size_t(p)][k];
         const std::vector<double> borders = before.of_side(layout.patch[size_t(p)], k);

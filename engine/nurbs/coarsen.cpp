@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/nurbs/basis.h"
-#include "engine/nurbs/even_spans.h"
+#include "engine/nurbs/equidistributed_spans.h"
 #include "engine/nurbs/span_borders.h"
 
 namespace spia {
@@ -42,7 +42,7 @@ std::vector<double> joined(const std::vector<double>& borders, const std::vector
 
 } // namespace
 
-std::optional<SpanBorders> Joining::next(const NurbsSurface& surface, const Progress& progress)
+std::optional<SpanBorders> SpanMerging::next(const NurbsSurface& surface, const Progress& progress)
 {
     if (surface.control.cols() > most_control_points)
         return {};
@@ -76,7 +76,7 @@ std::optional<SpanBorders> Joining::next(const NurbsSurface& surface, const Prog
     return {};
 }
 
-void Joining::tried(bool good)
+void SpanMerging::tried(bool good)
 {
     if (good)
         return;
@@ -84,7 +84,7 @@ void Joining::tried(bool good)
     factor_ *= along_u_ ? 2 : 1;
 }
 
-std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface, const Progress&)
+std::optional<SpanBorders> KnotRemoval::next(const NurbsSurface& surface, const Progress&)
 {
     constexpr Eigen::Index most_controls = 1'000;
     constexpr size_t most_tries = 12, most_tries_at_once = 4;
@@ -99,17 +99,17 @@ std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface, const Prog
     std::optional<SpanBorders> best;
     double least = std::numeric_limits<double>::infinity();
     for (const bool along_u : {true, false}) {
-        const std::vector<double> noticed = noticed_knots(surface, along_u);
+        const std::vector<double> significance = knot_significance(surface, along_u);
         const double saved = along_u ? surface.count_v : surface.count_u;
-        for (size_t k = 0; k < noticed.size(); ++k) {
-            if (noticed[k] / saved >= least)
+        for (size_t k = 0; k < significance.size(); ++k) {
+            if (significance[k] / saved >= least)
                 continue;
             SpanBorders proposed = now;
             std::vector<double>& borders = along_u ? proposed.u : proposed.v;
             borders.erase(borders.begin() + std::ptrdiff_t(k) + 1);
             if (std::find(tried_.begin(), tried_.end(), proposed) != tried_.end())
                 continue;
-            least = noticed[k] / saved;
+            least = significance[k] / saved;
             best = std::move(proposed);
         }
     }
@@ -119,7 +119,7 @@ std::optional<SpanBorders> Sparing::next(const NurbsSurface& surface, const Prog
     return best;
 }
 
-std::optional<SpanBorders> Evening::next(const NurbsSurface& surface, const Progress&)
+std::optional<SpanBorders> KnotEquidistribution::next(const NurbsSurface& surface, const Progress&)
 {
     constexpr Eigen::Index most_controls = 4'000;
     constexpr int most_tries = 14;
@@ -136,7 +136,7 @@ std::optional<SpanBorders> Evening::next(const NurbsSurface& surface, const Prog
             continue;
         ++trials_;
         SpanBorders proposed = now;
-        (along_u_ ? proposed.u : proposed.v) = even_spans(surface, along_u_, spans - fewer);
+        (along_u_ ? proposed.u : proposed.v) = equidistributed_spans(surface, along_u_, spans - fewer);
         if (fewer == 1)
             share = -std::abs(share); // the least that can be tried
         return proposed;
@@ -144,7 +144,7 @@ std::optional<SpanBorders> Evening::next(const NurbsSurface& surface, const Prog
     return {};
 }
 
-void Evening::tried(bool good)
+void KnotEquidistribution::tried(bool good)
 {
     double& share = share_[along_u_ ? 0 : 1];
     if (good)

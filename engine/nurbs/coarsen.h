@@ -14,9 +14,9 @@ struct SpanBorders {
 
 /// Proposes halves of spans that could be joined again: those in which a surface within the tolerance is better by a factor than
 /// it need be. Which factor suffices is tried: what was proposed has to be fitted and judged.
-class Joining {
+class SpanMerging {
 public:
-    Joining(const TriMesh& mesh, const FitOptions& options) : mesh_(mesh), options_(options) {}
+    SpanMerging(const TriMesh& mesh, const FitOptions& options) : mesh_(mesh), options_(options) {}
 
     /// @returns none if nothing is left to try, or the surface is so large that trying costs too much
     std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
@@ -32,11 +32,11 @@ private:
     std::vector<SpanBorders> tried_;
 };
 
-/// Proposes fewer spans of even change (even_spans()) for a surface within the tolerance, one direction at a time, fewer by a share that is
+/// Proposes fewer spans of even change (equidistributed_spans()) for a surface within the tolerance, one direction at a time, fewer by a share that is
 /// halved where it was too bold.
-class Evening {
+class KnotEquidistribution {
 public:
-    Evening(const FitSource& source, const FitOptions& options) : source_(source), options_(options) {}
+    KnotEquidistribution(const FitSource& source, const FitOptions& options) : source_(source), options_(options) {}
 
     /// @returns none if nothing is left to try, the data lie on lines of their own, or trying costs too much
     std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);
@@ -53,9 +53,9 @@ private:
 };
 
 /// Proposes to leave one knot out of a small surface within the tolerance, first those whose place the surface notices least.
-class Sparing {
+class KnotRemoval {
 public:
-    explicit Sparing(const FitOptions& options) : options_(options) {}
+    explicit KnotRemoval(const FitOptions& options) : options_(options) {}
 
     /// @returns none if all that is left has been tried, or trying costs too much
     std::optional<SpanBorders> next(const NurbsSurface& surface, const Progress& progress);

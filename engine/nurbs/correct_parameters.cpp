@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/nurbs/anderson_mixing.h"
-#include "engine/nurbs/slide.h"
+#include "engine/nurbs/foot_point_projection.h"
 
 namespace spia {
 
@@ -28,8 +28,8 @@ Flat flat(Eigen::Matrix3Xd& control) { return {control.data(), control.size()}; 
 
 class Correction {
 public:
-    Correction(Attempt& fit, const Slide& slide)
-        : fit_(fit), slide_(slide), weight_(Eigen::VectorXd::Ones(fit.points.cols()))
+    Correction(Attempt& fit, const FootPointProjection& projection)
+        : fit_(fit), projection_(projection), weight_(Eigen::VectorXd::Ones(fit.points.cols()))
     {
     }
 
@@ -39,7 +39,7 @@ public:
             int(std::clamp(points_in_all / fit_.points.cols(), Eigen::Index(fewest_times), Eigen::Index(most_times)));
         for (int time = 0; time <= times; ++time) {
             progress.checkpoint(double(time) / times, "letting points slide");
-            slide();
+            project_points();
             if (time == times)
                 break;
             if (time >= times_without_weights && (time - times_without_weights) % times_per_weights == 0)
@@ -53,10 +53,10 @@ public:
 
 private:
     /// To the feet of the surface, which is kept if it is the best one.
-    void slide()
+    void project_points()
     {
         const std::vector<SurfacePoint> at =
-            slide_.to_feet(fit_.surface, fit_.along_u.parameters(), fit_.along_v.parameters(), fit_.points);
+            projection_.project_points(fit_.surface, fit_.along_u.parameters(), fit_.along_v.parameters(), fit_.points);
         on_surface_.resize(3, fit_.points.cols());
         double sine = 1;
         for (size_t n = 0; n < at.size(); ++n) {
@@ -111,7 +111,7 @@ private:
     }
 
     Attempt& fit_;
-    const Slide& slide_;
+    const FootPointProjection& projection_;
     Eigen::VectorXd weight_, distance_;
     Eigen::Matrix3Xd on_surface_;
     AndersonMixing mixing_{mixed};
@@ -123,9 +123,9 @@ private:
 
 } // namespace
 
-void correct_parameters(Attempt& fit, const Slide& slide, const Progress& progress)
+void correct_parameters(Attempt& fit, const FootPointProjection& projection, const Progress& progress)
 {
-    Correction(fit, slide).run(progress);
+    Correction(fit, projection).run(progress);
 }
 
 } // namespace spia

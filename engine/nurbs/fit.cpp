@@ -17,9 +17,9 @@
 #include "engine/nurbs/fit_judge.h"
 #include "engine/nurbs/fit_patch.h"
 #include "engine/nurbs/fit_shortfall.h"
+#include "engine/nurbs/foot_point_projection.h"
 #include "engine/nurbs/interpolate.h"
-#include "engine/nurbs/missing_knots.h"
-#include "engine/nurbs/slide.h"
+#include "engine/nurbs/refinement_indicators.h"
 #include "engine/nurbs/span_borders.h"
 
 namespace spia {
@@ -49,7 +49,8 @@ struct Halving {
     bool out_of_points = false;
 };
 
-Halving choose(const MissingKnots& missing, const Attempt& fit, const FitSource& source, const FitOptions& options)
+Halving choose(const RefinementIndicators& missing, const Attempt& fit, const FitSource& source,
+               const FitOptions& options)
 {
     struct Wish {
         double urgency;
@@ -192,13 +193,13 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     std::vector<double> borders_u = corrected ? first_borders(options.ends) : borders_of_sides(source, options, true);
     std::vector<double> borders_v = corrected ? first_borders(options.ends) : borders_of_sides(source, options, false);
 
-    std::optional<Slide> slide;
+    std::optional<FootPointProjection> projection;
     if (corrected)
-        slide.emplace(mesh);
+        projection.emplace(mesh);
     const auto fitted = [&](const SpanBorders& borders, const Progress& part) {
         Attempt result = attempt(source, options, borders.u, borders.v, part);
-        if (slide)
-            correct_parameters(result, *slide, part);
+        if (projection)
+            correct_parameters(result, *projection, part);
         return result;
     };
 
@@ -227,8 +228,8 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
         result.report.rounds = round;
         Halving halve;
         if (!judgement.missing.empty() && !(judgement.within && ++folded_rounds > most_rounds_for_folds))
-            halve = choose(missing_knots(now.surface, judgement.missing, now.points, now.along_u, now.along_v), now,
-                           source, options);
+            halve = choose(refinement_indicators(now.surface, judgement.missing, now.points, now.along_u, now.along_v),
+                           now, source, options);
         out_of_points = halve.out_of_points;
         if (better(judgement))
             best =
@@ -257,10 +258,10 @@ FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& op
     };
     // Halving gives more than is needed: where two halves are far better than asked for, they are joined again. Spans of even change
     // can be fewer than halved ones.
-    take_fewer(Joining(mesh, options), "joining to");
-    take_fewer(Evening(source, options), "evening");
+    take_fewer(SpanMerging(mesh, options), "joining to");
+    take_fewer(KnotEquidistribution(source, options), "evening");
     if (corrected)
-        take_fewer(Sparing(options), "sparing to");
+        take_fewer(KnotRemoval(options), "sparing to");
     if (!best->judgement.within) {
         best->judgement = judge.judge(best->surface, true, progress.part(0.9, 0.95));
         if (std::optional<NurbsSurface> through = through_all(source, options)) {

@@ -74,7 +74,7 @@ struct FitResult {
 /// for); spans in which a sample of either way is too far from the part are halved, along u, v or both, by what least squares
 /// along one direction alone leaves there; so until no sample is left. The four border curves are fitted first and held.
 /// Spans that turn out finer than they need be are joined again, and of a surface of up to 4000 control points shared out evenly by how it
-/// changes (even_spans()); with corrected parameters knots are left out one by one as well (Sparing). [exchange-and-iga.md 5; NURBS Book, A9.7]
+/// changes (equidistributed_spans()); with corrected parameters knots are left out one by one as well (KnotRemoval). [exchange-and-iga.md 5; NURBS Book, A9.7]
 /// @param mesh  the part, or the part with its holes filled: what the deviation is measured from
 /// @throws InputError  if an option is out of range or the source gives something else than points
 FitResult fit(const FitSource& source, const TriMesh& mesh, const FitOptions& options = {},

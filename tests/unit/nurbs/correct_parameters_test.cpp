@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/closest_point.h"
 #include "engine/nurbs/evaluate.h"
-#include "engine/nurbs/slide.h"
+#include "engine/nurbs/foot_point_projection.h"
 #include "tests/support/meshed_sheet.h"
 
 namespace spia {
@@ -39,7 +39,7 @@ TEST(CorrectParameters, ComesCloserOnThePartAndDoesNotLeanOver)
     for (const size_t which : {2u, 4u}) { // the torus piece, and the bump, at which most parameters want to be
         const shapes::KnownSheet sheet = shapes::known_sheets()[which];
         const shapes::MeshedSheet meshed(sheet, 120);
-        const Slide slide(meshed.mesh);
+        const FootPointProjection projection(meshed.mesh);
         const ClosestPointSearch part(meshed.mesh);
         for (int spans = 1; spans <= 6; ++spans) {
             SCOPED_TRACE(sheet.name + " " + std::to_string(spans));
@@ -48,7 +48,7 @@ TEST(CorrectParameters, ComesCloserOnThePartAndDoesNotLeanOver)
                 borders.push_back(double(k) / spans);
             Attempt fit = attempt(meshed.source, {}, borders, borders);
             const AtData before(fit);
-            correct_parameters(fit, slide);
+            correct_parameters(fit, projection);
             const AtData after(fit);
             EXPECT_LT(after.largest_distance, before.largest_distance);
             if (which == 2 && spans <= 2) {
@@ -69,7 +69,7 @@ TEST(CorrectParameters, CanBeCancelled)
     Attempt fit = attempt(meshed.source, {}, {0, 1}, {0, 1});
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     const Progress progress([&](double share, std::string_view) { *stop = share > 0.1; }, stop);
-    EXPECT_THROW(correct_parameters(fit, Slide(meshed.mesh), progress), Cancelled);
+    EXPECT_THROW(correct_parameters(fit, FootPointProjection(meshed.mesh), progress), Cancelled);
 }
 
 } // namespace spia

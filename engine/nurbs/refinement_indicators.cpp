@@ -1,4 +1,4 @@
-#include "engine/nurbs/missing_knots.h"
+#include "engine/nurbs/refinement_indicators.h"
 
 #include <algorithm>
 
@@ -24,8 +24,9 @@ std::vector<std::pair<int, int>> parameters_in(const std::vector<double>& border
 
 } // namespace
 
-MissingKnots missing_knots(const NurbsSurface& surface, const std::vector<BeyondTolerance>& beyond,
-                           const Eigen::Matrix3Xd& points, const CurveFit& along_u, const CurveFit& along_v)
+RefinementIndicators refinement_indicators(const NurbsSurface& surface, const std::vector<BeyondTolerance>& beyond,
+                                           const Eigen::Matrix3Xd& points, const CurveFit& along_u,
+                                           const CurveFit& along_v)
 {
     const std::vector<double> borders_u = span_borders(surface.knots_u, surface.degree_u);
     const std::vector<double> borders_v = span_borders(surface.knots_v, surface.degree_v);
@@ -40,7 +41,7 @@ MissingKnots missing_knots(const NurbsSurface& surface, const std::vector<Beyond
     const auto range_u = parameters_in(borders_u, along_u.parameters());
     const auto range_v = parameters_in(borders_v, along_v.parameters());
     const Eigen::Index columns = Eigen::Index(along_u.parameters().size());
-    MissingKnots result{std::vector<double>(size_t(spans_u), 0), std::vector<double>(size_t(spans_v), 0)};
+    RefinementIndicators result{std::vector<double>(size_t(spans_u), 0), std::vector<double>(size_t(spans_v), 0)};
     for (int b = 0; b < spans_v; ++b)
         for (int a = 0; a < spans_u; ++a) {
             const double distance = worst[size_t(a) + size_t(b) * size_t(spans_u)];

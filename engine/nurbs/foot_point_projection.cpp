@@ -1,4 +1,4 @@
-#include "engine/nurbs/slide.h"
+#include "engine/nurbs/foot_point_projection.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -32,13 +32,15 @@ TriMesh boundary_of(const TriMesh& part)
 
 } // namespace
 
-Slide::Slide(const TriMesh& part) : face_normal_(area_vectors(part)), inside_(part), boundary_(boundary_of(part))
+FootPointProjection::FootPointProjection(const TriMesh& part)
+    : face_normal_(area_vectors(part)), inside_(part), boundary_(boundary_of(part))
 {
     face_normal_.colwise().normalize();
 }
 
-std::vector<SurfacePoint> Slide::to_feet(const NurbsSurface& surface, const std::vector<double>& u,
-                                         const std::vector<double>& v, Eigen::Matrix3Xd& points) const
+std::vector<SurfacePoint> FootPointProjection::project_points(const NurbsSurface& surface, const std::vector<double>& u,
+                                                              const std::vector<double>& v,
+                                                              Eigen::Matrix3Xd& points) const
 {
     std::vector<SurfacePoint> on_surface(size_t(points.cols()));
     const int columns = int(u.size()), rows = int(v.size());

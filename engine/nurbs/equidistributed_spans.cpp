@@ -1,4 +1,4 @@
-#include "engine/nurbs/even_spans.h"
+#include "engine/nurbs/equidistributed_spans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ std::vector<double> steps_at_knots(const NurbsSurface& surface, bool along_u)
 
 } // namespace
 
-std::vector<double> noticed_knots(const NurbsSurface& surface, bool along_u)
+std::vector<double> knot_significance(const NurbsSurface& surface, bool along_u)
 {
     const int degree = along_u ? surface.degree_u : surface.degree_v;
     const std::vector<double> border = span_borders(along_u ? surface.knots_u : surface.knots_v, degree);
@@ -56,7 +56,7 @@ std::vector<double> noticed_knots(const NurbsSurface& surface, bool along_u)
     return result;
 }
 
-std::vector<double> even_spans(const NurbsSurface& surface, bool along_u, int spans)
+std::vector<double> equidistributed_spans(const NurbsSurface& surface, bool along_u, int spans)
 {
     const int degree = along_u ? surface.degree_u : surface.degree_v;
     const std::vector<double> border = span_borders(along_u ? surface.knots_u : surface.knots_v, degree);

@@ -1,4 +1,4 @@
-#include "engine/nurbs/even_spans.h"
+#include "engine/nurbs/equidistributed_spans.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ std::vector<double> evenly(int spans)
 
 } // namespace
 
-TEST(EvenSpans, OfASurfaceThatChangesAlikeEverywhereAreAlike)
+TEST(EquidistributedSpans, OfASurfaceThatChangesAlikeEverywhereAreAlike)
 {
     const auto wave = [](double x) {
         return 0.01 * std::exp(4 * x);
@@ -57,37 +57,37 @@ TEST(EvenSpans, OfASurfaceThatChangesAlikeEverywhereAreAlike)
     std::vector<double> uneven; // what is known of it does not depend on where it is known from
     for (int k = 0; k <= 48; ++k)
         uneven.push_back(k <= 32 ? k / 64. : 0.5 + (k - 32) / 32.);
-    const std::vector<double> borders = even_spans(ridge(uneven, wave), true, 8);
+    const std::vector<double> borders = equidistributed_spans(ridge(uneven, wave), true, 8);
     ASSERT_EQ(borders.size(), 9u);
     EXPECT_EQ(borders.front(), 0);
     EXPECT_EQ(borders.back(), 1);
     for (int k = 0; k <= 8; ++k)
         EXPECT_NEAR(borders[size_t(k)], std::log(1 + k / 8. * (std::exp(1) - 1)), 0.01) << k;
-    const std::vector<double> across = even_spans(ridge(uneven, wave), false, 3);
+    const std::vector<double> across = equidistributed_spans(ridge(uneven, wave), false, 3);
     for (size_t k = 0; k < 4; ++k)
         EXPECT_NEAR(across[k], double(k) / 3, 1e-12) << "one span: nothing is known";
 }
 
-TEST(EvenSpans, AKnotIsNoticedByTheStepOfItsHighestDerivative)
+TEST(EquidistributedSpans, AKnotIsNoticedByTheStepOfItsHighestDerivative)
 {
     const auto kinks = [](double x) { // cubics, with steps of 6 and of 0.6 in their third derivative
         return std::pow(std::max(0., x - 0.5), 3) - 0.1 * std::pow(std::max(0., x - 0.75), 3);
     };
-    const std::vector<double> noticed = noticed_knots(ridge({0, 0.25, 0.5, 0.75, 0.875, 1}, kinks), true);
-    ASSERT_EQ(noticed.size(), 4u);
-    EXPECT_NEAR(noticed[0], 0, 1e-9);
-    EXPECT_NEAR(noticed[1], 6 * std::pow(0.125, 3), 1e-9);
-    EXPECT_NEAR(noticed[2], 0.6 * std::pow(0.25 * 0.125 / 0.375, 3), 1e-9);
-    EXPECT_NEAR(noticed[3], 0, 1e-9);
-    EXPECT_TRUE(noticed_knots(ridge({0, 1}, kinks), true).empty());
+    const std::vector<double> significance = knot_significance(ridge({0, 0.25, 0.5, 0.75, 0.875, 1}, kinks), true);
+    ASSERT_EQ(significance.size(), 4u);
+    EXPECT_NEAR(significance[0], 0, 1e-9);
+    EXPECT_NEAR(significance[1], 6 * std::pow(0.125, 3), 1e-9);
+    EXPECT_NEAR(significance[2], 0.6 * std::pow(0.25 * 0.125 / 0.375, 3), 1e-9);
+    EXPECT_NEAR(significance[3], 0, 1e-9);
+    EXPECT_TRUE(knot_significance(ridge({0, 1}, kinks), true).empty());
 }
 
-TEST(EvenSpans, NeedFewerForAStepThanEvenOnes)
+TEST(EquidistributedSpans, NeedFewerForAStepThanEvenOnes)
 {
     const auto step = [](double x) { return 0.2 * std::tanh(15 * (x - 0.37)); };
     const NurbsSurface fine = ridge(evenly(32), step);
     for (const int spans : {10, 14}) {
-        const std::vector<double> borders = even_spans(fine, true, spans);
+        const std::vector<double> borders = equidistributed_spans(fine, true, spans);
         for (size_t k = 0; k + 1 < borders.size(); ++k)
             EXPECT_LT(borders[k], borders[k + 1]);
         EXPECT_LT(error(ridge(borders, step), step), error(ridge(evenly(spans), step), step) / 5) << spans;

@@ -6,18 +6,18 @@
 
 namespace spia {
 
-/// Lets the points of a fit slide over the part.
-class Slide {
+/// Moves the points of a fit to the foot points of its surface on the part.
+class FootPointProjection {
 public:
     /// @throws InputError if the part has no boundary
-    explicit Slide(const TriMesh& part);
+    explicit FootPointProjection(const TriMesh& part);
 
     /// Moves inner points to the nearest place of the part to the surface at their parameters, border points likewise along
     /// the part's boundary; corners stay. A foot on another sheet of the part, or farther off than the point itself, is left.
     /// @param points  (i, j) at u[i], v[j], i fastest
     /// @returns what the surface is like at the parameters, in the same order
-    std::vector<SurfacePoint> to_feet(const NurbsSurface& surface, const std::vector<double>& u,
-                                      const std::vector<double>& v, Eigen::Matrix3Xd& points) const;
+    std::vector<SurfacePoint> project_points(const NurbsSurface& surface, const std::vector<double>& u,
+                                             const std::vector<double>& v, Eigen::Matrix3Xd& points) const;
 
 private:
     Eigen::Matrix3Xd face_normal_; ///< unit
