@@ -31,10 +31,10 @@
 #include "engine/pipeline/unfold_outputs.h"
 #include "engine/pipeline/unfold_shortcomings.h"
 #include "engine/pipeline/unfold_states.h"
+#include "engine/unfold/automatic_unfolding.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/step/polish.h"
 #include "engine/unfold/step/upright.h"
-#include "engine/unfold/unfold_by_itself.h"
 
 namespace spia::cli {
 namespace {
@@ -306,8 +306,8 @@ RunSteps run_steps(const UnfoldArguments& arguments, const PartFile& part, const
     JobDisplay display{"unfold"};
     const auto clock = std::chrono::steady_clock::now();
     if (arguments.automatic) {
-        UnfoldedByItself unfolded =
-            unfold_by_itself(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
+        AutomaticUnfolding unfolded =
+            automatic_unfolding(part.mesh, map, {.root = arguments.root - 1}, options, display.progress());
         for (const std::string& note : unfolded.sequence.notes)
             say("  note: {}\n", note);
         done.steps = std::move(unfolded.sequence.steps);

@@ -196,7 +196,7 @@ Eigen::Vector3d direction(const Json& json, const Place& place)
 }
 
 /// {"plane": {...}}, {"cylinder": {...}} or {"cone": {...}}. @param towards a place on the side where the face is to be
-BinderFace face_in(const Json& json, const Place& place, const Eigen::Vector3d& towards)
+TargetSurface face_in(const Json& json, const Place& place, const Eigen::Vector3d& towards)
 {
     require_object(json, place, {"plane", "cylinder", "cone"});
     if (json.size() != 1)

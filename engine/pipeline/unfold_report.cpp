@@ -39,7 +39,7 @@ Json regions_json(const BendMap& map)
     return list;
 }
 
-Json face_json(const BinderFace& face)
+Json face_json(const TargetSurface& face)
 {
     if (const auto* plane = std::get_if<PlaneFace>(&face))
         return {

@@ -83,7 +83,7 @@ std::string text(const Json& object, const char* name)
     return value.get<std::string>();
 }
 
-Json face_json(const BinderFace& face)
+Json face_json(const TargetSurface& face)
 {
     if (const auto* plane = std::get_if<PlaneFace>(&face))
         return {{"kind", "plane"}, {"origin", numbers(plane->origin)}, {"axes", numbers(plane->axes)}};
@@ -106,7 +106,7 @@ Json face_json(const BinderFace& face)
             {"coefficient", numbers(height.coefficient)}};
 }
 
-template <class Round> BinderFace round_face(const Json& json)
+template <class Round> TargetSurface round_face(const Json& json)
 {
     Round face{};
     Eigen::Vector3d origin;
@@ -124,7 +124,7 @@ template <class Round> BinderFace round_face(const Json& json)
     return face;
 }
 
-BinderFace face_of(const Json& json)
+TargetSurface face_of(const Json& json)
 {
     const std::string kind = text(json, "kind");
     if (kind == "cylinder")
@@ -253,7 +253,7 @@ UnfoldState state_of(const Json& json, const TriMesh& part, const std::string& n
     state.reach = {number(json, "reach_mm"), count(json, "without_room")};
     state.seconds = number(json, "seconds");
     if (json.contains("on"))
-        state.on = BinderFit{face_of(member(json["on"], "face")), number(json["on"], "distance_mm"),
+        state.on = TargetFit{face_of(member(json["on"], "face")), number(json["on"], "distance_mm"),
                              number(json["on"], "angle")};
     return state;
 }

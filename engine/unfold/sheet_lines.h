@@ -20,7 +20,7 @@ double length(const SheetLine& line); ///< mm
 void require_flat(const TriMesh& part, const Eigen::Matrix2Xd& flat);
 
 /// Where faces end at the part's own edge, in a state of it: after a step of the freed faces the developed edge of the flange, a
-/// trim line on the binder face. In the order of their smallest vertices.
+/// trim line on the target surface. In the order of their smallest vertices.
 /// @param state 3 by #V, mm
 std::vector<SheetLine> trim_lines(const TriMesh& part, const Eigen::Matrix3Xd& state, const FaceSet& freed);
 

@@ -7,7 +7,7 @@
 
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 
 namespace spia {
 namespace {
@@ -39,7 +39,7 @@ TEST_P(BentParts, UnfoldByThemselvesWithoutAFlip)
     const PartFile part = read_part(folder / expected.file, read);
     FlattenOptions options;
     options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    const UnfoldedByItself unfolded = unfold_by_itself(part.mesh, find_bends(part.mesh), {}, options);
+    const AutomaticUnfolding unfolded = automatic_unfolding(part.mesh, find_bends(part.mesh), {}, options);
     EXPECT_EQ(unfolded.run.failure, "");
     EXPECT_EQ(unfolded.run.states.size(), expected.steps);
     for (const UnfoldState& state : unfolded.run.states)

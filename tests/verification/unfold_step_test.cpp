@@ -216,7 +216,7 @@ TEST(UnfoldStep, ARingAllAroundACylinderOrAConeConvergesToTheSolutionAlongItsMer
                     .push_back(f);
             const UnfoldStepResult result = unfold_step(part.mesh, part.mesh.position, pick, steel(r));
             ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
-            EXPECT_EQ(name(result.binder.face), c.wall == 90 ? "cylinder" : "cone");
+            EXPECT_EQ(name(result.target.face), c.wall == 90 ? "cylinder" : "cone");
             const std::vector<int> edge = inwards ? inner_edge(part) : part.rim;
             double found = 0, thickness = 0, count = 0;
             for (const int v : edge)

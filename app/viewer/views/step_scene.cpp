@@ -78,7 +78,7 @@ std::vector<FaceRegion> picks_of(const PlannedStep& step)
     return picks;
 }
 
-Eigen::AlignedBox2d developed_box(const BinderFace& face, const Eigen::Matrix3Xd& places)
+Eigen::AlignedBox2d developed_box(const TargetSurface& face, const Eigen::Matrix3Xd& places)
 {
     Eigen::AlignedBox2d box;
     for (const auto place : places.colwise())
@@ -100,7 +100,7 @@ std::vector<int> vertices_of(const Eigen::Matrix3Xi& triangle, const std::vector
 }
 
 /// A target that ends: a patch around what carries it.
-TriMesh ended_patch(const BinderFace& face, const TriMesh& before, const PlannedStep& step)
+TriMesh ended_patch(const TargetSurface& face, const TriMesh& before, const PlannedStep& step)
 {
     const std::vector<int> carrying = vertices_of(before.triangle, carrying_faces(step));
     return patch_around(face, before.position(Eigen::all, carrying), *step.extent_mm);
@@ -112,7 +112,7 @@ std::shared_ptr<const SceneMesh> target_to_be(const TriMesh& before, const Plann
     if (!step.pick.target && step.kind != UnfoldKind::lay)
         return nullptr;
     try {
-        const std::optional<BinderFace> face = planned_target(before, step);
+        const std::optional<TargetSurface> face = planned_target(before, step);
         if (!face)
             return nullptr;
         if (step.extent_mm)
@@ -212,14 +212,14 @@ void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, s
     picture.camera = fit(camera, place, size, {around, around, around, around});
 }
 
-TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm)
+TriMesh target_patch(const TargetSurface& face, const Eigen::Matrix3Xd& places, double beyond_mm)
 {
     constexpr double margin = 0.08; // of the diagonal of what lies on it
     const double size = developed_box(face, places).diagonal().norm();
     return patch_around(face, places, beyond_mm + margin * (size + beyond_mm));
 }
 
-TriMesh patch_around(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm)
+TriMesh patch_around(const TargetSurface& face, const Eigen::Matrix3Xd& places, double beyond_mm)
 {
     constexpr int cells = 40;
     const Eigen::AlignedBox2d box = developed_box(face, places);

@@ -26,9 +26,9 @@ void follow(StepPicture& picture, const ViewerState& state, SceneCache& cache, s
 
 /// A patch of a face in space around some places of it, with a margin. mm
 /// @param beyond_mm so much farther to all sides
-TriMesh target_patch(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm = 0);
+TriMesh target_patch(const TargetSurface& face, const Eigen::Matrix3Xd& places, double beyond_mm = 0);
 
 /// The same without a margin: just so much farther to all sides.
-TriMesh patch_around(const BinderFace& face, const Eigen::Matrix3Xd& places, double beyond_mm);
+TriMesh patch_around(const TargetSurface& face, const Eigen::Matrix3Xd& places, double beyond_mm);
 
 } // namespace spia::viewer

@@ -12,7 +12,7 @@
 namespace spia {
 namespace {
 
-constexpr double exact = 1e-4; // of fit_binder()
+constexpr double exact = 1e-4; // of fit_target()
 // On a smooth face flanges land straight on from its edge: how well it goes there shows in the angle.
 constexpr double most_angle = 0.2; // radians
 
@@ -66,12 +66,12 @@ Carriers::Found& Carriers::found(int region)
     it.asked = true;
     const FaceSet faces = map_.faces_of(region);
     const double size = diagonal_of(part_, faces);
-    it.plain = fit_binder(part_, faces, std::max(exact, distance_ / size));
+    it.plain = fit_target(part_, faces, std::max(exact, distance_ / size));
     it.loose = it.plain && it.plain->distance_mm > exact * size;
     return it;
 }
 
-const BinderFit* Carriers::plain(int region)
+const TargetFit* Carriers::plain(int region)
 {
     if (std::binary_search(none_.begin(), none_.end(), region))
         return nullptr;
@@ -79,11 +79,11 @@ const BinderFit* Carriers::plain(int region)
     return it.plain ? &*it.plain : nullptr;
 }
 
-const BinderFit* Carriers::of(int region)
+const TargetFit* Carriers::of(int region)
 {
     if (std::binary_search(none_.begin(), none_.end(), region))
         return nullptr;
-    if (const BinderFit* fit = plain(region))
+    if (const TargetFit* fit = plain(region))
         return fit;
     Found& it = found(region);
     if (!it.asked_smooth)
@@ -127,7 +127,7 @@ int chosen_root(const TriMesh& part, const BendMap& map, Carriers& carriers)
     return best_carrier >= 0 && score(best_carrier) > comparable * score(best) ? best_carrier : best;
 }
 
-bool wraps(const BinderFace& face, const TriMesh& part, const std::set<int>& vertices)
+bool wraps(const TargetSurface& face, const TriMesh& part, const std::set<int>& vertices)
 {
     constexpr double gap = 0.5; // radians
     const auto around = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, const Eigen::Vector3d& x) {

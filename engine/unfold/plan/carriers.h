@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/unfold/plan/bends.h"
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 
 namespace spia {
 
@@ -17,9 +17,9 @@ public:
     Carriers(const TriMesh& part, const BendMap& map, double distance, std::vector<int> none = {});
 
     /// The plane, cylinder or cone of a region.
-    const BinderFit* plain(int region);
+    const TargetFit* plain(int region);
     /// That, or else the smooth face through it, if it is gently curved and lies on it nearly.
-    const BinderFit* of(int region);
+    const TargetFit* of(int region);
     /// Why there is none.
     std::string why_not(int region);
     /// Found only by allowing more than unfold_step() does for itself: the step has to say so.
@@ -28,7 +28,7 @@ public:
 private:
     struct Found {
         bool asked = false, asked_smooth = false, loose = false;
-        std::optional<BinderFit> plain, smooth;
+        std::optional<TargetFit> plain, smooth;
     };
     Found& found(int region);
 
@@ -44,7 +44,7 @@ private:
 int chosen_root(const TriMesh& part, const BendMap& map, Carriers& carriers);
 
 /// Whether places go around a cylinder or cone so far that no line is left along which it could be cut.
-bool wraps(const BinderFace& face, const TriMesh& part, const std::set<int>& vertices);
+bool wraps(const TargetSurface& face, const TriMesh& part, const std::set<int>& vertices);
 
 /// mm, of the box around some faces
 double diagonal_of(const TriMesh& part, const std::vector<int>& faces);

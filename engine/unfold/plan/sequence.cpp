@@ -104,7 +104,7 @@ private:
         const int carrier = carrier_of(cluster, depth);
         if (carrier < 0)
             return cannot("it touches its inner neighbours at bends or points only");
-        const BinderFit* fit = carriers_.of(carrier);
+        const TargetFit* fit = carriers_.of(carrier);
         if (!fit)
             return cannot(carriers_.why_not(carrier));
         std::vector<char> freed(graph_.edge.size(), 0);
@@ -179,7 +179,7 @@ private:
                 for (const int label : step.freed)
                     laid[size_t(label)] = 1;
         const bool together = std::all_of(laid.begin(), laid.end(), [](char l) { return l; });
-        const BinderFit* fit = carriers_.plain(result_.root);
+        const TargetFit* fit = carriers_.plain(result_.root);
         bool rolls = together && fit && !wraps(fit->face, part_, vertices_of(result_.root));
         constexpr double in_one_plane = 1e-7; // of the part; what lies farther off is put into the plane by a step
         const bool plane = rolls && std::holds_alternative<PlaneFace>(fit->face) &&

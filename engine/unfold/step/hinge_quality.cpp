@@ -17,7 +17,7 @@ namespace {
 /// as far as no facet of a bend does there is a sharp edge, which is no chord.
 Eigen::VectorXd facet_turns(const TriMesh& state, const std::vector<int>& faces)
 {
-    constexpr double most_facet = 0.8; // twice what fit_binder() lets a chord turn from its arc
+    constexpr double most_facet = 0.8; // twice what fit_target() lets a chord turn from its arc
     const Eigen::Matrix3Xi triangle = state.triangle(Eigen::all, faces);
     const Eigen::Matrix3Xd normal = area_vectors({state.position, triangle});
     Eigen::VectorXd turn = Eigen::VectorXd::Zero(state.vertices());
@@ -37,11 +37,11 @@ Eigen::VectorXd facet_turns(const TriMesh& state, const std::vector<int>& faces)
 
 } // namespace
 
-BinderFit hinge_quality(const BinderFace& face, const TriMesh& state, const std::vector<int>& fixed,
+TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const std::vector<int>& fixed,
                         const std::vector<FreedPiece>& pieces)
 {
     constexpr double too_far = 1e-3; // of the part
-    BinderFit fit{face, 0, 0};
+    TargetFit fit{face, 0, 0};
     std::vector<char> held(size_t(state.vertices()), 0);
     for (const FreedPiece& piece : pieces)
         for (const int v : piece.held)

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "engine/unfold/step/freed_piece.h"
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 
 namespace spia {
 
@@ -12,7 +12,7 @@ namespace spia {
 /// @param state the part as it is before the step
 /// @param fixed ascending
 /// @throws InputError if a held vertex is farther beside the target than 1e-3 of the part; names a fixed face there
-BinderFit hinge_quality(const BinderFace& face, const TriMesh& state, const std::vector<int>& fixed,
+TargetFit hinge_quality(const TargetSurface& face, const TriMesh& state, const std::vector<int>& fixed,
                         const std::vector<FreedPiece>& pieces);
 
 } // namespace spia

@@ -13,7 +13,7 @@
 #include "engine/mesh/locate.h"
 #include "engine/mesh/orient2d.h"
 #include "engine/mesh/overlap.h"
-#include "engine/unfold/target/turn_binder.h"
+#include "engine/unfold/target/turn_target.h"
 
 namespace spia {
 namespace {
@@ -27,7 +27,7 @@ struct Landed {
     std::vector<int> face;   ///< #F, of the part
 };
 
-std::vector<int> faces_on(const TriMesh& now, const BinderFace& target, double within_mm)
+std::vector<int> faces_on(const TriMesh& now, const TargetSurface& target, double within_mm)
 {
     constexpr double along = 0.9; // cosine between the normals: a face that only crosses the target is not on it
     std::vector<char> near(size_t(now.vertices()));
@@ -48,7 +48,7 @@ std::vector<int> faces_on(const TriMesh& now, const BinderFace& target, double w
 }
 
 /// Turned so that its development is cut where no face is, if there is such a place.
-BinderFace best_cut(const TriMesh& now, const BinderFace& target, const std::vector<int>& faces)
+TargetSurface best_cut(const TriMesh& now, const TargetSurface& target, const std::vector<int>& faces)
 {
     std::vector<std::array<int, 2>> edges;
     Eigen::Matrix3Xd corner(3, Eigen::Index(3 * faces.size()));
@@ -61,7 +61,7 @@ BinderFace best_cut(const TriMesh& now, const BinderFace& target, const std::vec
 }
 
 /// Faces that share an edge share its vertices; fans that touch in a vertex only have each their own.
-Landed developed_faces(const TriMesh& now, const BinderFace& target, const std::vector<int>& faces)
+Landed developed_faces(const TriMesh& now, const TargetSurface& target, const std::vector<int>& faces)
 {
     const auto place = [&](int v) { return developed(target, now.position.col(v)); };
     std::vector<int> whole; // the others have corners on both sides of the cut
@@ -164,7 +164,7 @@ std::vector<std::pair<int, int>> nested(const Landed& landed, const std::set<int
 
 } // namespace
 
-LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, double within_mm,
+LandedOverlap landed_overlap(const TriMesh& now, const TargetSurface& target, double within_mm,
                              const std::vector<int>& moved)
 {
     LandedOverlap result;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/mesh/tri_mesh.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 namespace spia {
 
@@ -22,7 +22,7 @@ struct LandedOverlap {
 /// @param now       the part in a state
 /// @param within_mm how far beside the target a vertex may be that lies on it
 /// @param moved     faces that the step has laid there
-LandedOverlap landed_overlap(const TriMesh& now, const BinderFace& target, double within_mm,
+LandedOverlap landed_overlap(const TriMesh& now, const TargetSurface& target, double within_mm,
                              const std::vector<int>& moved = {});
 
 } // namespace spia

@@ -9,14 +9,15 @@
 #include "engine/core/error.h"
 #include "engine/mesh/cut.h"
 #include "engine/mesh/edge_uses.h"
-#include "engine/unfold/target/turn_binder.h"
+#include "engine/unfold/target/turn_target.h"
 
 namespace spia {
 namespace {
 
 /// Sheet that goes around once and is cut somewhere: one side of the cut is where the other is, a turn away.
 /// @param edges between the held vertices
-PiecePicture around_once(const BinderFace& target, Eigen::Matrix2Xd held, const std::vector<std::array<int, 2>>& edges)
+PiecePicture around_once(const TargetSurface& target, Eigen::Matrix2Xd held,
+                         const std::vector<std::array<int, 2>>& edges)
 {
     PiecePicture out{target, std::nullopt, std::move(held)};
     auto* cone = std::get_if<ConeFace>(&out.target);
@@ -37,7 +38,7 @@ PiecePicture around_once(const BinderFace& target, Eigen::Matrix2Xd held, const 
 } // namespace
 
 std::optional<Eigen::Matrix2Xd> unwound_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
-                                              const BinderFace& target)
+                                              const TargetSurface& target)
 {
     const int first = piece.held.front();
     const auto number = [&](int v) { return v == first ? 0 : v == 0 ? first : v; };
@@ -54,7 +55,7 @@ std::optional<Eigen::Matrix2Xd> unwound_piece(const FreedPiece& piece, const Eig
     return place;
 }
 
-PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target)
+PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target)
 {
     std::vector<int> number(size_t(piece.mesh.vertices()), -1);
     for (size_t k = 0; k < piece.held.size(); ++k)
@@ -64,7 +65,7 @@ PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, co
         edges.push_back({number[size_t(a)], number[size_t(b)]});
     const Eigen::Matrix3Xd point = now(Eigen::all, piece.held);
     PiecePicture out{target, std::nullopt, Eigen::Matrix2Xd(2, point.cols())};
-    if (const std::optional<BinderFace> turned = turned_towards(target, point, edges)) {
+    if (const std::optional<TargetSurface> turned = turned_towards(target, point, edges)) {
         out.target = *turned;
         for (Eigen::Index k = 0; k < point.cols(); ++k)
             out.held.col(k) = developed(out.target, point.col(k));

@@ -8,7 +8,7 @@ namespace spia {
 /// How a freed piece is told in the plane: by the development of its target, or where the hinge goes all the way around, by a picture of
 /// it that is not cut.
 struct PiecePicture {
-    BinderFace target; ///< its development whole around the hinge
+    TargetSurface target; ///< its development whole around the hinge
     std::optional<RingChart> ring;
     Eigen::Matrix2Xd held; ///< 2 by #held, mm
 
@@ -26,10 +26,10 @@ struct PiecePicture {
 
 /// @param now 3 by #V of the piece, mm: the state
 /// @throws InputError if the piece closes a cylinder or cone
-PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target);
+PiecePicture picture_of(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target);
 
 /// The development of a piece from its first held vertex on from edge to edge, see unwound().
 std::optional<Eigen::Matrix2Xd> unwound_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now,
-                                              const BinderFace& target);
+                                              const TargetSurface& target);
 
 } // namespace spia

@@ -21,7 +21,7 @@ Eigen::Matrix2d root(const Eigen::Matrix2d& A)
 
 } // namespace
 
-std::optional<RingChart> RingChart::around(const BinderFace& face, const FreedPiece& piece,
+std::optional<RingChart> RingChart::around(const TargetSurface& face, const FreedPiece& piece,
                                            const Eigen::Matrix3Xd& state)
 {
     RingChart out;

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "engine/unfold/step/freed_piece.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 namespace spia {
 
@@ -13,7 +13,7 @@ class RingChart {
 public:
     /// @param state 3 by #V of the piece, mm: its hinge keeps its size in the picture, and the piece is outside of it
     /// @returns none if the face is neither cylinder nor cone
-    static std::optional<RingChart> around(const BinderFace& face, const FreedPiece& piece,
+    static std::optional<RingChart> around(const TargetSurface& face, const FreedPiece& piece,
                                            const Eigen::Matrix3Xd& state);
 
     Eigen::Vector2d place(const Eigen::Vector3d& point) const; ///< mm, of the nearest point of the face

@@ -58,7 +58,7 @@ std::optional<Eigen::Matrix2Xd> seen_start(const FreedPiece& piece, const Eigen:
 }
 
 /// Joined to nothing it lies anywhere: as flatten() lays it.
-SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
+SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target,
                        const FlattenOptions& options, const Progress& progress)
 {
     const auto* plane = std::get_if<PlaneFace>(&target);
@@ -85,7 +85,7 @@ SolvedPiece free_piece(const FreedPiece& piece, const Eigen::Matrix3Xd& now, con
 }
 
 /// The axes of the development in space, where the hinge is; of a smooth face those of its plane.
-Eigen::Matrix<double, 3, 2> axes_at(const BinderFace& target, const Eigen::Vector2d& place)
+Eigen::Matrix<double, 3, 2> axes_at(const TargetSurface& target, const Eigen::Vector2d& place)
 {
     if (const auto* height = std::get_if<HeightFace>(&target))
         return height->axes;
@@ -120,7 +120,7 @@ std::vector<ContactRegion> rubbing(const FreedPiece& piece, const Eigen::Matrix3
 }
 
 /// A cone ends in its apex: behind it, along the negative y axis, its development is cut.
-void require_beside_apex(const FreedPiece& piece, const BinderFace& target, const Eigen::Matrix2Xd& X)
+void require_beside_apex(const FreedPiece& piece, const TargetSurface& target, const Eigen::Matrix2Xd& X)
 {
     if (!std::holds_alternative<ConeFace>(target))
         return;
@@ -219,7 +219,7 @@ PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const st
 } // namespace
 
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                        const FreedPiece& piece, const BinderFace& given_target, const Eigen::VectorXd& traction,
+                        const FreedPiece& piece, const TargetSurface& given_target, const Eigen::VectorXd& traction,
                         const FlattenOptions& given, const Progress& progress)
 {
     const auto clock = std::chrono::steady_clock::now();
@@ -234,7 +234,7 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
                         "fix the faces between them",
                         piece.face[0]));
     const PiecePicture picture = picture_of(piece, state(Eigen::all, piece.vertex), given_target);
-    const BinderFace& target = picture.target;
+    const TargetSurface& target = picture.target;
     if (picture.ring && options.process.rolling)
         throw InputError(
             fmt::format("the freed faces around face {} go all the way around the {}: seen square to it the "

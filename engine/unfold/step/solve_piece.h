@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/forming/flatten.h"
 #include "engine/unfold/step/freed_piece.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 namespace spia {
 
@@ -14,7 +14,7 @@ struct SolvedPiece {
 /// Lays one freed piece on the target: see unfold_step().
 /// @param traction of friction, see friction_traction()
 SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                        const FreedPiece& piece, const BinderFace& target, const Eigen::VectorXd& traction,
+                        const FreedPiece& piece, const TargetSurface& target, const Eigen::VectorXd& traction,
                         const FlattenOptions& options, const Progress& progress);
 
 } // namespace spia

@@ -19,7 +19,7 @@ namespace {
 using Axes = Eigen::Matrix<double, 3, 2>;
 
 /// The feet of the piece, from edge to edge: a development that is cut does not cut the piece. @param held of the first held vertex
-Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
+Eigen::Matrix2Xd feet(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target,
                       const Eigen::Vector2d& held)
 {
     std::optional<Eigen::Matrix2Xd> foot = unwound_piece(piece, now, target);
@@ -87,7 +87,7 @@ void require_friction_on(ContactRegion friction, std::vector<int> freed, const T
 }
 
 Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& state, const UnfoldPick& pick,
-                                  const std::vector<int>& freed, const BinderFace& target)
+                                  const std::vector<int>& freed, const TargetSurface& target)
 {
     if (!pick.friction)
         return {};
@@ -111,7 +111,7 @@ Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& s
     return traction;
 }
 
-SlipOnFace slip_on(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
+SlipOnFace slip_on(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target,
                    const Eigen::Vector2d& held, const Eigen::Vector2d& origin)
 {
     const TriMesh state{now, piece.mesh.triangle};

@@ -4,7 +4,7 @@
 
 #include "engine/forming/process/external_forces.h"
 #include "engine/unfold/step/freed_piece.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 #include "engine/unfold/target/unfold_pick.h"
 
 namespace spia {
@@ -15,7 +15,7 @@ namespace spia {
 /// @returns #F of the part, MPa; empty where there is none
 /// @throws InputError if a face of it is not freed or a value is out of its bounds
 Eigen::VectorXd friction_traction(const TriMesh& part, const Eigen::Matrix3Xd& state, const UnfoldPick& pick,
-                                  const std::vector<int>& freed, const BinderFace& target);
+                                  const std::vector<int>& freed, const TargetSurface& target);
 
 /// @param what in words, for the message
 /// @throws InputError as require_contact(), or if a face that rubs is not one of those freed: names it
@@ -27,7 +27,7 @@ void require_friction_on(ContactRegion friction, std::vector<int> freed, const T
 /// @param target its development whole around the hinge
 /// @param held   where the first held vertex lies in it, mm; @param origin of the blank in it, mm
 /// @throws InputError if the piece goes all the way around the target
-SlipOnFace slip_on(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const BinderFace& target,
+SlipOnFace slip_on(const FreedPiece& piece, const Eigen::Matrix3Xd& now, const TargetSurface& target,
                    const Eigen::Vector2d& held, const Eigen::Vector2d& origin);
 
 } // namespace spia

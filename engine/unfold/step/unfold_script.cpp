@@ -19,7 +19,7 @@
 #include "engine/unfold/step/target_friction.h"
 #include "engine/unfold/step/upright.h"
 #include "engine/unfold/target/fit_height.h"
-#include "engine/unfold/target/turn_binder.h"
+#include "engine/unfold/target/turn_target.h"
 
 namespace spia {
 namespace {
@@ -57,9 +57,9 @@ double diagonal(const TriMesh& mesh, const std::vector<int>& faces)
 }
 
 /// The target where the script leaves it to be found with a distance of its own, or moves it.
-std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
+std::optional<TargetSurface> target_of(const TriMesh& now, const PlannedStep& step)
 {
-    std::optional<BinderFace> target = step.pick.target;
+    std::optional<TargetSurface> target = step.pick.target;
     if (!target && step.carrying_lost)
         throw InputError(
             "the fixed faces of its target are not on the part any more; pick others that stay, or give it a target");
@@ -68,7 +68,7 @@ std::optional<BinderFace> target_of(const TriMesh& now, const PlannedStep& step)
         if (faces.empty())
             throw InputError("nothing carries the target; name the faces that do, or give one");
         const double within = std::max(1e-4, step.within_mm / diagonal(now, faces));
-        std::optional<BinderFit> fit = fit_binder(now, faces, within);
+        std::optional<TargetFit> fit = fit_target(now, faces, within);
         if (!fit && step.kind == UnfoldKind::lay && step.within_mm == 0) // as unfold_step() does where nothing is moved
             fit = fit_height(now, faces);
         if (!fit)
@@ -103,8 +103,8 @@ void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& 
     std::vector<std::array<int, 2>> edges;
     const std::vector<EdgeUse> uses = edge_uses(part.triangle);
     for_each_edge(uses, [&](size_t begin, size_t) { edges.push_back({uses[begin].low, uses[begin].high}); });
-    const BinderFace target = *target_of(now, step);
-    const BinderFace face = turned_towards(target, now.position, edges).value_or(target);
+    const TargetSurface target = *target_of(now, step);
+    const TargetSurface face = turned_towards(target, now.position, edges).value_or(target);
     const std::optional<Eigen::Matrix2Xd> flat = unwound(face, now.position, edges);
     if (!flat)
         throw InputError("the part goes all around the face that shall be unrolled; cut it open along a line first");
@@ -120,7 +120,7 @@ void unroll(const TriMesh& part, const PlannedStep& step, const FlattenOptions& 
     }
     const PlaneFace plane = tangent_plane(face, places);
     for (int v = 0; v < now.vertices(); ++v)
-        state.position.col(v) = placed(BinderFace(plane), places.col(v));
+        state.position.col(v) = placed(TargetSurface(plane), places.col(v));
     state.face =
         face_fields(part, elements(part), {places},
                     sheet_of(options.material, options.thickness, options.curve, options.process, part, plane.axes));
@@ -135,11 +135,11 @@ double carried_within(const Eigen::Matrix3Xd& position, const TriMesh& part, con
                       const UnfoldStepResult& result)
 {
     constexpr double rounding = 1e-9; // of the part
-    double within = std::max(rounding * bounding_diagonal(part), result.binder.distance_mm);
+    double within = std::max(rounding * bounding_diagonal(part), result.target.distance_mm);
     for (const int f : carrying_faces(step))
         for (const int v : part.triangle.col(f)) {
             const Eigen::Vector3d x = position.col(v);
-            within = std::max(within, (x - placed(result.binder.face, developed(result.binder.face, x))).norm());
+            within = std::max(within, (x - placed(result.target.face, developed(result.target.face, x))).norm());
         }
     return (1 + rounding) * within;
 }
@@ -159,8 +159,8 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
     const UnfoldStepResult result = unfold_step(part, state.position, pick, own, progress);
     state.position = result.position;
     put_fields(result.face, result.freed, state.face);
-    state.on = result.binder;
-    state.plain = name(result.binder.face);
+    state.on = result.target;
+    state.plain = name(result.target.face);
     state.converged = result.converged();
     for (const UnfoldedPiece& piece : result.piece) {
         state.friction_share = std::min(state.friction_share, piece.report.process_share);
@@ -171,7 +171,7 @@ void lay(const TriMesh& part, const PlannedStep& step, const FlattenOptions& opt
             state.reason = fmt::format("the piece around face {}: {}", piece.faces[0], piece.report.reason);
     }
     state.necking = result.necking_triangles;
-    state.overlap = landed_overlap({state.position, part.triangle}, result.binder.face,
+    state.overlap = landed_overlap({state.position, part.triangle}, result.target.face,
                                    carried_within(state.position, part, step, result), step.pick.freed);
     if (step.kind == UnfoldKind::lay && !carrying_faces(step).empty())
         state.reach = target_reach({state.position, part.triangle}, carrying_faces(step), result.freed, step.extent_mm);
@@ -232,13 +232,13 @@ void require_script(const TriMesh& part, const UnfoldScript& script, const Unfol
 
 } // namespace
 
-bool creased(const BinderFit& target, double diagonal)
+bool creased(const TargetFit& target, double diagonal)
 {
     constexpr double far = 2e-4, turned = 3 * std::numbers::pi / 180; // of the part; radians
     return target.distance_mm > far * diagonal || target.angle > turned;
 }
 
-BinderFace moved_out(const BinderFace& face, double mm)
+TargetSurface moved_out(const TargetSurface& face, double mm)
 {
     if (const auto* plane = std::get_if<PlaneFace>(&face))
         return PlaneFace{plane->origin + mm * plane->axes.col(0).cross(plane->axes.col(1)), plane->axes};
@@ -261,7 +261,7 @@ BinderFace moved_out(const BinderFace& face, double mm)
     return moved;
 }
 
-PlaneFace tangent_plane(const BinderFace& face, const Eigen::Matrix2Xd& places)
+PlaneFace tangent_plane(const TargetSurface& face, const Eigen::Matrix2Xd& places)
 {
     const Eigen::Vector2d middle = (places.rowwise().minCoeff() + places.rowwise().maxCoeff()) / 2;
     const double step = 1e-4 * (places.rowwise().maxCoeff() - places.rowwise().minCoeff()).norm();

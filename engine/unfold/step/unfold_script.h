@@ -25,7 +25,7 @@ struct UnfoldState {
     Eigen::Matrix3Xd position; ///< 3 by #V, mm
     SheetFields face;          ///< #F: of forming what was moved so far into the part; a face never moved has no strain
     Eigen::VectorXi step;      ///< #F: the last step that moved the face, from 1; 0: none
-    std::optional<BinderFit> on; ///< the target; none for an unroll
+    std::optional<TargetFit> on; ///< the target; none for an unroll
     std::string plain;           ///< plane, cylinder, cone: what it was laid on or unrolled from
     bool converged = true;       ///< else the best shape found
     std::string reason;          ///< why not, or what else is not as asked for: the curve, friction, relaxed vertices
@@ -67,12 +67,12 @@ UnfoldRun run_unfolding(const TriMesh& part, const UnfoldScript& script, const F
 
 /// Whether what was laid bends at its hinge: the target is farther beside the fixed faces, or turned more against them, than the last
 /// facet of a fillet is. @param diagonal of the part, mm
-bool creased(const BinderFit& target, double diagonal);
+bool creased(const TargetFit& target, double diagonal);
 
 /// The face moved to its outer side; a smooth one along the normal of its plane. @throws InputError if a cylinder or cone would vanish
-BinderFace moved_out(const BinderFace& face, double mm);
+TargetSurface moved_out(const TargetSurface& face, double mm);
 
 /// The plane in which the development of a face lies where it touches it in the middle of some places.
-PlaneFace tangent_plane(const BinderFace& face, const Eigen::Matrix2Xd& places);
+PlaneFace tangent_plane(const TargetSurface& face, const Eigen::Matrix2Xd& places);
 
 } // namespace spia

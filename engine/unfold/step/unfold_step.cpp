@@ -15,7 +15,7 @@
 #include "engine/unfold/step/solve_piece.h"
 #include "engine/unfold/step/target_friction.h"
 #include "engine/unfold/target/fit_height.h"
-#include "engine/unfold/target/turn_binder.h"
+#include "engine/unfold/target/turn_target.h"
 
 namespace spia {
 namespace {
@@ -74,7 +74,7 @@ Picked picked_faces(const TriMesh& part, const UnfoldPick& pick)
 }
 
 /// The target with its outer side where that of the faces is.
-BinderFace seen_from_outside(const BinderFace& face, const TriMesh& state, const std::vector<int>& faces)
+TargetSurface seen_from_outside(const TargetSurface& face, const TriMesh& state, const std::vector<int>& faces)
 {
     double sum = 0;
     for (const int f : faces) {
@@ -84,7 +84,7 @@ BinderFace seen_from_outside(const BinderFace& face, const TriMesh& state, const
     return sum < 0 ? turned_over(face) : face;
 }
 
-BinderFace target_of(const TriMesh& part, const TriMesh& state, const UnfoldPick& pick, const Picked& picked)
+TargetSurface target_of(const TriMesh& part, const TriMesh& state, const UnfoldPick& pick, const Picked& picked)
 {
     const std::vector<int> carrying = sorted_faces(part, pick.carrying, "carrying");
     for (const int f : carrying)
@@ -95,7 +95,7 @@ BinderFace target_of(const TriMesh& part, const TriMesh& state, const UnfoldPick
     if (picked.fixed.empty())
         throw InputError("nothing says where the freed faces shall lie; fix some faces or give a target");
     const std::vector<int>& faces = carrying.empty() ? picked.fixed : carrying;
-    std::optional<BinderFit> fit = fit_binder(state, faces);
+    std::optional<TargetFit> fit = fit_target(state, faces);
     if (!fit)
         fit = fit_height(state, faces);
     if (!fit)
@@ -132,13 +132,13 @@ UnfoldStepResult unfold_step(const TriMesh& part, const Eigen::Matrix3Xd& state,
     require_area(part, picked.freed, "in the part");
     require_area(now, picked.freed, "in the state");
     require_area(now, picked.fixed, "in the state");
-    const BinderFace target = target_of(part, now, pick, picked);
+    const TargetSurface target = target_of(part, now, pick, picked);
     const std::vector<FreedPiece> pieces = freed_pieces(part, picked.fixed, picked.freed);
     const Eigen::VectorXd traction = friction_traction(part, state, pick, picked.freed, target);
 
     UnfoldStepResult result;
     result.position = state;
-    result.binder = hinge_quality(target, now, picked.fixed, pieces);
+    result.target = hinge_quality(target, now, picked.fixed, pieces);
     result.freed = picked.freed;
     result.face = sized_fields(Eigen::Index(picked.freed.size()));
     double done = 0;

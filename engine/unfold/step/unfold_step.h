@@ -4,7 +4,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/forming/flatten.h"
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 #include "engine/unfold/target/unfold_pick.h"
 
 namespace spia {
@@ -18,7 +18,7 @@ struct UnfoldedPiece {
 
 struct UnfoldStepResult {
     Eigen::Matrix3Xd position; ///< 3 by #V, mm: all vertices after the step
-    BinderFit binder;                 ///< the target and how well it goes on from the fixed faces: see hinge_quality()
+    TargetFit target;          ///< the target and how well it goes on from the fixed faces: see hinge_quality()
     std::vector<int> freed;           ///< ascending
     SheetFields face;                 ///< of forming the step's sheet into the part: one entry per freed face
     std::vector<UnfoldedPiece> piece; ///< in the order of their first faces

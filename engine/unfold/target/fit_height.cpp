@@ -82,7 +82,7 @@ Region region_of(const TriMesh& part, const std::vector<int>& faces)
 
 } // namespace
 
-std::optional<BinderFit> fit_height(const TriMesh& part, const std::vector<int>& faces)
+std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>& faces)
 {
     // A stiff plate is flat at its edges, by about 1e-5 of the region here; a soft one swings beside what the knots do not resolve, and
     // goes on from there the wrong way: with 1e-12 and 32 cells by 13 degrees beside a fender's feature line.
@@ -127,7 +127,7 @@ std::optional<BinderFit> fit_height(const TriMesh& part, const std::vector<int>&
         throw SolveError("the smooth face through the fixed region could not be factored");
     face.coefficient = solver.solve(right).reshaped(nx, ny);
 
-    BinderFit fit{face, 0, 0};
+    TargetFit fit{face, 0, 0};
     for (const int v : region.vertex) {
         const Eigen::Vector3d x = part.position.col(v);
         fit.distance_mm = std::max(fit.distance_mm, (x - placed(fit.face, developed(fit.face, x))).norm());

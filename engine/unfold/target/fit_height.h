@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 
 namespace spia {
 
@@ -12,6 +12,6 @@ namespace spia {
 /// @param faces of the part, each once; they exist
 /// @returns none if a face is steeper than 75 degrees against the mean plane, or more than 23 beside the smooth face: an edge or a
 ///          small feature is in the region
-std::optional<BinderFit> fit_height(const TriMesh& part, const std::vector<int>& faces);
+std::optional<TargetFit> fit_height(const TriMesh& part, const std::vector<int>& faces);
 
 } // namespace spia

@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/mesh/tri_mesh.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 #include "engine/unfold/target/unfold_pick.h"
 
 namespace spia {

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 namespace spia {
 

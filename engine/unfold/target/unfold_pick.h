@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/forming/process/process.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 namespace spia {
 
@@ -11,7 +11,7 @@ namespace spia {
 struct UnfoldPick {
     std::vector<int> fixed; ///< faces that stay where they are and carry the target
     std::vector<int> freed; ///< faces to move onto it
-    std::optional<BinderFace> target =
+    std::optional<TargetSurface> target =
         {};                         ///< not given: the plane, cylinder or cone of the carrying faces in the state
     std::vector<int> carrying = {}; ///< of the fixed ones; empty: all of them
     /// What the target, which rests, rubs against the freed faces as they slip from it to where they are in the state: on these

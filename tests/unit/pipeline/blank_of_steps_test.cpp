@@ -11,7 +11,7 @@
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/run_stage.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -34,7 +34,7 @@ struct InSteps {
         session = run_stage(Stage::read, session);
         const TriMesh& part = session.part->mesh;
         session.options.steps = {
-            std::make_shared<UnfoldRun>(unfold_by_itself(part, find_bends(part), {}, session.options.flatten).run)};
+            std::make_shared<UnfoldRun>(automatic_unfolding(part, find_bends(part), {}, session.options.flatten).run)};
     }
     void finish()
     {

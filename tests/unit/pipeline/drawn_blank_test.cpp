@@ -7,7 +7,7 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/profile.h"
@@ -33,7 +33,7 @@ Bent bent(const TriMesh& mesh)
     FlattenOptions options;
     options.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     result.map = find_bends(result.part.mesh);
-    result.run = unfold_by_itself(result.part.mesh, result.map, {}, options).run;
+    result.run = automatic_unfolding(result.part.mesh, result.map, {}, options).run;
     return result;
 }
 

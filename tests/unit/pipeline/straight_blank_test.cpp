@@ -8,7 +8,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/run_stage.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/profile.h"
@@ -120,7 +120,7 @@ TEST(StraightBlank, InOneStepAsInSeveralHoweverThePartLies)
         const auto box = nlohmann::json::parse(report_json(session, {}, 0))["blank"]["bounding_box_mm"];
         EXPECT_NEAR(box[2].get<double>(), size[0], 1e-9);
         const TriMesh& read = session.part->mesh;
-        const UnfoldRun run = unfold_by_itself(read, find_bends(read), {}, session.options.flatten).run;
+        const UnfoldRun run = automatic_unfolding(read, find_bends(read), {}, session.options.flatten).run;
         ASSERT_TRUE(run.blank) << run.failure;
         EXPECT_NEAR(size_of(run.blank->position)[0], size[0], 1e-4 * size[0]);
         EXPECT_NEAR(size_of(run.blank->position)[1], size[1], 1e-4 * size[0]);

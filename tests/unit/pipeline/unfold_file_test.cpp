@@ -178,9 +178,9 @@ TEST_F(UnfoldFile, CylinderAndConeAreTargets)
                     .steps.at(0)
                     .pick.target;
     };
-    const BinderFace cylinder = target(R"({"cylinder": {"origin": [1, 2, 3], "axis": [0, 0, 2], "radius": 40}})");
+    const TargetSurface cylinder = target(R"({"cylinder": {"origin": [1, 2, 3], "axis": [0, 0, 2], "radius": 40}})");
     EXPECT_NEAR(placed(cylinder, developed(cylinder, {101, 2, 9}))[0], 41, 1e-9);
-    const BinderFace cone = target(R"({"cone": {"apex": [0, 0, 0], "axis": [0, 0, 1], "half_angle_deg": 45}})");
+    const TargetSurface cone = target(R"({"cone": {"apex": [0, 0, 0], "axis": [0, 0, 1], "half_angle_deg": 45}})");
     EXPECT_NEAR((placed(cone, developed(cone, {10, 0, 10})) - Eigen::Vector3d(10, 0, 10)).norm(), 0, 1e-9);
 }
 

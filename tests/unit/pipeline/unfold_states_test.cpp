@@ -109,11 +109,11 @@ TEST_F(UnfoldStates, KeepEveryKindOfTarget)
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), x = Eigen::Vector3d::UnitX();
     Eigen::Matrix<double, 3, 2> axes;
     axes << z, x;
-    const BinderFace faces[] = {PlaneFace{{1, 2, 3}, axes}, CylinderFace{{1, 0, 2}, z, x, 7, false},
-                                ConeFace{{0, 1, 2}, z, x, 0.4, true},
-                                HeightFace{{1, 1, 1}, axes, {-4, -5}, 3, Eigen::MatrixXd::Random(6, 5)}};
-    for (const BinderFace& face : faces) {
-        run.states[0].on = BinderFit{face, 0.25, 0.125};
+    const TargetSurface faces[] = {PlaneFace{{1, 2, 3}, axes}, CylinderFace{{1, 0, 2}, z, x, 7, false},
+                                   ConeFace{{0, 1, 2}, z, x, 0.4, true},
+                                   HeightFace{{1, 1, 1}, axes, {-4, -5}, 3, Eigen::MatrixXd::Random(6, 5)}};
+    for (const TargetSurface& face : faces) {
+        run.states[0].on = TargetFit{face, 0.25, 0.125};
         steps[0].pick.target = face;
         write();
         const KeptStates kept = read(steps);

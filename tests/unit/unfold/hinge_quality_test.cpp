@@ -16,7 +16,7 @@ using std::numbers::pi;
 constexpr double degree = pi / 180;
 
 /// A plane through a line along y, turned down about it from the xy plane.
-BinderFace tilted(double x, double angle)
+TargetSurface tilted(double x, double angle)
 {
     Eigen::Matrix<double, 3, 2> axes;
     axes << std::cos(angle), 0, 0, 1, -std::sin(angle), 0;
@@ -66,7 +66,7 @@ TEST(HingeQuality, AFlatNeighbourTakesNothingOffAndASharpEdgeBesideTheHingeNeith
     const Split pick = split(part, [](const Eigen::Vector3d& at) { return at[0] > 10; });
     const std::vector<FreedPiece> pieces = freed_pieces(part, pick.fixed, pick.freed);
     for (const double by : {-20., -4., 4., 20.}) {
-        const BinderFit fit = hinge_quality(tilted(10, by * degree), part, pick.fixed, pieces);
+        const TargetFit fit = hinge_quality(tilted(10, by * degree), part, pick.fixed, pieces);
         EXPECT_NEAR(fit.angle, std::abs(by) * degree, 1e-12);
         EXPECT_TRUE(creased(fit, 30));
     }

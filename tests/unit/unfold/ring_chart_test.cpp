@@ -87,7 +87,7 @@ TEST(RingChart, IsAPictureOfTheFaceWithoutACutAndConformal)
                     const UnfoldPick pick = FlaredTube::pick(ring.part.triangles());
                     ring.piece = freed_pieces(ring.part, pick.freed, pick.fixed).at(0);
                 }
-                BinderFace face = CylinderFace{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 40, !inside};
+                TargetSurface face = CylinderFace{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 40, !inside};
                 if (half_angle > 0)
                     face = ConeFace{{0, 0, -40 / std::tan(half_angle)}, {0, 0, 1}, {1, 0, 0}, half_angle, !inside};
                 const auto chart =
@@ -145,7 +145,7 @@ TEST(RingChart, AFlaredEndIsLaidOnItsTubeWhereverAnglesAreCutAndTheMeshBegins)
         const TriMesh part = tube.mesh();
         const UnfoldStepResult result = laid(part);
         ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
-        EXPECT_EQ(name(result.binder.face), taper == 0 ? "cylinder" : "cone");
+        EXPECT_EQ(name(result.target.face), taper == 0 ? "cylinder" : "cone");
         // On the face, with the hinge where it was.
         for (int v = 0; v < part.vertices(); ++v) {
             const Eigen::Vector3d x = result.position.col(v);

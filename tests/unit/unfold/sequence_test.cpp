@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/unfold/step/unfold_script.h"
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 #include "tests/support/bent_parts.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
@@ -51,7 +51,7 @@ void expect_valid(const TriMesh& part, const BendMap& map, const UnfoldSequence&
                     EXPECT_FALSE(moves[size_t(v)]) << step.name << ": face " << f << " would be torn off";
             }
         if (step.kind == UnfoldKind::lay) {
-            EXPECT_TRUE(fit_binder(part, step.pick.carrying, step.within_mm > 0 ? 0.05 : 1e-4))
+            EXPECT_TRUE(fit_target(part, step.pick.carrying, step.within_mm > 0 ? 0.05 : 1e-4))
                 << step.name << ": nothing to lay it on";
         }
     }
@@ -247,7 +247,7 @@ TEST(Sequence, OnACylinderTheLastStepUnrollsIt)
     const UnfoldSequence sequence = proposed(part);
     ASSERT_EQ(sequence.steps.size(), 2u);
     EXPECT_EQ(sequence.steps[1].kind, UnfoldKind::unroll);
-    const auto fit = fit_binder(part, sequence.steps[1].pick.carrying);
+    const auto fit = fit_target(part, sequence.steps[1].pick.carrying);
     ASSERT_TRUE(fit && name(fit->face) == "cylinder");
     EXPECT_NEAR(std::get<CylinderFace>(fit->face).radius, 150, 1e-3);
 }

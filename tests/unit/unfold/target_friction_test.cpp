@@ -218,7 +218,7 @@ TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
                     round.part.triangle.col(f).tail<2>().reverseInPlace();
             round.pick.friction = rubbing(20);
             const UnfoldStepResult result = unfold_step(round.part, round.part.position, round.pick, options);
-            ASSERT_EQ(name(result.binder.face), "cylinder");
+            ASSERT_EQ(name(result.target.face), "cylinder");
             ASSERT_TRUE(result.converged()) << result.piece[0].report.reason;
             for (const int f : round.pick.freed)
                 for (const int v : round.part.triangle.col(f)) {
@@ -239,7 +239,7 @@ TEST(TargetFriction, OnACylinderOrAConeItIsThatOnThePlaneOfTheirDevelopment)
         coned.part.triangle.col(f).tail<2>().reverseInPlace();
     coned.pick.friction = rubbing(20);
     const UnfoldStepResult on_cone = unfold_step(coned.part, coned.part.position, coned.pick, options);
-    ASSERT_EQ(name(on_cone.binder.face), "cone");
+    ASSERT_EQ(name(on_cone.target.face), "cone");
     ASSERT_TRUE(on_cone.converged()) << on_cone.piece[0].report.reason;
     const ConeFace cone{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, half_angle, true};
     for (const int f : coned.pick.freed)
@@ -259,9 +259,9 @@ TEST(TargetFriction, SheetRolledOnItsTargetSlipsInTheAxesOfTheFlatPart)
     for (const bool bulges : {true, false})
         for (const bool conical : {false, true}) {
             const double angle = 4.5, radius = 30, half_angle = 0.4;
-            const BinderFace target = conical
-                                          ? BinderFace(ConeFace{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, half_angle, bulges})
-                                          : BinderFace(CylinderFace{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, radius, bulges});
+            const TargetSurface target =
+                conical ? TargetSurface(ConeFace{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, half_angle, bulges})
+                        : TargetSurface(CylinderFace{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, radius, bulges});
             const auto flat = [&](double u, double v) -> Eigen::Vector2d {
                 if (!conical)
                     return {angle * radius * u, 20 * v};
@@ -298,9 +298,9 @@ TEST(TargetFriction, TangentsAreTheDerivativeOfPlaces)
     for (int i = 0; i < 49; ++i)
         height.coefficient(i) = std::sin(3. * i);
     for (const bool bulges : {false, true})
-        for (const BinderFace& face : {BinderFace(PlaneFace{{1, 2, 3}, axes}), BinderFace(height),
-                                       BinderFace(CylinderFace{{1, 2, 3}, axis, towards, 30, bulges}),
-                                       BinderFace(ConeFace{{1, 2, 3}, axis, towards, 0.7, bulges})})
+        for (const TargetSurface& face : {TargetSurface(PlaneFace{{1, 2, 3}, axes}), TargetSurface(height),
+                                          TargetSurface(CylinderFace{{1, 2, 3}, axis, towards, 30, bulges}),
+                                          TargetSurface(ConeFace{{1, 2, 3}, axis, towards, 0.7, bulges})})
             for (const Eigen::Vector2d& place : {Eigen::Vector2d(3, 12), Eigen::Vector2d(-11, 5)}) {
                 constexpr double h = 1e-4;
                 Eigen::Matrix<double, 3, 2> difference;
@@ -344,7 +344,7 @@ TEST(TargetFriction, ASmoothFaceWithoutHeightIsAPlane)
     QuarterDish dish;
     const HeightFace level{
         {0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity(), {-100, -100}, 20, Eigen::MatrixXd::Zero(13, 13)};
-    const auto laid = [&](double pressure, const std::optional<BinderFace>& target, int newton_steps) {
+    const auto laid = [&](double pressure, const std::optional<TargetSurface>& target, int newton_steps) {
         dish.pick.friction = rubbing(pressure);
         dish.pick.target = target;
         FlattenOptions options = steel(1.77);

@@ -207,10 +207,11 @@ TEST(UnfoldScript, ATargetIsMovedToItsOuterSide)
     const PlaneFace plane{{1, 2, 3}, Eigen::Matrix<double, 3, 2>::Identity()};
     CylinderFace hollow = cylinder;
     hollow.bulges = false;
-    for (const BinderFace& face : {BinderFace(cylinder), BinderFace(hollow), BinderFace(cone), BinderFace(plane)})
+    for (const TargetSurface& face :
+         {TargetSurface(cylinder), TargetSurface(hollow), TargetSurface(cone), TargetSurface(plane)})
         for (const double mm : {2.0, -1.5}) {
             const Eigen::Vector3d on = placed(face, developed(face, {9, 3, 20}));
-            const BinderFace moved = moved_out(face, mm);
+            const TargetSurface moved = moved_out(face, mm);
             const Eigen::Vector3d there = placed(moved, developed(moved, on));
             EXPECT_NEAR((there - on - mm * outer_normal(face, on)).norm(), 0, 1e-9) << name(face);
         }
@@ -223,9 +224,9 @@ TEST(UnfoldScript, TheTangentPlaneTouchesInTheMiddleOfThePlaces)
     const Eigen::Matrix2Xd places = (Eigen::Matrix2Xd(2, 2) << 4, 10, -3, 5).finished();
     const PlaneFace plane = tangent_plane(cylinder, places);
     const Eigen::Vector2d middle(7, 1);
-    EXPECT_LT((placed(BinderFace(plane), middle) - placed(BinderFace(cylinder), middle)).norm(), 1e-9);
-    EXPECT_LT((outer_normal(BinderFace(plane), {0, 0, 0}) -
-               outer_normal(BinderFace(cylinder), placed(BinderFace(cylinder), middle)))
+    EXPECT_LT((placed(TargetSurface(plane), middle) - placed(TargetSurface(cylinder), middle)).norm(), 1e-9);
+    EXPECT_LT((outer_normal(TargetSurface(plane), {0, 0, 0}) -
+               outer_normal(TargetSurface(cylinder), placed(TargetSurface(cylinder), middle)))
                   .norm(),
               1e-6);
 }

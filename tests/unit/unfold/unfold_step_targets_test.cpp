@@ -38,11 +38,11 @@ TEST(UnfoldStep, AFlangeOnACylinderLandsOnTheCylindersOwnExtension)
             for (int f = 0; f < part.triangles(); ++f)
                 (f / 2 % columns < bend ? fixed : freed).push_back(f);
             const UnfoldStepResult result = unfold_step(part, part.position, {fixed, freed}, steel());
-            ASSERT_EQ(name(result.binder.face), "cylinder");
-            EXPECT_EQ(std::get<CylinderFace>(result.binder.face).bulges, !inside);
+            ASSERT_EQ(name(result.target.face), "cylinder");
+            EXPECT_EQ(std::get<CylinderFace>(result.target.face).bulges, !inside);
             EXPECT_LT(largest_strain(result.face), 1e-6);
-            EXPECT_LT(result.binder.distance_mm, 1e-6);
-            EXPECT_LT(result.binder.angle, 1e-3); // a chord against its arc is no crease
+            EXPECT_LT(result.target.distance_mm, 1e-6);
+            EXPECT_LT(result.target.angle, 1e-3); // a chord against its arc is no crease
             // Flat lengths along the flange become arcs: a chord is shorter by step^2 / 24.
             for (int v = 0; v < part.vertices(); ++v) {
                 const int k = v % (columns + 1);
@@ -79,7 +79,7 @@ TEST(UnfoldStep, AStripOnAConeGoesOnAroundItAndNotOverItsApex)
     for (const Eigen::Matrix3d& moved : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), shapes::random_rotation(4)}) {
         const TriMesh there = shapes::transformed(part, moved, {10, 20, 30});
         const UnfoldStepResult result = unfold_step(there, there.position, {fixed, freed}, steel());
-        ASSERT_EQ(name(result.binder.face), "cone");
+        ASSERT_EQ(name(result.target.face), "cone");
         EXPECT_TRUE(result.converged());
         // A chord over its arc, of which there are some 40: second order.
         EXPECT_LT(furthest(result.position, shapes::transformed(cone.mesh, moved, {10, 20, 30}).position), 0.05);

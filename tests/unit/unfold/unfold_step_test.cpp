@@ -22,7 +22,7 @@ TEST(UnfoldStep, AFlangeBentOverARadiusComesOutFlatWithItsLength)
             faces_where(part.flat, part.mesh, [&](const Eigen::VectorXd& at) { return !on_base(at); });
         const UnfoldStepResult result = unfold_step(part.mesh, part.mesh.position, {fixed, freed}, steel());
         EXPECT_TRUE(result.converged()) << angle;
-        EXPECT_EQ(name(result.binder.face), "plane");
+        EXPECT_EQ(name(result.target.face), "plane");
         EXPECT_LT(largest_strain(result.face), 1e-8) << angle;
         EXPECT_LT(furthest(result.position, in_space(part.flat)), 1e-6) << angle; // mm
         EXPECT_EQ(result.freed, freed);

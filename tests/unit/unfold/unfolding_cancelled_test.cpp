@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/forming/material/material_library.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/bent_parts.h"
 
 namespace spia {
@@ -57,7 +57,7 @@ TEST(UnfoldingCancelled, LeavesTheStepsBeforeAndTheRestGivesTheSameBits)
         expect_resumed(part, steps, at, whole,
                        [&](const Progress& progress) { run_unfolding(part, steps, steel(), progress); });
         expect_resumed(part, steps, at, whole,
-                       [&](const Progress& progress) { unfold_by_itself(part, map, {}, steel(), progress); });
+                       [&](const Progress& progress) { automatic_unfolding(part, map, {}, steel(), progress); });
     }
 }
 

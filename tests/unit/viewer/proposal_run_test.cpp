@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "app/viewer/model/reports/state_report.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/shape_family.h"
 #include "tests/unit/viewer/steps_fixture.h"
 
@@ -23,14 +23,14 @@ struct ProposalRun : UnfoldingSteps {
     }
     FlattenOptions sheet() const { return sheet_of_steps(document.session.options.flatten); }
     /// As the command line does it.
-    UnfoldedByItself by_itself() const
+    AutomaticUnfolding by_itself() const
     {
         const TriMesh& part = document.session.part->mesh;
-        UnfoldedByItself unfolded = unfold_by_itself(part, find_bends(part), {}, sheet());
+        AutomaticUnfolding unfolded = automatic_unfolding(part, find_bends(part), {}, sheet());
         EXPECT_GT(unfolded.given_up, 0u) << "or this shows nothing";
         return unfolded;
     }
-    static void expect_same(const StepList& steps, const UnfoldRun& run, const UnfoldedByItself& wanted)
+    static void expect_same(const StepList& steps, const UnfoldRun& run, const AutomaticUnfolding& wanted)
     {
         ASSERT_EQ(steps.size(), wanted.sequence.steps.size());
         ASSERT_EQ(run.states.size(), wanted.run.states.size());
@@ -51,7 +51,7 @@ struct ProposalRun : UnfoldingSteps {
 TEST_F(ProposalRun, IsPlannedAnewWhereAStepDoesNotWorkOutAsByTheCommandLine)
 {
     open_whiskers();
-    const UnfoldedByItself wanted = by_itself();
+    const AutomaticUnfolding wanted = by_itself();
     propose();
     const StepList first = document.steps;
     EXPECT_TRUE(still_proposed(document));
@@ -80,7 +80,7 @@ TEST_F(ProposalRun, IsPlannedAnewWhereAStepDoesNotWorkOutAsByTheCommandLine)
     model.apply(SetThickness{1.5}); // another sheet: from the first plan on, again
     run();
     const TriMesh& part = document.session.part->mesh;
-    expect_same(document.steps, document.unfolding->run, unfold_by_itself(part, find_bends(part), {}, sheet()));
+    expect_same(document.steps, document.unfolding->run, automatic_unfolding(part, find_bends(part), {}, sheet()));
 }
 
 TEST_F(ProposalRun, StepsThatWereEditedAreNotReplaced)
@@ -110,7 +110,7 @@ TEST_F(ProposalRun, StepsThatWereEditedAreNotReplaced)
 TEST_F(ProposalRun, ThatIsCancelledGoesOnToTheSameResult)
 {
     open_whiskers();
-    const UnfoldedByItself wanted = by_itself();
+    const AutomaticUnfolding wanted = by_itself();
     propose();
     // Cancelled when the second plan begins its first step, whatever the speed of the machine.
     const std::string first_of_second = wanted.sequence.steps[0].name;
@@ -129,7 +129,7 @@ TEST_F(ProposalRun, ThatIsCancelledGoesOnToTheSameResult)
 TEST_F(ProposalRun, AProjectKeepsThatItIsAProposal)
 {
     open_whiskers();
-    const UnfoldedByItself wanted = by_itself();
+    const AutomaticUnfolding wanted = by_itself();
     propose();
     model.apply(SaveProject{folder / "proposed.spia"});
     model.apply(OpenProject{folder / "proposed.spia"});

@@ -162,7 +162,7 @@ TEST(TargetPatch, LiesOnItsFaceAndReachesBeyondWhatLiesOnIt)
     for (int i = 0; i < 9; ++i)
         for (int j = 0; j < 9; ++j)
             height.coefficient(i, j) = 0.1 * i * j;
-    for (const BinderFace& face : {BinderFace(cylinder), BinderFace(height)}) {
+    for (const TargetSurface& face : {TargetSurface(cylinder), TargetSurface(height)}) {
         Eigen::Matrix3Xd places(3, 3);
         for (int k = 0; k < 3; ++k)
             places.col(k) = placed(face, Eigen::Vector2d(3 * k, k * k));

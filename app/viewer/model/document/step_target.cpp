@@ -9,7 +9,7 @@
 #include "app/viewer/model/document/unfolding_steps.h"
 #include "engine/core/error.h"
 #include "engine/unfold/step/unfold_script.h"
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 #include "engine/unfold/target/given_face.h"
 
 namespace spia::viewer {
@@ -65,7 +65,7 @@ StepTarget suggested_target(TargetKind kind, const TriMesh& before, const Planne
     return {.cone = TargetCone{plane.origin - size * axis, along, half_angle_deg}};
 }
 
-std::optional<BinderFace> face_of(const StepTarget& target, const TriMesh& part, const UnfoldPick& pick)
+std::optional<TargetSurface> face_of(const StepTarget& target, const TriMesh& part, const UnfoldPick& pick)
 {
     if (target.plane.has_value() + target.cylinder.has_value() + target.cone.has_value() > 1)
         throw InputError("A step has one target: a plane, a cylinder or a cone.");
@@ -93,7 +93,7 @@ StepTarget numbers_of(const PlannedStep& step)
     StepTarget target;
     if (!step.pick.target)
         return target;
-    const BinderFace& face = *step.pick.target;
+    const TargetSurface& face = *step.pick.target;
     if (const auto* plane = std::get_if<PlaneFace>(&face))
         target.plane = {plane->origin, plane->axes.col(0).cross(plane->axes.col(1))};
     else if (const auto* cylinder = std::get_if<CylinderFace>(&face))
@@ -103,9 +103,9 @@ StepTarget numbers_of(const PlannedStep& step)
     return target;
 }
 
-std::optional<BinderFace> planned_target(const TriMesh& before, const PlannedStep& step)
+std::optional<TargetSurface> planned_target(const TriMesh& before, const PlannedStep& step)
 {
-    std::optional<BinderFace> target = step.pick.target;
+    std::optional<TargetSurface> target = step.pick.target;
     if (!target) {
         const std::vector<int>& carrying = carrying_faces(step);
         if (carrying.empty())
@@ -114,7 +114,7 @@ std::optional<BinderFace> planned_target(const TriMesh& before, const PlannedSte
         for (const int f : carrying)
             for (const int v : before.triangle.col(f))
                 box.extend(before.position.col(v));
-        if (const auto fit = fit_binder(before, carrying, std::max(1e-4, step.within_mm / box.diagonal().norm())))
+        if (const auto fit = fit_target(before, carrying, std::max(1e-4, step.within_mm / box.diagonal().norm())))
             target = fit->face;
     }
     return target && step.offset_mm != 0 ? moved_out(*target, step.offset_mm) : target;

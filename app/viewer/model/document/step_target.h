@@ -45,7 +45,7 @@ StepTarget suggested_target(TargetKind kind, const TriMesh& before, const Planne
 
 /// @param pick of the step: a cylinder or cone is meant where its fixed faces are
 /// @throws InputError if it is more than one, or its numbers are no face's
-std::optional<BinderFace> face_of(const StepTarget& target, const TriMesh& part, const UnfoldPick& pick);
+std::optional<TargetSurface> face_of(const StepTarget& target, const TriMesh& part, const UnfoldPick& pick);
 
 /// The numbers of a step's own target; of a smooth face, which has none, a fitted one.
 StepTarget numbers_of(const PlannedStep& step);
@@ -53,7 +53,7 @@ StepTarget numbers_of(const PlannedStep& step);
 /// The target of a step before it is run: its own, or the plane, cylinder or cone through the faces that carry it, moved out; none:
 /// it will be a smooth face.
 /// @param before the part as it is then; @throws InputError as moved_out()
-std::optional<BinderFace> planned_target(const TriMesh& before, const PlannedStep& step);
+std::optional<TargetSurface> planned_target(const TriMesh& before, const PlannedStep& step);
 
 /// The plane through faces with the least mean square distance, area by area, and how well it goes through them.
 struct PlaneThrough {

@@ -10,7 +10,7 @@
 #include "app/viewer/model/document/step_target.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 
 namespace spia::viewer {
 namespace {
@@ -230,12 +230,12 @@ StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBe
     try {
         progress.checkpoint(0, "finding the bends");
         outcome.bends = bends = bends_of(part, std::move(bends));
-        UnfoldedByItself begun;
+        AutomaticUnfolding begun;
         if (before && before->part == part && same_sheet(before->sheet, sheet)) {
             begun.sequence.steps = script_of(before->steps);
             begun.run = before->run;
         }
-        UnfoldedByItself unfolded = unfold_by_itself(
+        AutomaticUnfolding unfolded = automatic_unfolding(
             part->mesh, bends->map, {.root = proposal.root}, sheet, progress, &begun,
             [&](const UnfoldScript& plan, const UnfoldRun& run) {
                 if (so_far)

@@ -109,7 +109,7 @@ StepsOutcome open_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
 StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<const PartBends> bends,
                         const StepList& steps, const std::filesystem::path& file, const Progress& progress);
 
-/// Runs steps as they were proposed, by unfold_by_itself(): planned anew where one does not work out, the run then has other
+/// Runs steps as they were proposed, by automatic_unfolding(): planned anew where one does not work out, the run then has other
 /// steps, as it does where it is cancelled meanwhile; never throws.
 /// @param bends as above; @param before of the same part and sheet, or null: what of it can stay is not solved again
 StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,

@@ -12,7 +12,7 @@
 #include "app/viewer/model/reports/lengths.h"
 #include "engine/core/error.h"
 #include "engine/mesh/vectors.h"
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 
 namespace spia::viewer {
 namespace {
@@ -173,12 +173,12 @@ Measured freeform_bend(const TriMesh& part, const Probe& probe, const FaceSet& r
 Measured rounding(const TriMesh& part, const Probe& probe, const RegionSearch& regions)
 {
     const FaceSet faces = regions.smooth_region(probe.face);
-    std::optional<BinderFit> fit;
+    std::optional<TargetFit> fit;
     // From what a CAD system means by round to what still is round for a press shop; shares of the region's size.
     constexpr double tolerances[] = {1e-4, 1e-3, 5e-3, 1e-2};
     for (const double tolerance : tolerances)
         if (!fit)
-            fit = fit_binder(part, faces, tolerance);
+            fit = fit_target(part, faces, tolerance);
     if (!fit || std::holds_alternative<ConeFace>(fit->face))
         return freeform_bend(part, probe, faces, fit ? "cone" : "no cylinder");
     if (std::holds_alternative<PlaneFace>(fit->face) && fit->distance_mm > tolerances[0] * region_size(part, faces))

@@ -1,4 +1,4 @@
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -125,30 +125,33 @@ bool operator==(const HeightFace& a, const HeightFace& b)
            a.coefficient == b.coefficient;
 }
 
-std::string_view name(const BinderFace& face)
+std::string_view name(const TargetSurface& face)
 {
     constexpr std::string_view names[] = {"plane", "cylinder", "cone", "smooth"};
     return names[face.index()];
 }
 
-Eigen::Vector2d developed(const BinderFace& face, const Eigen::Vector3d& point)
+Eigen::Vector2d developed(const TargetSurface& face, const Eigen::Vector3d& point)
 {
     return std::visit(Developed{point}, face);
 }
 
-Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place) { return std::visit(Placed{place}, face); }
+Eigen::Vector3d placed(const TargetSurface& face, const Eigen::Vector2d& place)
+{
+    return std::visit(Placed{place}, face);
+}
 
-Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point)
+Eigen::Vector3d outer_normal(const TargetSurface& face, const Eigen::Vector3d& point)
 {
     return std::visit(OuterNormal{point}, face);
 }
 
-Eigen::Matrix<double, 3, 2> tangents(const BinderFace& face, const Eigen::Vector2d& place)
+Eigen::Matrix<double, 3, 2> tangents(const TargetSurface& face, const Eigen::Vector2d& place)
 {
     return std::visit(Tangents{place}, face);
 }
 
-Eigen::Matrix2d metric(const BinderFace& face, const Eigen::Vector2d& place)
+Eigen::Matrix2d metric(const TargetSurface& face, const Eigen::Vector2d& place)
 {
     const auto* height = std::get_if<HeightFace>(&face);
     if (!height)

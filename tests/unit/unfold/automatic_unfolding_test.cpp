@@ -1,4 +1,4 @@
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -68,12 +68,12 @@ double greatest_edge_difference(const TriMesh& part, const Blank& a, const Blank
 
 } // namespace
 
-TEST(UnfoldByItself, FlangesOfACurvedPanelAreLaidOnTheSmoothFaceThroughIt)
+TEST(AutomaticUnfolding, FlangesOfACurvedPanelAreLaidOnTheSmoothFaceThroughIt)
 {
     const shapes::DevelopablePart panel = crowned_panel();
     const TriMesh& part = panel.mesh;
     const BendMap map = find_bends(part);
-    const UnfoldedByItself unfolded = unfold_by_itself(part, map, {}, steel());
+    const AutomaticUnfolding unfolded = automatic_unfolding(part, map, {}, steel());
     ASSERT_EQ(unfolded.run.failure, "");
     ASSERT_EQ(unfolded.sequence.steps.size(), 2u);
     EXPECT_TRUE(unfolded.sequence.notes.empty());
@@ -89,17 +89,17 @@ TEST(UnfoldByItself, FlangesOfACurvedPanelAreLaidOnTheSmoothFaceThroughIt)
     EXPECT_NEAR(size[1], 120, 1e-3);
 }
 
-TEST(UnfoldByItself, FlatteningAfterTheStepsEndsInTheBlankOfFlatteningAtOnce)
+TEST(AutomaticUnfolding, FlatteningAfterTheStepsEndsInTheBlankOfFlatteningAtOnce)
 {
     const TriMesh part = fender();
-    const UnfoldedByItself unfolded = unfold_by_itself(part, find_bends(part), {}, steel());
+    const AutomaticUnfolding unfolded = automatic_unfolding(part, find_bends(part), {}, steel());
     ASSERT_TRUE(unfolded.run.blank) << unfolded.run.failure;
     ASSERT_GT(unfolded.run.states.size(), 1u);
     const FlattenResult at_once = flatten(part, steel());
     EXPECT_LT(greatest_edge_difference(part, *unfolded.run.blank, at_once.blank), 1e-3);
 }
 
-TEST(UnfoldByItself, AStepThatStrainsTheSheetMoreThanTheEndDoesIsLeftOut)
+TEST(AutomaticUnfolding, AStepThatStrainsTheSheetMoreThanTheEndDoesIsLeftOut)
 {
     const TriMesh part = shapes::fender({.triangles = 5000}).mesh;
     const BendMap map = find_bends(part);
@@ -108,7 +108,7 @@ TEST(UnfoldByItself, AStepThatStrainsTheSheetMoreThanTheEndDoesIsLeftOut)
     const auto strain = [](const UnfoldState& state) { return state.face.strain_equivalent.maxCoeff(); };
     ASSERT_GT(strain(whole.states.at(1)), 0.1) << "else there is nothing to leave out";
     ASSERT_LT(strain(whole.states.back()), 0.03);
-    const UnfoldedByItself unfolded = unfold_by_itself(part, map, {}, steel());
+    const AutomaticUnfolding unfolded = automatic_unfolding(part, map, {}, steel());
     ASSERT_EQ(unfolded.run.states.size(), first.size() - 1);
     EXPECT_EQ(unfolded.sequence.steps[0].name, first[0].name) << "which strains it by less than 1 %";
     EXPECT_LT(strain(unfolded.run.states[0]), 0.01);
@@ -118,7 +118,7 @@ TEST(UnfoldByItself, AStepThatStrainsTheSheetMoreThanTheEndDoesIsLeftOut)
     EXPECT_LT(greatest_edge_difference(part, *unfolded.run.blank, *whole.blank), 1e-3);
 }
 
-TEST(UnfoldByItself, FlatteningStartsFromHowStepsHaveLeftThePart)
+TEST(AutomaticUnfolding, FlatteningStartsFromHowStepsHaveLeftThePart)
 {
     const TriMesh part = fender();
     const FlattenResult at_once = flatten(part, steel());
@@ -135,7 +135,7 @@ TEST(UnfoldByItself, FlatteningStartsFromHowStepsHaveLeftThePart)
               1e-3); // of 880 mm, solved to 1e-8 of the forces
 }
 
-TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
+TEST(AutomaticUnfolding, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
 {
     const TriMesh part = fender();
     const BendMap map = find_bends(part);
@@ -143,7 +143,7 @@ TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
     const auto carrying = [&](Carriers& carriers) {
         int count = 0;
         for (int r = 0; r < int(map.regions.size()); ++r)
-            if (const BinderFit* fit = carriers.of(r); fit && !carriers.plain(r)) {
+            if (const TargetFit* fit = carriers.of(r); fit && !carriers.plain(r)) {
                 EXPECT_TRUE(std::holds_alternative<HeightFace>(fit->face));
                 EXPECT_LE(fit->distance_mm, 1);
                 EXPECT_LE(fit->angle, 0.2);
@@ -161,23 +161,23 @@ TEST(UnfoldByItself, ASmoothFaceThatIsNotNearOrTurnsTooFarCarriesNothing)
     EXPECT_NE(sequence.notes[0].find("the smooth face through it is"), std::string::npos) << sequence.notes[0];
 }
 
-TEST(UnfoldByItself, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverges)
+TEST(AutomaticUnfolding, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverges)
 {
     const auto unfolded = [](const std::string& family, int number) {
         for (const shapes::FamilyShape& shape : shapes::shape_family(600, 1))
             if (shape.family == family && shape.number == number) {
                 const TriMesh part = shape.make();
-                return unfold_by_itself(part, find_bends(part), {}, steel());
+                return automatic_unfolding(part, find_bends(part), {}, steel());
             }
         throw std::runtime_error("there is no such shape");
     };
-    const UnfoldedByItself better = unfolded("whiskers", 2);
+    const AutomaticUnfolding better = unfolded("whiskers", 2);
     ASSERT_EQ(better.run.states.size(), 1u);
     EXPECT_EQ(better.sequence.steps[0].kind, UnfoldKind::flatten);
     EXPECT_TRUE(better.run.states[0].converged);
     ASSERT_FALSE(better.sequence.notes.empty());
     EXPECT_NE(better.sequence.notes.back().find("did not converge"), std::string::npos);
-    const UnfoldedByItself no_better = unfolded("needles", 4); // on this mesh nothing converges to the tolerance
+    const AutomaticUnfolding no_better = unfolded("needles", 4); // on this mesh nothing converges to the tolerance
     EXPECT_EQ(no_better.sequence.steps.size(), 3u);
     EXPECT_EQ(no_better.run.states.size(), 3u);
     EXPECT_TRUE(no_better.run.blank);
@@ -186,7 +186,7 @@ TEST(UnfoldByItself, AStepThatDoesNotConvergeIsPlannedAnewOnlyIfThatConverges)
         EXPECT_EQ(note.find("planned anew"), std::string::npos) << note;
 }
 
-TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
+TEST(AutomaticUnfolding, AStepWithoutAResultIsPlannedAnew)
 {
     // Allowed to be far beside its plane, the flat-ish middle carries the flanges; the step itself refuses that. The long flange
     // could be the root, too: it must not become it.
@@ -196,7 +196,7 @@ TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
     const UnfoldSequence first = propose_sequence(part, map, loose);
     ASSERT_EQ(first.steps[0].kind, UnfoldKind::lay);
     ASSERT_NE(run_unfolding(part, first.steps, steel()).failure, "") << "or this test shows nothing";
-    const UnfoldedByItself unfolded = unfold_by_itself(part, map, loose, steel());
+    const AutomaticUnfolding unfolded = automatic_unfolding(part, map, loose, steel());
     EXPECT_EQ(unfolded.run.failure, "");
     ASSERT_TRUE(unfolded.run.blank);
     EXPECT_EQ(unfolded.run.flipped, 0);
@@ -206,11 +206,11 @@ TEST(UnfoldByItself, AStepWithoutAResultIsPlannedAnew)
     EXPECT_EQ(unfolded.run.states.size(), unfolded.sequence.steps.size());
 }
 
-TEST(UnfoldByItself, WhatGoesAllAroundAConeIsFlattenedNotUnrolled)
+TEST(AutomaticUnfolding, WhatGoesAllAroundAConeIsFlattenedNotUnrolled)
 {
     const Eigen::Matrix2Xd meridian = (Eigen::Matrix2Xd(2, 2) << 30, 60, 80, 0).finished();
     const TriMesh ring = shapes::axisymmetric(meridian, 3000).mesh;
-    const UnfoldedByItself unfolded = unfold_by_itself(ring, find_bends(ring), {}, steel());
+    const AutomaticUnfolding unfolded = automatic_unfolding(ring, find_bends(ring), {}, steel());
     EXPECT_EQ(unfolded.run.failure, "");
     EXPECT_TRUE(unfolded.sequence.notes.empty()) << "planned so at once: " << unfolded.sequence.notes[0];
     ASSERT_EQ(unfolded.sequence.steps.size(), 1u);
@@ -218,13 +218,13 @@ TEST(UnfoldByItself, WhatGoesAllAroundAConeIsFlattenedNotUnrolled)
     EXPECT_EQ(unfolded.run.flipped, 0);
 }
 
-TEST(UnfoldByItself, AFlatPartIsTakenAsItIs)
+TEST(AutomaticUnfolding, AFlatPartIsTakenAsItIs)
 {
     for (const double turn : {0., 0.4, 2.}) {
         const TriMesh plate = shapes::transformed(
             plate_with_a_hole(), Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix(),
             {0, 0, 0});
-        const UnfoldedByItself unfolded = unfold_by_itself(plate, find_bends(plate), {}, steel());
+        const AutomaticUnfolding unfolded = automatic_unfolding(plate, find_bends(plate), {}, steel());
         ASSERT_EQ(unfolded.sequence.steps.size(), 1u);
         EXPECT_EQ(unfolded.sequence.steps[0].kind, UnfoldKind::unroll);
         EXPECT_EQ(unfolded.run.failure, "");

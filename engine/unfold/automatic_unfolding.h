@@ -9,7 +9,7 @@ namespace spia {
 /// Called after every step with the plan at work and its states so far.
 using StepEnded = std::function<void(const UnfoldScript& plan, const UnfoldRun& so_far)>;
 
-struct UnfoldedByItself {
+struct AutomaticUnfolding {
     UnfoldSequence sequence; ///< of the run; its notes also tell which steps of earlier plans had no result
     UnfoldRun run;
     size_t given_up = 0; ///< how many of the notes, the last ones, tell of these
@@ -24,8 +24,8 @@ struct UnfoldedByItself {
 /// @param begun of an earlier run on this part in this sheet, which may have been cancelled: steps with which the first plan begins
 ///              likewise are not solved again
 /// @throws UnfoldingCancelled with the plan at work and its states; InputError as propose_sequence() and run_unfolding()
-UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions sequence,
-                                  const FlattenOptions& options, const Progress& progress = {},
-                                  const UnfoldedByItself* begun = nullptr, const StepEnded& ended = {});
+AutomaticUnfolding automatic_unfolding(const TriMesh& part, const BendMap& map, SequenceOptions sequence,
+                                       const FlattenOptions& options, const Progress& progress = {},
+                                       const AutomaticUnfolding* begun = nullptr, const StepEnded& ended = {});
 
 } // namespace spia

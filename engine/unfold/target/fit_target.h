@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "engine/mesh/tri_mesh.h"
-#include "engine/unfold/target/binder_face.h"
+#include "engine/unfold/target/target_surface.h"
 
 namespace spia {
 
 /// A face through a region of the part, and how well it goes through.
-struct BinderFit {
-    BinderFace face;
+struct TargetFit {
+    TargetSurface face;
     double distance_mm; ///< greatest of the region's vertices
     double angle;       ///< radians, greatest between its faces' normals and the face's at their corners
 };
@@ -19,6 +19,6 @@ struct BinderFit {
 /// @param tolerance of the distance, a share of the region's diagonal
 /// @returns none if the region is no such face
 /// @throws InputError if there are no faces, or one does not exist
-std::optional<BinderFit> fit_binder(const TriMesh& part, const std::vector<int>& faces, double tolerance = 1e-4);
+std::optional<TargetFit> fit_target(const TriMesh& part, const std::vector<int>& faces, double tolerance = 1e-4);
 
 } // namespace spia

@@ -1,4 +1,4 @@
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TriMesh turned_over(TriMesh part)
 }
 
 /// Greatest difference of an edge's length, and least area of a face in the development against that in space.
-void expect_development(const TriMesh& part, const BinderFace& face, double chord)
+void expect_development(const TriMesh& part, const TargetSurface& face, double chord)
 {
     Eigen::Matrix2Xd flat(2, part.vertices());
     for (int v = 0; v < part.vertices(); ++v) {
@@ -56,11 +56,11 @@ void expect_development(const TriMesh& part, const BinderFace& face, double chor
 
 } // namespace
 
-TEST(FitBinder, APlateIsAPlaneWhereverItLies)
+TEST(FitTarget, APlateIsAPlaneWhereverItLies)
 {
     for (const TriMesh& part :
          {moved(shapes::rectangle(80, 50, 8, 5)), turned_over(moved(shapes::rectangle(80, 50, 8, 5)))}) {
-        const auto fit = fit_binder(part, all_faces(part));
+        const auto fit = fit_target(part, all_faces(part));
         ASSERT_TRUE(fit);
         EXPECT_EQ(name(fit->face), "plane");
         EXPECT_LT(fit->distance_mm, 1e-10);
@@ -69,11 +69,11 @@ TEST(FitBinder, APlateIsAPlaneWhereverItLies)
     }
 }
 
-TEST(FitBinder, ABentStripIsACylinderWithItsRadiusOnEitherSide)
+TEST(FitTarget, ABentStripIsACylinderWithItsRadiusOnEitherSide)
 {
     const TriMesh strip = moved(shapes::quarter_cylinder({.radius = 50, .length = 80, .triangles = 2000}).mesh);
     for (const TriMesh& part : {strip, turned_over(strip)}) {
-        const auto fit = fit_binder(part, all_faces(part));
+        const auto fit = fit_target(part, all_faces(part));
         ASSERT_TRUE(fit);
         ASSERT_EQ(name(fit->face), "cylinder");
         const auto& cylinder = std::get<CylinderFace>(fit->face);
@@ -81,16 +81,16 @@ TEST(FitBinder, ABentStripIsACylinderWithItsRadiusOnEitherSide)
         EXPECT_LT(fit->distance_mm, 1e-7);
         expect_development(part, fit->face, 2e-4); // an edge is a chord of its arc
     }
-    EXPECT_NE(std::get<CylinderFace>(fit_binder(strip, all_faces(strip))->face).bulges,
-              std::get<CylinderFace>(fit_binder(turned_over(strip), all_faces(strip))->face).bulges);
+    EXPECT_NE(std::get<CylinderFace>(fit_target(strip, all_faces(strip))->face).bulges,
+              std::get<CylinderFace>(fit_target(turned_over(strip), all_faces(strip))->face).bulges);
 }
 
-TEST(FitBinder, AConeIsFoundWithItsApexAndAngle)
+TEST(FitTarget, AConeIsFoundWithItsApexAndAngle)
 {
     const shapes::ConeSector shape{.near = 60, .far = 140, .half_angle_deg = 30, .sector_deg = 120, .triangles = 3000};
     const TriMesh at_origin = shapes::cone_sector(shape).mesh, sector = moved(at_origin);
     for (const TriMesh& part : {sector, turned_over(sector)}) {
-        const auto fit = fit_binder(part, all_faces(part));
+        const auto fit = fit_target(part, all_faces(part));
         ASSERT_TRUE(fit);
         ASSERT_EQ(name(fit->face), "cone");
         const auto& cone = std::get<ConeFace>(fit->face);
@@ -102,7 +102,7 @@ TEST(FitBinder, AConeIsFoundWithItsApexAndAngle)
     }
 }
 
-TEST(FitBinder, NoGeneratorNeedsToBeAnEdge)
+TEST(FitTarget, NoGeneratorNeedsToBeAnEdge)
 {
     // A plate whose vertices are moved about at random, laid on the face: its triangles are chords in all directions.
     TriMesh plate = shapes::rectangle(60, 50, 20, 16);
@@ -111,18 +111,18 @@ TEST(FitBinder, NoGeneratorNeedsToBeAnEdge)
     for (int v = 0; v < plate.vertices(); ++v)
         plate.position.col(v).head<2>() += Eigen::Vector2d(little(random) - 30, little(random) + 80);
     const Eigen::Matrix3d turn = Eigen::Quaterniond(0.1, 0.9, -0.3, 0.4).normalized().toRotationMatrix();
-    std::vector<BinderFace> faces;
+    std::vector<TargetSurface> faces;
     for (int k = 0; k < 3; ++k)
         for (const double way : {1., -1.}) {
             const Eigen::Vector3d axis = way * turn.col(k), towards = turn.col((k + 1) % 3);
             faces.push_back(CylinderFace{{3, 4, 5}, axis, towards, 40, way > 0});
             faces.push_back(ConeFace{{3, 4, 5}, axis, towards, 0.4, way > 0});
         }
-    for (const BinderFace& face : faces) {
+    for (const TargetSurface& face : faces) {
         TriMesh part = plate;
         for (int v = 0; v < part.vertices(); ++v)
             part.position.col(v) = placed(face, plate.position.col(v).head<2>());
-        const auto fit = fit_binder(part, all_faces(part));
+        const auto fit = fit_target(part, all_faces(part));
         ASSERT_TRUE(fit) << name(face);
         EXPECT_EQ(name(fit->face), name(face));
         EXPECT_LT(fit->distance_mm, 1e-6);
@@ -134,7 +134,7 @@ TEST(FitBinder, NoGeneratorNeedsToBeAnEdge)
     }
 }
 
-TEST(FitBinder, ASharpBendIsNoCylinderThoughItsVerticesLieOnOne)
+TEST(FitTarget, ASharpBendIsNoCylinderThoughItsVerticesLieOnOne)
 {
     TriMesh bend = shapes::rectangle(40, 50, 2, 5);
     for (int v = 0; v < bend.vertices(); ++v)
@@ -142,13 +142,13 @@ TEST(FitBinder, ASharpBendIsNoCylinderThoughItsVerticesLieOnOne)
             bend.position(0, v) = 20;
             bend.position(2, v) = beyond;
         }
-    EXPECT_FALSE(fit_binder(bend, all_faces(bend)));
+    EXPECT_FALSE(fit_target(bend, all_faces(bend)));
 }
 
-TEST(FitBinder, ARegionOfAPartCountsAloneAndADomeIsNone)
+TEST(FitTarget, ARegionOfAPartCountsAloneAndADomeIsNone)
 {
     const TriMesh hat = moved(shapes::hat_channel({.triangles = 3000}).mesh);
-    EXPECT_FALSE(fit_binder(hat, all_faces(hat)));
+    EXPECT_FALSE(fit_target(hat, all_faces(hat)));
     const TriMesh flat = shapes::hat_channel({.triangles = 3000}).mesh; // the same faces before they were moved
     const double top = flat.position.row(2).maxCoeff();
     std::vector<int> faces;
@@ -156,16 +156,16 @@ TEST(FitBinder, ARegionOfAPartCountsAloneAndADomeIsNone)
         if ((flat.position.row(2)(flat.triangle.col(f)).array() - top).abs().maxCoeff() < 1e-9)
             faces.push_back(f);
     ASSERT_GT(faces.size(), 100u);
-    const auto fit = fit_binder(hat, faces);
+    const auto fit = fit_target(hat, faces);
     ASSERT_TRUE(fit);
     EXPECT_EQ(name(fit->face), "plane");
     TriMesh dome = shapes::rectangle(80, 60, 16, 12); // on a sphere
     for (int v = 0; v < dome.vertices(); ++v)
         dome.position(2, v) = std::sqrt(4e4 - dome.position.col(v).head<2>().squaredNorm());
-    EXPECT_FALSE(fit_binder(dome, all_faces(dome)));
-    EXPECT_TRUE(fit_binder(dome, all_faces(dome), 0.3)) << "a plane will do for so little";
-    EXPECT_THROW(fit_binder(hat, {}), InputError);
-    EXPECT_THROW(fit_binder(hat, {hat.triangles()}), InputError);
+    EXPECT_FALSE(fit_target(dome, all_faces(dome)));
+    EXPECT_TRUE(fit_target(dome, all_faces(dome), 0.3)) << "a plane will do for so little";
+    EXPECT_THROW(fit_target(hat, {}), InputError);
+    EXPECT_THROW(fit_target(hat, {hat.triangles()}), InputError);
 }
 
 } // namespace spia

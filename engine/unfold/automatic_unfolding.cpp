@@ -1,4 +1,4 @@
-#include "engine/unfold/unfold_by_itself.h"
+#include "engine/unfold/automatic_unfolding.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -59,7 +59,7 @@ bool converged(const UnfoldRun& run)
            std::all_of(run.states.begin(), run.states.end(), [](const UnfoldState& s) { return s.converged; });
 }
 
-UnfoldedByItself with_notes(UnfoldedByItself unfolded, const std::vector<std::string>& given_up)
+AutomaticUnfolding with_notes(AutomaticUnfolding unfolded, const std::vector<std::string>& given_up)
 {
     unfolded.sequence.notes.insert(unfolded.sequence.notes.end(), given_up.begin(), given_up.end());
     unfolded.given_up = given_up.size();
@@ -68,14 +68,14 @@ UnfoldedByItself with_notes(UnfoldedByItself unfolded, const std::vector<std::st
 
 } // namespace
 
-UnfoldedByItself unfold_by_itself(const TriMesh& part, const BendMap& map, SequenceOptions options,
-                                  const FlattenOptions& flatten, const Progress& progress,
-                                  const UnfoldedByItself* begun, const StepEnded& ended)
+AutomaticUnfolding automatic_unfolding(const TriMesh& part, const BendMap& map, SequenceOptions options,
+                                       const FlattenOptions& flatten, const Progress& progress,
+                                       const AutomaticUnfolding* begun, const StepEnded& ended)
 {
-    UnfoldedByItself now{propose_sequence(part, map, options), {}};
+    AutomaticUnfolding now{propose_sequence(part, map, options), {}};
     options.root = now.sequence.root; // stays, whatever carries nothing
     std::vector<std::string> given_up;
-    std::optional<UnfoldedByItself> nearly; // the first faulty plan whose steps converge, else that ended in a blank
+    std::optional<AutomaticUnfolding> nearly; // the first faulty plan whose steps converge, else that ended in a blank
     size_t keep = begun ? std::min(alike(begun->sequence.steps, now.sequence.steps), begun->run.states.size()) : 0;
     for (UnfoldRun before = begun ? begun->run : UnfoldRun{};;) {
         now.run = run_unfolding(part, now.sequence.steps, flatten, progress, keep > 0 ? &before : nullptr, keep,

@@ -5,7 +5,7 @@
 
 #include "engine/unfold/step/unfold_step.h"
 #include "engine/unfold/target/fit_height.h"
-#include "engine/unfold/target/turn_binder.h"
+#include "engine/unfold/target/turn_target.h"
 #include "tests/support/developable.h"
 #include "tests/support/fender.h"
 #include "tests/support/grid_surface.h"
@@ -56,7 +56,7 @@ double furthest(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) { return (
 TEST(HeightFace, IsItsPolynomialInsideAndGoesStraightOnOutside)
 {
     const double a = 1, b = 0.1, c = -0.2, xx = 0.003, xy = 0.002, yy = -0.001;
-    const BinderFace face = polynomial(a, b, c, xx, xy, yy);
+    const TargetSurface face = polynomial(a, b, c, xx, xy, yy);
     const auto value = [&](double x, double y) { return a + b * x + c * y + xx * x * x + xy * x * y + yy * y * y; };
     for (const Eigen::Vector2d& at : {Eigen::Vector2d(3, 4), Eigen::Vector2d(-50, 50), Eigen::Vector2d(49, -31.5)}) {
         const Eigen::Vector3d x = placed(face, at);
@@ -69,7 +69,7 @@ TEST(HeightFace, IsItsPolynomialInsideAndGoesStraightOnOutside)
     EXPECT_NEAR(placed(face, {80, 20})[2], value(50, 20) + 30 * slope, 1e-11);
     // The lengths are those of small ways of the face, and the normal is square to them, inside and outside.
     for (const Eigen::Vector2d& at : {Eigen::Vector2d(12, -20), Eigen::Vector2d(70, 10), Eigen::Vector2d(-80, 90)})
-        for (const BinderFace& either : {face, turned_over(face)}) {
+        for (const TargetSurface& either : {face, turned_over(face)}) {
             Eigen::Matrix<double, 3, 2> J;
             for (int k = 0; k < 2; ++k)
                 J.col(k) = (placed(either, at + 1e-4 * Eigen::Vector2d::Unit(k)) -
@@ -96,7 +96,7 @@ TEST(FitHeight, GoesThroughASmoothRegionAndOnBesideItWithItsTangent)
         const Eigen::Matrix3d turn =
             seed ? shapes::random_rotation(seed) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
         const TriMesh there = shapes::transformed(skin, turn, {100, 7, -3});
-        EXPECT_FALSE(fit_binder(there, all));
+        EXPECT_FALSE(fit_target(there, all));
         const auto fit = fit_height(there, all);
         ASSERT_TRUE(fit);
         EXPECT_EQ(name(fit->face), "smooth");
@@ -232,9 +232,9 @@ TEST(SmoothTarget, WhatIsOnItAlreadyStaysAndWhatWasBentComesBack)
     // Without a target one is made of the fixed region; beside it it goes straight on where the skin is curved.
     pick.target.reset();
     const UnfoldStepResult own = unfold_step(skin, skin.position, pick, steel());
-    EXPECT_EQ(name(own.binder.face), "smooth");
-    EXPECT_LT(own.binder.distance_mm, 1e-2);
-    EXPECT_LT(own.binder.angle, 0.05);
+    EXPECT_EQ(name(own.target.face), "smooth");
+    EXPECT_LT(own.target.distance_mm, 1e-2);
+    EXPECT_LT(own.target.angle, 0.05);
     EXPECT_TRUE(own.converged());
     EXPECT_LT(furthest(own.position, skin.position), 0.002 * 20 * 20 * 1.5);
 }
@@ -249,9 +249,9 @@ TEST(SmoothTarget, TheFlangeOfAFenderGoesOnWithItsSkin)
             .push_back(f);
     const UnfoldStepResult result = unfold_step(fender.mesh, fender.mesh.position, pick, steel());
     EXPECT_TRUE(result.converged()) << result.piece[0].report.reason;
-    EXPECT_EQ(name(result.binder.face), "smooth");
-    EXPECT_LT(result.binder.distance_mm, 0.1);
-    EXPECT_LT(result.binder.angle, 0.05);
+    EXPECT_EQ(name(result.target.face), "smooth");
+    EXPECT_LT(result.target.distance_mm, 0.1);
+    EXPECT_LT(result.target.angle, 0.05);
     EXPECT_LT(result.face.strain_equivalent.maxCoeff(), 0.04);
     // In the middle its edge is as far beyond the bend as the flange is long, down the slope that the skin has there.
     const double length = 5 * 30 * pi / 180 + 18, slope = 240. / 700;

@@ -48,19 +48,19 @@ struct HeightFace {
     friend bool operator==(const HeightFace& a, const HeightFace& b);
 };
 
-using BinderFace = std::variant<PlaneFace, CylinderFace, ConeFace, HeightFace>;
-std::string_view name(const BinderFace& face);
+using TargetSurface = std::variant<PlaneFace, CylinderFace, ConeFace, HeightFace>;
+std::string_view name(const TargetSurface& face);
 
 /// The place of the face that is nearest to a point in space, in the development. mm; of a smooth face the one above or below it
-Eigen::Vector2d developed(const BinderFace& face, const Eigen::Vector3d& point);
+Eigen::Vector2d developed(const TargetSurface& face, const Eigen::Vector3d& point);
 /// The point in space of a place of the development. mm
-Eigen::Vector3d placed(const BinderFace& face, const Eigen::Vector2d& place);
+Eigen::Vector3d placed(const TargetSurface& face, const Eigen::Vector2d& place);
 /// The unit normal on the outer side, where the face is nearest to the point.
-Eigen::Vector3d outer_normal(const BinderFace& face, const Eigen::Vector3d& point);
+Eigen::Vector3d outer_normal(const TargetSurface& face, const Eigen::Vector3d& point);
 /// The derivative of placed() by the place: ways of the development in space. On a smooth face they are not of unit length.
-Eigen::Matrix<double, 3, 2> tangents(const BinderFace& face, const Eigen::Vector2d& place);
+Eigen::Matrix<double, 3, 2> tangents(const TargetSurface& face, const Eigen::Vector2d& place);
 /// The lengths of the face around a place of its development: M = sqrt(J^T J), J the derivative of placed(); a small way d of the
 /// development is |M d| long. The identity, but on a smooth face.
-Eigen::Matrix2d metric(const BinderFace& face, const Eigen::Vector2d& place);
+Eigen::Matrix2d metric(const TargetSurface& face, const Eigen::Vector2d& place);
 
 } // namespace spia

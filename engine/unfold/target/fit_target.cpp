@@ -1,4 +1,4 @@
-#include "engine/unfold/target/fit_binder.h"
+#include "engine/unfold/target/fit_target.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -81,7 +81,7 @@ template <class Make> struct Distances : Eigen::DenseFunctor<double> {
     }
     int operator()(const Eigen::VectorXd& number, Eigen::VectorXd& off) const
     {
-        const BinderFace face = make(number);
+        const TargetSurface face = make(number);
         for (Eigen::Index v = 0; v < region.vertex.cols(); ++v) {
             const Eigen::Vector3d x = region.vertex.col(v);
             off[v] = outer_normal(face, x).dot(x - placed(face, developed(face, x))) / region.size;
@@ -92,7 +92,7 @@ template <class Make> struct Distances : Eigen::DenseFunctor<double> {
     const Make& make;
 };
 
-template <class Make> BinderFace refined(const Region& region, int numbers, const Make& make)
+template <class Make> TargetSurface refined(const Region& region, int numbers, const Make& make)
 {
     using Functor = Eigen::NumericalDiff<Distances<Make>, Eigen::Central>;
     Functor distances(Distances<Make>(region, numbers, make));
@@ -131,7 +131,7 @@ bool looks_away(const Region& region, const Eigen::Vector3d& origin, const Eigen
 }
 
 /// The normals are square to the axis; seen along it the vertices lie on a circle. [Kasa 1976 for a first one]
-BinderFace cylinder(const Region& region)
+TargetSurface cylinder(const Region& region)
 {
     const Eigen::Vector3d axis = normal_axes(region, Eigen::Vector3d::Zero()).col(0), x = axis.unitOrthogonal(),
                           y = axis.cross(x);
@@ -148,7 +148,7 @@ BinderFace cylinder(const Region& region)
     const Eigen::Vector3d middle = region.centre + region.size / 2 * (circle[0] * x + circle[1] * y),
                           towards = square_to(axis, region.centre - middle);
     const bool bulges = looks_away(region, middle, axis);
-    return refined(region, 5, [=, size = region.size](const Eigen::VectorXd& d) -> BinderFace {
+    return refined(region, 5, [=, size = region.size](const Eigen::VectorXd& d) -> TargetSurface {
         const Eigen::Vector3d now = leaned(axis, d[0], d[1]);
         return CylinderFace{middle + size * (d[2] * x + d[3] * y), now, square_to(now, towards), radius + size * d[4],
                             bulges};
@@ -156,7 +156,7 @@ BinderFace cylinder(const Region& region)
 }
 
 /// The normals make one angle with the axis, and all tangent planes meet in the apex.
-BinderFace cone(const Region& region)
+TargetSurface cone(const Region& region)
 {
     const Eigen::Vector3d mean = region.facing / region.area.sum();
     Eigen::Vector3d axis = normal_axes(region, mean).col(0);
@@ -172,15 +172,15 @@ BinderFace cone(const Region& region)
                  off = (arm - axis * (axis.transpose() * arm)).colwise().norm().mean();
     const double half_angle = std::atan2(off, along);
     const bool bulges = looks_away(region, apex, axis);
-    return refined(region, 6, [=, size = region.size](const Eigen::VectorXd& d) -> BinderFace {
+    return refined(region, 6, [=, size = region.size](const Eigen::VectorXd& d) -> TargetSurface {
         const Eigen::Vector3d now = leaned(axis, d[0], d[1]);
         return ConeFace{apex + size * d.segment<3>(2), now, square_to(now, towards), half_angle + d[5], bulges};
     });
 }
 
-BinderFit judged(const Region& region, const BinderFace& face)
+TargetFit judged(const Region& region, const TargetSurface& face)
 {
-    BinderFit fit{face, 0, 0};
+    TargetFit fit{face, 0, 0};
     for (Eigen::Index v = 0; v < region.vertex.cols(); ++v) {
         const Eigen::Vector3d x = region.vertex.col(v);
         fit.distance_mm = std::max(fit.distance_mm, (x - placed(face, developed(face, x))).norm());
@@ -196,13 +196,13 @@ BinderFit judged(const Region& region, const BinderFace& face)
 
 } // namespace
 
-std::optional<BinderFit> fit_binder(const TriMesh& part, const std::vector<int>& faces, double tolerance)
+std::optional<TargetFit> fit_target(const TriMesh& part, const std::vector<int>& faces, double tolerance)
 {
     const Region region = region_of(part, faces);
     constexpr double most_angle = 0.4; // a chord over 45 degrees; coarser is a bend of flats
-    for (BinderFace (*make)(const Region&) :
-         {+[](const Region& r) -> BinderFace { return plane(r); }, &cylinder, &cone}) {
-        const BinderFit fit = judged(region, make(region));
+    for (TargetSurface (*make)(const Region&) :
+         {+[](const Region& r) -> TargetSurface { return plane(r); }, &cylinder, &cone}) {
+        const TargetFit fit = judged(region, make(region));
         if (fit.distance_mm <= tolerance * region.size && fit.angle <= most_angle)
             return fit;
     }

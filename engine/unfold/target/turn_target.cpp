@@ -1,4 +1,4 @@
-#include "engine/unfold/target/turn_binder.h"
+#include "engine/unfold/target/turn_target.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -108,9 +108,9 @@ std::optional<double> middle_around(const Eigen::VectorXd& angle, const std::vec
     return gap ? std::optional(*gap + turn / 2) : std::nullopt;
 }
 
-BinderFace turned_over(const BinderFace& face)
+TargetSurface turned_over(const TargetSurface& face)
 {
-    BinderFace out = face;
+    TargetSurface out = face;
     if (auto* plane = std::get_if<PlaneFace>(&out))
         plane->axes = plane->axes.rowwise().reverse().eval();
     else if (auto* height = std::get_if<HeightFace>(&out)) { // x and y change places, and up is down
@@ -124,10 +124,10 @@ BinderFace turned_over(const BinderFace& face)
     return out;
 }
 
-std::optional<BinderFace> turned_towards(const BinderFace& face, const Eigen::Matrix3Xd& point,
-                                         const std::vector<std::array<int, 2>>& edges)
+std::optional<TargetSurface> turned_towards(const TargetSurface& face, const Eigen::Matrix3Xd& point,
+                                            const std::vector<std::array<int, 2>>& edges)
 {
-    BinderFace out = face;
+    TargetSurface out = face;
     bool open = true;
     if (point.cols() == 0)
         return out;
@@ -138,13 +138,13 @@ std::optional<BinderFace> turned_towards(const BinderFace& face, const Eigen::Ma
     return open ? std::optional(out) : std::nullopt;
 }
 
-std::optional<Eigen::Matrix2Xd> unwound(const BinderFace& face, const Eigen::Matrix3Xd& point,
+std::optional<Eigen::Matrix2Xd> unwound(const TargetSurface& face, const Eigen::Matrix3Xd& point,
                                         const std::vector<std::array<int, 2>>& edges)
 {
     Eigen::Matrix2Xd places(2, point.cols());
     for (Eigen::Index v = 0; v < point.cols(); ++v)
         places.col(v) = developed(face, point.col(v));
-    BinderFace round = face;
+    TargetSurface round = face;
     const auto angles = [&](const Around& around) {
         Eigen::VectorXd angle(point.cols());
         for (Eigen::Index v = 0; v < point.cols(); ++v)
