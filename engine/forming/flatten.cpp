@@ -97,14 +97,15 @@ FlattenResult flatten_part(const TriMesh& original, const Eigen::Matrix2Xd* star
     const Eigen::Matrix2Xd X = start ? Eigen::Matrix2Xd(start->colwise() - start->rowwise().mean())
                                      : first_guess(part, element, matrix, cholesky, progress, result);
 
-    const Job job{part, element, options, external, plane, matrix, cholesky, false, pull_of(external, part, options)};
-    result.blank.position = solve(job, X, result.report, progress.part(0.1, 1));
+    const SolveContext context{
+        part, element, options, external, plane, matrix, cholesky, false, pull_of(external, part, options)};
+    result.blank.position = solve(context, X, result.report, progress.part(0.1, 1));
     if (result.report.system == SolvedSystem::energy) // the others lie there
-        place(job, result.blank.position);
+        place(context, result.blank.position);
 
     const auto judging = [&] { progress.checkpoint(1, "strains and thickness"); };
     judging();
-    const Sheet sheet = solved_sheet(job, result.report);
+    const Sheet sheet = solved_sheet(context, result.report);
     result.face = face_fields(part, element, result.blank, sheet);
     result.node = node_fields(part, element, result.face);
     judging();

@@ -10,9 +10,9 @@ namespace spia {
 
 namespace {
 
-constexpr int most_rounds = 12;   // of trying; then all stay as they were
-constexpr int patient_rounds = 3; // then those beside spoilt patches are kept as well
-constexpr double no_worse = 1e-3; // radians, by which the angle of a join may grow while others get smooth
+constexpr int most_rounds = 12;           // of trying; then all stay as they were
+constexpr int rounds_before_widening = 3; // then those beside spoilt patches are kept as well
+constexpr double no_worse = 1e-3;         // radians, by which the angle of a join may grow while others get smooth
 
 /// Per patch 1 where it is worse than it may be: too far from the part, folded, or with a greater angle at one of its sides.
 std::vector<char> spoilt(const PatchesJudgement& before, const Certificate& proved, const PatchesJudgement& after,
@@ -70,7 +70,7 @@ PatchesJudgement smooth_fit(PatchesFit& fit, const PatchesJudge& judge, PatchesJ
         }
         // A place of the part beside a patch that is kept already is nearest to a neighbour that moved.
         const int before = count(options.kept);
-        if (round >= patient_rounds)
+        if (round >= rounds_before_widening)
             bad = with_neighbours(bad, fit.patches);
         for (int pass = 0; pass < 2 && count(options.kept) == before; ++pass, bad = with_neighbours(bad, fit.patches))
             for (size_t p = 0; p < bad.size(); ++p)

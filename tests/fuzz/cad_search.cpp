@@ -69,9 +69,9 @@ bool is_answered(const fs::path& file)
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     const auto start = Clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    const Progress patience([&](double, std::string_view) { *stop = seconds() > enough; }, stop);
+    const Progress time_limit([&](double, std::string_view) { *stop = seconds() > enough; }, stop);
     try {
-        read_cad(file, {}, {}, {}, patience);
+        read_cad(file, {}, {}, {}, time_limit);
     } catch (const InputError&) {
     } catch (const Cancelled&) {
         if (seconds() > 2 * enough)

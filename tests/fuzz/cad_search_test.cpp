@@ -51,13 +51,13 @@ TEST_P(Cad, WhatOnceBrokeItIsAnsweredAtOnce)
             SCOPED_TRACE(entry.path());
             const auto stop = std::make_shared<std::atomic<bool>>(false);
             const auto start = std::chrono::steady_clock::now();
-            const Progress patience(
+            const Progress time_limit(
                 [&](double, std::string_view) {
                     *stop = std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
                 },
                 stop);
             try {
-                for (const Eigen::Vector3d& place : read_cad(entry.path(), {}, {}, {}, patience).soup.position)
+                for (const Eigen::Vector3d& place : read_cad(entry.path(), {}, {}, {}, time_limit).soup.position)
                     ASSERT_TRUE(place.allFinite());
             } catch (const InputError& error) { // in words, not by the end of the process that reads it
                 for (const char* bad : {"crashed", "ended from outside", "given up after"})

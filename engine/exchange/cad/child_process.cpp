@@ -119,9 +119,9 @@ private:
 };
 
 /// How long a child has not computed, counted by our own looks: while this process stood still too, there were none.
-class Patience {
+class Watchdog {
 public:
-    Patience(const Child& child, std::chrono::milliseconds between_looks, std::chrono::milliseconds most)
+    Watchdog(const Child& child, std::chrono::milliseconds between_looks, std::chrono::milliseconds most)
         : child_(child), step_(between_looks), most_(most)
     {
     }
@@ -159,7 +159,7 @@ std::optional<std::pair<Kind, std::string>> next_message(std::string& arrived)
 std::string result_of(Child& child, const ChildLog& log, const Progress& progress, const ChildLimits& limits)
 {
     constexpr std::chrono::milliseconds between_looks{100}; // at whether the job is still wanted
-    Patience patience(child, between_looks, limits.idle);
+    Watchdog watchdog(child, between_looks, limits.idle);
     double fraction = 0;
     std::string step = "reading the file", arrived, buffer(size_t(1) << 20, '\0');
     progress.checkpoint(fraction, step);
@@ -167,7 +167,7 @@ std::string result_of(Child& child, const ChildLog& log, const Progress& progres
         pollfd waiting{child.pipe(), POLLIN, 0};
         const int ready = ::poll(&waiting, 1, int(between_looks.count()));
         if (ready == 0)
-            patience.look();
+            watchdog.look();
         if (ready > 0) {
             const ssize_t got = ::read(child.pipe(), buffer.data(), buffer.size());
             if (got == 0)

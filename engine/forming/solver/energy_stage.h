@@ -42,7 +42,7 @@ struct EnergyOptions {
 };
 
 /// Minimises E(X) = sum over triangles of A h W(eps(X)) with the thickness h of each triangle held as it was before forming, by projected
-/// Newton steps with the steadied stiffness of energy_density(), the first one majorising. W grows without bound as a triangle collapses and no step
+/// Newton steps with the stabilized stiffness of energy_density(), the first one majorising. W grows without bound as a triangle collapses and no step
 /// may turn one over: from a flip-free start every iterate is flip-free. Springs of held vertices add their energy.
 /// @param matrix work space with the mesh's pattern; @param cholesky its analysis
 EnergyResult minimise_energy(const Eigen::Matrix3Xi& triangle, const std::vector<Element>& element, const Sheet& sheet,

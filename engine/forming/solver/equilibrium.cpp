@@ -70,7 +70,7 @@ public:
         EquilibriumResult result;
         result.position = start;
         Eigen::Matrix2Xd& X = result.position;
-        work_.steady(X);
+        work_.stabilize(X);
         factored_ = false;
         for (int step = 0; step <= options_.most_steps; ++step) {
             work_.set_axes(X);
@@ -91,8 +91,8 @@ public:
                 break;
             // A short step tells that the expected stresses lead astray: begin anew with the ones that are there.
             if (result.steps.size() > 1 && result.steps[result.steps.size() - 2].step_length < short_step)
-                work_.steady(X);
-            if (no_progress(result.steps, size_t(options_.patience)) || !advance(X, R, result.steps, here)) {
+                work_.stabilize(X);
+            if (no_progress(result.steps, size_t(options_.stall_steps)) || !advance(X, R, result.steps, here)) {
                 result.ended = Ended::stalled;
                 return result;
             }
@@ -115,12 +115,12 @@ private:
     }
 
     /// The residual has not halved in a while, or steps have become tiny: most often a triangle is about to turn over.
-    static bool no_progress(const std::vector<NewtonStep>& steps, size_t patience)
+    static bool no_progress(const std::vector<NewtonStep>& steps, size_t stall_steps)
     {
         constexpr size_t few = 6;
         constexpr double tiny = 0.02; // mean step length
         const size_t n = steps.size();
-        if (n > patience && steps.back().residual > 0.5 * steps[n - 1 - patience].residual)
+        if (n > stall_steps && steps.back().residual > 0.5 * steps[n - 1 - stall_steps].residual)
             return true;
         double length = 0;
         for (size_t k = 2; k <= few + 1 && n > few; ++k)
@@ -187,7 +187,7 @@ private:
 
     /// Solves (K + k C C^T) d = -R, the tangent with the three soft springs on the rigid motion, by GMRES. A Cholesky
     /// factor of the tangent's definite neighbour preconditions it, near the solution the one of the step before; where
-    /// that is not enough, a sparse LU takes its place. None: the tangent is singular, or there is no patience for an LU.
+    /// that is not enough, a sparse LU takes its place. None: the tangent is singular, or an LU is not allowed.
     std::optional<Eigen::VectorXd> direction_at(const Eigen::Matrix2Xd& X, const Eigen::VectorXd& R,
                                                 const std::vector<NewtonStep>& steps, const Step& here)
     {
@@ -222,7 +222,7 @@ private:
             if (left * solved.relative_residual <= std::max(tolerance, rough))
                 return old.x + solved.x;
         }
-        if (!options_.patient)
+        if (!options_.allow_lu)
             return std::nullopt;
         preconditioner_ = tangent_;
         preconditioner_.add_to_diagonal(0, spring_);

@@ -9,8 +9,8 @@ struct EquilibriumOptions {
     int most_steps = 60;
     double tolerance = 1e-9; ///< on |R| relative to the nodal forces of a sheet at its yield stress
     StepWatch watch = {};
-    int patience = 10;   ///< steps in which the residual has to halve
-    bool patient = true; ///< not: give up where a sparse LU would be needed, which costs ten steps
+    int stall_steps = 10; ///< steps in which the residual has to halve
+    bool allow_lu = true; ///< not: give up where a sparse LU would be needed, which costs ten steps
 };
 
 struct EquilibriumResult {
@@ -22,7 +22,7 @@ struct EquilibriumResult {
         Eigen::Vector3d::Zero(); ///< of the forces that hold the blank: N, N, N mm about its centre
 };
 
-/// Solves the virtual-work equations by Newton's method with the steadied tangent (expected_stress.h) and a line search on
+/// Solves the virtual-work equations by Newton's method with the stabilized tangent (expected_stress.h) and a line search on
 /// |R| or its natural level. No step turns a triangle over. The mean translation and rotation of the blank are held by three multipliers with area weights instead
 /// of pinned nodes, so no node carries their resultant alone.
 EquilibriumResult solve_equilibrium(const TriMesh& part, const std::vector<Element>& element, VirtualWork& work,

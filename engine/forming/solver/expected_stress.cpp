@@ -33,7 +33,7 @@ Eigen::Vector3d along(const AxisStress& p)
 
 } // namespace
 
-Eigen::Matrix3d steadied_tangent(const AxisStress& p, const Svd2& d, const ElementStress& expected)
+Eigen::Matrix3d stabilized_tangent(const AxisStress& p, const Svd2& d, const ElementStress& expected)
 {
     if (p.slope >= p.secant)
         return p.tangent;

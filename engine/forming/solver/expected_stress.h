@@ -17,7 +17,7 @@ using ElementStress = Eigen::Vector3d;
 /// Tangent of the stress in the principal axes d.V with the direction of an expected stress. Its eigenvalues lie between the
 /// curve's slope and its secant: with no stress expected (zero) it is the secant stiffness, with the stress itself the
 /// tangent. Where the slope exceeds the secant the tangent is convex and is given.
-Eigen::Matrix3d steadied_tangent(const AxisStress& p, const Svd2& d, const ElementStress& expected);
+Eigen::Matrix3d stabilized_tangent(const AxisStress& p, const Svd2& d, const ElementStress& expected);
 
 /// The stress after a change dG of the inverse deformation gradient, as the linearised law expects it.
 /// @param p, d     the state before

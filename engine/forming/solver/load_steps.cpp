@@ -13,23 +13,24 @@ namespace {
 /// The forces from none on in steps, each from the blank of the one before, as far as equilibrium is found.
 /// @param report  of all the forces at once, which had no solution; keeps its steps, and all else if there is none without
 ///                forces either
-std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report,
+std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
                                          const Progress& progress)
 {
-    const ExternalForces whole = job.external;
-    job.external = whole.scaled(0);
+    const ExternalForces whole = context.external;
+    context.external = whole.scaled(0);
     SolveReport share = report;
-    Eigen::Matrix2Xd reached = solve_at_once(job, X, share, progress.part(0, 0.3));
+    Eigen::Matrix2Xd reached = solve_at_once(context, X, share, progress.part(0, 0.3));
     report.energy = share.energy;
     report.newton = share.newton;
     if (share.system == SolvedSystem::energy) {
-        job.external = whole;
+        context.external = whole;
         return std::nullopt;
     }
-    const Sheet sheet = sheet_with(job, Curve::continued);
-    EquilibriumOptions newton{std::min(30, job.options.most_newton_steps), job.options.tolerance, job.options.watch};
-    newton.patient = false;
-    newton.patience = 25;
+    const Sheet sheet = sheet_with(context, Curve::continued);
+    EquilibriumOptions newton{std::min(30, context.options.most_newton_steps), context.options.tolerance,
+                              context.options.watch};
+    newton.allow_lu = false;
+    newton.stall_steps = 25;
     // Until one hundredth of what is reached was too much, however much was asked for.
     constexpr double fine = 0.01, nothing = 1e-5;
     constexpr int most_tries = 60;
@@ -39,14 +40,14 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
         if (step < std::max(fine * share.process_share, nothing))
             break;
         const double wanted = std::min(1., share.process_share + step);
-        job.external = whole.scaled(wanted);
-        VirtualWork work(job.part, job.element, sheet, job.external);
+        context.external = whole.scaled(wanted);
+        VirtualWork work(context.part, context.element, sheet, context.external);
         const Progress part = progress.part(0.3 + 0.7 * tries / most_tries, 0.3 + 0.7 * (tries + 1) / most_tries);
-        EquilibriumResult result =
-            share.system == SolvedSystem::relaxed
-                ? solve_relaxed_equilibrium(job.part, job.element, work, reached, job.matrix, job.cholesky, newton,
-                                            part)
-                : solve_equilibrium(job.part, job.element, work, reached, job.matrix, job.cholesky, newton, part);
+        EquilibriumResult result = share.system == SolvedSystem::relaxed
+                                       ? solve_relaxed_equilibrium(context.part, context.element, work, reached,
+                                                                   context.matrix, context.cholesky, newton, part)
+                                       : solve_equilibrium(context.part, context.element, work, reached, context.matrix,
+                                                           context.cholesky, newton, part);
         report.newton.insert(report.newton.end(), result.steps.begin(), result.steps.end());
         if (result.ended != Ended::converged) {
             step /= 2;
@@ -60,8 +61,8 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
         reached = std::move(result.position);
     }
     if (share.process_share > 0) // solved with this curve, whatever the solution without forces was found with
-        share.trusted_strain = trusted_strain(job, Curve::continued, job.options.material.hardening);
-    job.external = whole.scaled(share.process_share); // what is in the blank, for who goes on from it
+        share.trusted_strain = trusted_strain(context, Curve::continued, context.options.material.hardening);
+    context.external = whole.scaled(share.process_share); // what is in the blank, for who goes on from it
     share.energy = std::move(report.energy);
     share.newton = std::move(report.newton);
     report = std::move(share);
@@ -69,19 +70,19 @@ std::optional<Eigen::Matrix2Xd> in_steps(const Job& job, const Eigen::Matrix2Xd&
 }
 
 /// Says with which curve it was solved, and how much of the forces is in it.
-void tell(const Job& job, const Eigen::Matrix2Xd& blank, SolveReport& report)
+void tell(const SolveContext& context, const Eigen::Matrix2Xd& blank, SolveReport& report)
 {
-    const double asked = job.options.curve.trusted_strain;
-    const SheetFields face = face_fields(job.part, job.element, {blank}, solved_sheet(job, report));
+    const double asked = context.options.curve.trusted_strain;
+    const SheetFields face = face_fields(context.part, context.element, {blank}, solved_sheet(context, report));
     const bool beyond = face.necking.sum() > 0;
     if (report.system == SolvedSystem::strict && beyond && report.trusted_strain < asked)
         report.system = SolvedSystem::continued;
     const std::string obstacle =
-        report.trusted_strain > trusted_strain(job, Curve::continued, job.options.material.hardening)
-            ? fmt::format("the tools pull by up to {:.2g} % of what tears the sheet", 100 * job.pull)
+        report.trusted_strain > trusted_strain(context, Curve::continued, context.options.material.hardening)
+            ? fmt::format("the tools pull by up to {:.2g} % of what tears the sheet", 100 * context.pull)
             : "pulled so hard a sheet that softens would neck";
-    report.reason =
-        converged_in_words(report, beyond ? obstacle : "", beyond ? asked : report.trusted_strain, job.part.vertices());
+    report.reason = converged_in_words(report, beyond ? obstacle : "", beyond ? asked : report.trusted_strain,
+                                       context.part.vertices());
     add_share(report);
 }
 
@@ -99,27 +100,28 @@ void add_share(SolveReport& report)
                                      100 * report.process_share);
 }
 
-Eigen::Matrix2Xd solve(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report, const Progress& progress)
+Eigen::Matrix2Xd solve(const SolveContext& context, const Eigen::Matrix2Xd& X, SolveReport& report,
+                       const Progress& progress)
 {
-    if (!job.external.any()) {
-        Eigen::Matrix2Xd blank = solve_at_once(job, X, report, progress);
-        if (report.system == SolvedSystem::energy && !job.external.held.empty() && !job.anchored)
+    if (!context.external.any()) {
+        Eigen::Matrix2Xd blank = solve_at_once(context, X, report, progress);
+        if (report.system == SolvedSystem::energy && !context.external.held.empty() && !context.anchored)
             report.reason += "; the pilots hold nothing in it";
         return blank;
     }
-    Eigen::Matrix2Xd blank = solve_at_once(job, X, report, progress.part(0, 0.6));
+    Eigen::Matrix2Xd blank = solve_at_once(context, X, report, progress.part(0, 0.6));
     if (report.system == SolvedSystem::energy) {
-        std::optional<Eigen::Matrix2Xd> stepped = in_steps(job, X, report, progress.part(0.6, 1));
+        std::optional<Eigen::Matrix2Xd> stepped = in_steps(context, X, report, progress.part(0.6, 1));
         if (!stepped) {
             report.process_share = 0;
             report.reason += "; the forces of the tools are not in it";
-            if (!job.external.held.empty() && !job.anchored)
+            if (!context.external.held.empty() && !context.anchored)
                 report.reason += ", and the pilots hold nothing";
             return blank;
         }
         blank = std::move(*stepped);
     }
-    tell(job, blank, report);
+    tell(context, blank, report);
     return blank;
 }
 

@@ -103,7 +103,7 @@ EnergyDensity energy_density(const MembraneLaw& law, const Eigen::Matrix2d& G, c
     const double q = log_difference_quotient(s[0] * s[0], s[1] * s[1]);
     Eigen::Matrix<double, 3, 4> strain;
     strain << -1 / s[0], 0, 0, 0, 0, -1 / s[1], 0, 0, 0, 0, -q * s[0], -q * s[1];
-    Eigen::Matrix4d H = strain.transpose() * steadied_tangent(p, d, expected) * strain;
+    Eigen::Matrix4d H = strain.transpose() * stabilized_tangent(p, d, expected) * strain;
     // The rest of the second derivative, stress times the strain's. The mixed directions M_12 - M_21 (twist) and M_12 + M_21
     // (flip) have closed eigenvalues [Smith et al. 2019]; what the shear modulus adds to them above is taken off again.
     const Eigen::Vector2d first = -p.stress.head<2>().cwiseQuotient(s); // d W / d s
@@ -149,7 +149,7 @@ MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Mat
     const Svd2 d = svd(G);
     const Eigen::Vector2d& s = d.s;
     const AxisStress p = law(d.U, -s.array().log().matrix());
-    const Eigen::Matrix3d tangent = expected ? steadied_tangent(p, d, *expected) : p.tangent;
+    const Eigen::Matrix3d tangent = expected ? stabilized_tangent(p, d, *expected) : p.tangent;
     const double h = h0 * s[0] * s[1];
     const double q = log_difference_quotient(s[0] * s[0], s[1] * s[1]);
     Eigen::Matrix<double, 3, 4> strain; // columns: M_11, M_22, M_12, M_21

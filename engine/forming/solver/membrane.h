@@ -41,7 +41,7 @@ inline Eigen::Matrix<double, 2, 3> corners(const Eigen::Matrix2Xd& X, const Eige
 
 /// Energy density of forming (integral of sigma_eq d eps_eq, normal anisotropy) as a function of G: value, first derivative, and
 /// a positive definite stiffness for descent. It is the second derivative but for two things. Negative eigenvalues are
-/// raised to a small positive one; and the tangent of the stress is the steadied one. With no stress expected the stiffness
+/// raised to a small positive one; and the tangent of the stress is the stabilized one. With no stress expected the stiffness
 /// lies above the work everywhere (which is concave in eps_eq^2), so that full steps descend. [Kacanov 1959;
 /// majorise-minimise] G is stored column by column.
 struct EnergyDensity {
@@ -63,7 +63,7 @@ struct MembraneForce {
 /// @pre det G > 0
 Eigen::Matrix2d membrane_force_value(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G);
 /// @param h0       mm, initial thickness
-/// @param expected if given, the derivative has the steadied tangent of the stress in place of the exact one
+/// @param expected if given, the derivative has the stabilized tangent of the stress in place of the exact one
 MembraneForce membrane_force(const MembraneLaw& law, double h0, const Eigen::Matrix2d& G,
                              const ElementStress* expected = nullptr);
 

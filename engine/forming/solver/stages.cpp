@@ -33,22 +33,23 @@ constexpr double first_try = 0.1, rough = 1e-2, near_enough = 1e-3, exact = 1e-6
 
 /// Energy stage, from gentle to full growth of the continued hardening curve: exp(kappa eps) of a start with strains of 5
 /// is no number to begin with.
-EnergyResult energy_stage(const Job& job, Curve curve, Eigen::Matrix2Xd X, double decrement, int most_steps,
-                          SolveReport& report, const Progress& progress)
+EnergyResult energy_stage(const SolveContext& context, Curve curve, Eigen::Matrix2Xd X, double decrement,
+                          int most_steps, SolveReport& report, const Progress& progress)
 {
     std::vector<double> shares{1};
-    if (largest_strain(job.part, job.element, X) > 2)
+    if (largest_strain(context.part, context.element, X) > 2)
         shares = {0.25, 0.5, 1};
     EnergyResult result;
     for (size_t level = 0; level < shares.size(); ++level) {
         EnergyOptions energy;
         energy.most_steps = most_steps;
-        energy.watch = job.options.watch;
-        if (job.anchored)
-            energy.held = job.external.held;
+        energy.watch = context.options.watch;
+        if (context.anchored)
+            energy.held = context.external.held;
         energy.decrement = level + 1 == shares.size() ? decrement : rough;
         result = minimise_energy(
-            job.part.triangle, job.element, sheet_with(job, curve, shares[level]), X, job.matrix, job.cholesky, energy,
+            context.part.triangle, context.element, sheet_with(context, curve, shares[level]), X, context.matrix,
+            context.cholesky, energy,
             progress.part(double(level) / double(shares.size()), double(level + 1) / double(shares.size())));
         X = result.position;
         report.energy.insert(report.energy.end(), result.steps.begin(), result.steps.end());
@@ -65,14 +66,15 @@ void take(EquilibriumResult& equilibrium, SolveReport& report)
 }
 
 /// The equations as they are, from a start X; none: they did not converge.
-std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix2Xd X, const EquilibriumOptions& newton,
-                                                   SolveReport& report, const Progress& progress)
+std::optional<Eigen::Matrix2Xd> strict_equilibrium(const SolveContext& context, Eigen::Matrix2Xd X,
+                                                   const EquilibriumOptions& newton, SolveReport& report,
+                                                   const Progress& progress)
 {
-    place(job, X);
-    const Sheet sheet = sheet_with(job, Curve::given);
-    VirtualWork work(job.part, job.element, sheet, job.external);
+    place(context, X);
+    const Sheet sheet = sheet_with(context, Curve::given);
+    VirtualWork work(context.part, context.element, sheet, context.external);
     EquilibriumResult result =
-        solve_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky, newton, progress);
+        solve_equilibrium(context.part, context.element, work, X, context.matrix, context.cholesky, newton, progress);
     take(result, report);
     if (!report.converged)
         return std::nullopt;
@@ -83,19 +85,19 @@ std::optional<Eigen::Matrix2Xd> strict_equilibrium(const Job& job, Eigen::Matrix
 
 } // namespace
 
-Sheet sheet_with(const Job& job, Curve curve, double growth)
+Sheet sheet_with(const SolveContext& context, Curve curve, double growth)
 {
-    const FlattenOptions& options = job.options;
+    const FlattenOptions& options = context.options;
     const auto from = [&](double strain) {
         StressCurve::Options how = options.curve;
         how.trusted_strain = strain;
         how.continuation_rate *= growth;
-        return sheet_of(options.material, options.thickness, how, options.process, job.part, job.plane);
+        return sheet_of(options.material, options.thickness, how, options.process, context.part, context.plane);
     };
-    Sheet sheet = from(trusted_strain(job, curve, options.material.hardening));
+    Sheet sheet = from(trusted_strain(context, curve, options.material.hardening));
     for (size_t piece = 0; piece < options.process.tailored.size(); ++piece) {
         const Hardening& own = options.process.tailored[piece].material.hardening;
-        sheet.law[piece + 1] = from(trusted_strain(job, curve, own)).law[piece + 1];
+        sheet.law[piece + 1] = from(trusted_strain(context, curve, own)).law[piece + 1];
     }
     return sheet;
 }
@@ -117,26 +119,27 @@ double pull_of(const ExternalForces& external, const TriMesh& part, const Flatte
     return force / (around * lock_force(options.material, options.thickness));
 }
 
-double trusted_strain(const Job& job, Curve curve, const Hardening& grade)
+double trusted_strain(const SolveContext& context, Curve curve, const Hardening& grade)
 {
     constexpr double much = 0.1; // square cup: from a pull of 0.3 on strain would gather in rows
-    const double given = job.options.curve.trusted_strain, uniform = uniform_strain(grade, given);
-    return curve == Curve::continued ? uniform : uniform + (given - uniform) * std::exp(-job.pull / much);
+    const double given = context.options.curve.trusted_strain, uniform = uniform_strain(grade, given);
+    return curve == Curve::continued ? uniform : uniform + (given - uniform) * std::exp(-context.pull / much);
 }
 
-void place(const Job& job, Eigen::Matrix2Xd& X)
+void place(const SolveContext& context, Eigen::Matrix2Xd& X)
 {
-    if (job.anchored)
+    if (context.anchored)
         return;
-    place_under_part(job.part, job.element, job.plane, X);
-    if (!job.external.held.empty())
-        place_on(job.external.held, X);
+    place_under_part(context.part, context.element, context.plane, X);
+    if (!context.external.held.empty())
+        place_on(context.external.held, X);
 }
 
-Sheet solved_sheet(const Job& job, const SolveReport& report)
+Sheet solved_sheet(const SolveContext& context, const SolveReport& report)
 {
-    const bool as_given = report.trusted_strain == trusted_strain(job, Curve::given, job.options.material.hardening);
-    return sheet_with(job, as_given ? Curve::given : Curve::continued);
+    const bool as_given =
+        report.trusted_strain == trusted_strain(context, Curve::given, context.options.material.hardening);
+    return sheet_with(context, as_given ? Curve::given : Curve::continued);
 }
 
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
@@ -173,46 +176,46 @@ EquilibriumOptions newton_of(const FlattenOptions& options)
 EquilibriumOptions quick(EquilibriumOptions newton)
 {
     newton.most_steps = std::min(20, newton.most_steps);
-    newton.patient = false;
+    newton.allow_lu = false;
     return newton;
 }
 
 /// With the curve as asked for, after its own energy stage and with a sparse LU in reserve.
 /// @param obstacle why there is none
-std::optional<Eigen::Matrix2Xd> as_asked_for(const Job& job, const Eigen::Matrix2Xd& X, SolveReport& report,
-                                             std::string& obstacle, const Progress& progress)
+std::optional<Eigen::Matrix2Xd> as_asked_for(const SolveContext& context, const Eigen::Matrix2Xd& X,
+                                             SolveReport& report, std::string& obstacle, const Progress& progress)
 {
     constexpr int few_steps = 40; // more means that strain is gathering in single elements
     const EnergyResult energy =
-        energy_stage(job, Curve::given, X, near_enough, std::min(few_steps, job.options.most_energy_steps), report,
-                     progress.part(0, 0.3));
+        energy_stage(context, Curve::given, X, near_enough, std::min(few_steps, context.options.most_energy_steps),
+                     report, progress.part(0, 0.3));
     obstacle = "the energy stage did not end";
     if (energy.ended != Ended::converged)
         return std::nullopt;
     std::optional<Eigen::Matrix2Xd> solved =
-        strict_equilibrium(job, energy.position, newton_of(job.options), report, progress.part(0.3, 1));
+        strict_equilibrium(context, energy.position, newton_of(context.options), report, progress.part(0.3, 1));
     obstacle = fmt::format("the equations stalled at a residual of {:.1e}", report.residual);
     return solved;
 }
 
 /// With the curve continued from the uniform strain on, equations relaxed where they have to be; at last the blank of the energy
 /// stage.
-Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const std::string& obstacle,
-                           const Progress& progress)
+Eigen::Matrix2Xd continued(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
+                           const std::string& obstacle, const Progress& progress)
 {
-    const FlattenOptions& options = job.options;
-    const Sheet sheet = sheet_with(job, Curve::continued);
-    report.trusted_strain = trusted_strain(job, Curve::continued, options.material.hardening);
-    VirtualWork work(job.part, job.element, sheet, job.external);
+    const FlattenOptions& options = context.options;
+    const Sheet sheet = sheet_with(context, Curve::continued);
+    report.trusted_strain = trusted_strain(context, Curve::continued, options.material.hardening);
+    VirtualWork work(context.part, context.element, sheet, context.external);
     EnergyResult held{std::move(X)};
     double from = 0;
     for (const double decrement : {near_enough, exact}) { // most often the first will do
-        held = energy_stage(job, Curve::continued, std::move(held.position), decrement, options.most_energy_steps,
+        held = energy_stage(context, Curve::continued, std::move(held.position), decrement, options.most_energy_steps,
                             report, progress.part(from, from + 0.12));
-        place(job, held.position);
+        place(context, held.position);
         EquilibriumResult result =
-            solve_relaxed_equilibrium(job.part, job.element, work, held.position, job.matrix, job.cholesky,
-                                      newton_of(options), progress.part(from + 0.12, from + 0.5));
+            solve_relaxed_equilibrium(context.part, context.element, work, held.position, context.matrix,
+                                      context.cholesky, newton_of(options), progress.part(from + 0.12, from + 0.5));
         take(result, report);
         from += 0.5;
         if (!report.converged)
@@ -220,20 +223,20 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
         report.relaxed_vertices = int(std::count(work.relaxed().begin(), work.relaxed().end(), char(1)));
         if (report.relaxed_vertices == 0) { // from here the curve as given may be near
             SolveReport again = report;
-            again.trusted_strain = trusted_strain(job, Curve::given, options.material.hardening);
-            const std::optional<Eigen::Matrix2Xd> solved =
-                strict_equilibrium(job, result.position, quick(newton_of(options)), again, progress.part(from, from));
+            again.trusted_strain = trusted_strain(context, Curve::given, options.material.hardening);
+            const std::optional<Eigen::Matrix2Xd> solved = strict_equilibrium(
+                context, result.position, quick(newton_of(options)), again, progress.part(from, from));
             if (solved && near_each_other(*solved, result.position)) {
                 report = std::move(again);
                 return *solved;
             }
             report.newton = std::move(again.newton);
         }
-        report.converged = report.relaxed_vertices < job.part.vertices(); // else nothing is left of the system
+        report.converged = report.relaxed_vertices < context.part.vertices(); // else nothing is left of the system
         report.system = !report.converged             ? SolvedSystem::energy
                         : report.relaxed_vertices > 0 ? SolvedSystem::relaxed
                                                       : SolvedSystem::continued;
-        report.reason = converged_in_words(report, obstacle, options.curve.trusted_strain, job.part.vertices());
+        report.reason = converged_in_words(report, obstacle, options.curve.trusted_strain, context.part.vertices());
         return std::move(result.position);
     }
     report.reason = fmt::format(
@@ -245,28 +248,29 @@ Eigen::Matrix2Xd continued(const Job& job, Eigen::Matrix2Xd X, SolveReport& repo
 
 } // namespace
 
-Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress)
+Eigen::Matrix2Xd solve_at_once(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
+                               const Progress& progress)
 {
-    const FlattenOptions& options = job.options;
-    report.trusted_strain = trusted_strain(job, Curve::given, options.material.hardening);
-    X = energy_stage(job, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
+    const FlattenOptions& options = context.options;
+    report.trusted_strain = trusted_strain(context, Curve::given, options.material.hardening);
+    X = energy_stage(context, Curve::continued, std::move(X), first_try, options.most_energy_steps, report,
                      progress.part(0, 0.2))
             .position;
-    if (job.external.travelling.size() > 0) {
+    if (context.external.travelling.size() > 0) {
         Eigen::Matrix2Xd placed = X;
-        place(job, placed);
-        job.external.stuck = stuck_places(job.part, job.element, job.external, placed);
+        place(context, placed);
+        context.external.stuck = stuck_places(context.part, context.element, context.external, placed);
     }
     if (std::optional<Eigen::Matrix2Xd> solved =
-            strict_equilibrium(job, X, quick(newton_of(options)), report, progress.part(0.2, 0.4)))
+            strict_equilibrium(context, X, quick(newton_of(options)), report, progress.part(0.2, 0.4)))
         return std::move(*solved);
-    X = energy_stage(job, Curve::continued, std::move(X), rough, options.most_energy_steps, report,
+    X = energy_stage(context, Curve::continued, std::move(X), rough, options.most_energy_steps, report,
                      progress.part(0.4, 0.45))
             .position;
     std::string obstacle;
-    if (std::optional<Eigen::Matrix2Xd> solved = as_asked_for(job, X, report, obstacle, progress.part(0.45, 0.6)))
+    if (std::optional<Eigen::Matrix2Xd> solved = as_asked_for(context, X, report, obstacle, progress.part(0.45, 0.6)))
         return std::move(*solved);
-    return continued(job, std::move(X), report, obstacle, progress.part(0.6, 1));
+    return continued(context, std::move(X), report, obstacle, progress.part(0.6, 1));
 }
 
 } // namespace spia

@@ -16,7 +16,7 @@ enum class Curve {
 };
 
 /// What every stage of one solution needs.
-struct Job {
+struct SolveContext {
     const TriMesh& part;
     const std::vector<Element>& element;
     const FlattenOptions& options;
@@ -33,18 +33,18 @@ struct Job {
 double pull_of(const ExternalForces& external, const TriMesh& part, const FlattenOptions& options);
 
 /// @param growth share of the rate at which the curves go on: below 1 they are gentler
-Sheet sheet_with(const Job& job, Curve curve, double growth = 1);
+Sheet sheet_with(const SolveContext& context, Curve curve, double growth = 1);
 
 /// The strain from which on a grade's curve is continued. Pulled hard, a sheet that softens has solutions in which strain gathers in
 /// a few rows of elements, and which one is found depends on the mesh and on the way there. So with the pull the strain goes
 /// from that of the options down to the uniform strain: smoothly, since no force is so small that it should change the curve.
-double trusted_strain(const Job& job, Curve curve, const Hardening& grade);
+double trusted_strain(const SolveContext& context, Curve curve, const Hardening& grade);
 
 /// The blank of the energy stage may lie anywhere: it is put under the part, and with its held vertices near their places.
-void place(const Job& job, Eigen::Matrix2Xd& X);
+void place(const SolveContext& context, Eigen::Matrix2Xd& X);
 
 /// The sheet with the curves that the solution was found with.
-Sheet solved_sheet(const Job& job, const SolveReport& report);
+Sheet solved_sheet(const SolveContext& context, const SolveReport& report);
 
 /// @param obstacle why the law as given was not kept
 std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
@@ -52,6 +52,7 @@ std::string converged_in_words(const SolveReport& report, const std::string& obs
 
 /// From a flip-free start X to the blank, with all forces of the tools at once: energy, then equilibrium; each way tried where
 /// the one before did not get there. SolvedSystem::strict stands for the equations with Curve::given.
-Eigen::Matrix2Xd solve_at_once(const Job& job, Eigen::Matrix2Xd X, SolveReport& report, const Progress& progress);
+Eigen::Matrix2Xd solve_at_once(const SolveContext& context, Eigen::Matrix2Xd X, SolveReport& report,
+                               const Progress& progress);
 
 } // namespace spia

@@ -131,14 +131,14 @@ Eigen::VectorXd VirtualWork::mismatch() const
     return worst;
 }
 
-VirtualWork::Formed VirtualWork::formed(int f, const Eigen::Matrix2Xd& X, bool steadied) const
+VirtualWork::Formed VirtualWork::formed(int f, const Eigen::Matrix2Xd& X, bool stabilized) const
 {
     const Eigen::Matrix2d G = inverse_gradient(element_[size_t(f)], corners(X, part_.triangle.col(f)));
-    const ElementStress* expected = steadied && !expected_.empty() ? &expected_[size_t(f)] : nullptr;
+    const ElementStress* expected = stabilized && !expected_.empty() ? &expected_[size_t(f)] : nullptr;
     return {membrane_force(sheet_.law_of(f), sheet_.thickness[f], G, expected), G.inverse().transpose()};
 }
 
-void VirtualWork::steady(const Eigen::Matrix2Xd& X)
+void VirtualWork::stabilize(const Eigen::Matrix2Xd& X)
 {
     expected_.assign(element_.size(), ElementStress::Zero());
     expect(X, Eigen::Matrix2Xd::Zero(2, X.cols())); // of no step at all: the stress that is there

@@ -38,9 +38,9 @@ public:
     /// Minus internal plus external forces, N: 2 per vertex. Its derivative is nearly positive definite.
     Eigen::VectorXd residual(const Eigen::Matrix2Xd& X) const;
 
-    /// From here on the tangents are steadied (expected_stress.h), the first one being the exact one at X.
-    void steady(const Eigen::Matrix2Xd& X);
-    /// The stresses that a step from X expects go into the next tangents. Without steady() before nothing happens.
+    /// From here on the tangents are stabilized (expected_stress.h), the first one being the exact one at X.
+    void stabilize(const Eigen::Matrix2Xd& X);
+    /// The stresses that a step from X expects go into the next tangents. Without stabilize() before nothing happens.
     void expect(const Eigen::Matrix2Xd& X, const Eigen::Matrix2Xd& step);
 
     /// The derivative of the residual with the axes held, exact but for the steadying.
@@ -62,8 +62,8 @@ private:
         MembraneForce m;           ///< h sigma of the triangle and its derivative
         Eigen::Matrix2d pull_back; ///< F^T
     };
-    /// @param steadied the derivative is, if steady() was called
-    Formed formed(int f, const Eigen::Matrix2Xd& X, bool steadied) const;
+    /// @param stabilized the derivative is, if stabilize() was called
+    Formed formed(int f, const Eigen::Matrix2Xd& X, bool stabilized) const;
     AxisStress stress(int f, const Svd2& d) const { return sheet_.law_of(f)(d.U, -d.s.array().log().matrix()); }
     /// How corner a of face f sees its vertex's equations: M in M (h sigma) g_a.
     Eigen::Matrix2d to_vertex(int f, int a, const Eigen::Matrix2d& pull_back) const;

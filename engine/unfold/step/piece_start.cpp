@@ -114,11 +114,12 @@ Eigen::Matrix2Xd snapped(Eigen::Matrix2Xd X, const std::vector<HeldVertex>& held
     return X;
 }
 
-double largest_strain(const Job& job, const Eigen::Matrix2Xd& X)
+double largest_strain(const SolveContext& context, const Eigen::Matrix2Xd& X)
 {
     double largest = 0;
-    for (int f = 0; f < job.part.triangles(); ++f) {
-        const Eigen::Matrix2d G = inverse_gradient(job.element[size_t(f)], corners(X, job.part.triangle.col(f)));
+    for (int f = 0; f < context.part.triangles(); ++f) {
+        const Eigen::Matrix2d G =
+            inverse_gradient(context.element[size_t(f)], corners(X, context.part.triangle.col(f)));
         largest = std::max(largest, svd(G).s.array().log().abs().maxCoeff());
     }
     return largest;
@@ -139,26 +140,26 @@ int first_flipped(const Eigen::Matrix3Xi& triangle, const Eigen::Matrix2Xd& X)
 }
 
 /// Springs that grow stiffer, until the held vertices can be put where they belong.
-Attempt drawn_to_places(const Job& job, Eigen::Matrix2Xd X, const Progress& progress)
+Attempt drawn_to_places(const SolveContext& context, Eigen::Matrix2Xd X, const Progress& progress)
 {
     constexpr double little = 0.5;   // strain that the last move may add
     constexpr double softest = 1e-3; // of Young's modulus times thickness
     constexpr int rounds = 8, steps = 20;
-    const Sheet sheet = sheet_with(job, Curve::continued, 0.25);
+    const Sheet sheet = sheet_with(context, Curve::continued, 0.25);
     EnergyOptions energy;
     energy.most_steps = steps;
     energy.decrement = 1e-2;
-    energy.held = job.external.held;
+    energy.held = context.external.held;
     energy.spring = softest * sheet.thickness.mean() * sheet.law.front().young();
     for (int round = 0;; ++round) {
-        Eigen::Matrix2Xd there = snapped(X, job.external.held);
-        const bool possible = one_to_one_around_vertices(job.part, there);
-        if (possible && (round == rounds || largest_strain(job, there) <= largest_strain(job, X) + little))
+        Eigen::Matrix2Xd there = snapped(X, context.external.held);
+        const bool possible = one_to_one_around_vertices(context.part, there);
+        if (possible && (round == rounds || largest_strain(context, there) <= largest_strain(context, X) + little))
             return {std::move(there), "", 0};
         if (round == rounds)
             return {std::nullopt, "its triangles would turn over before it lies along the fixed faces",
-                    first_flipped(job.part.triangle, there)};
-        X = minimise_energy(job.part.triangle, job.element, sheet, X, job.matrix, job.cholesky, energy,
+                    first_flipped(context.part.triangle, there)};
+        X = minimise_energy(context.part.triangle, context.element, sheet, X, context.matrix, context.cholesky, energy,
                             progress.part(double(round) / rounds, double(round + 1) / rounds))
                 .position;
         energy.spring *= 10;
@@ -185,7 +186,7 @@ InitialGuess guess(const TriMesh& mesh, int vertices, const Progress& progress)
 } // namespace
 
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                       const FreedPiece& piece, const Job& job,
+                       const FreedPiece& piece, const SolveContext& context,
                        const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
 {
     constexpr double far_off = 0.7; // of the held vertices' spread: turned inside out
@@ -197,11 +198,11 @@ PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const
         if (!choice[k].empty() && !is_sheet(mesh))
             continue;
         InitialGuess start = guess(mesh, piece.mesh.vertices(), mine.part(0, 0.5));
-        const double off = place_on(job.external.held, start.position);
+        const double off = place_on(context.external.held, start.position);
         if (off > far_off && k + 1 < choice.size())
             continue;
         measure(start.position);
-        Attempt attempt = drawn_to_places(job, std::move(start.position), mine.part(0.5, 1));
+        Attempt attempt = drawn_to_places(context, std::move(start.position), mine.part(0.5, 1));
         if (attempt.position)
             return {std::move(*attempt.position), start.method};
         best = std::move(attempt);

@@ -18,11 +18,11 @@ struct PieceStart {
 /// to their places while the work of forming keeps every triangle from turning over.
 /// @param state  3 by #V of the part, mm
 /// @param fixed  faces of the part, ascending
-/// @param job    of the piece; `external.held` says where its held vertices lie
-/// @param measure  called with a place of the piece: takes the lengths of the target there into the elements of the job
+/// @param context    of the piece; `external.held` says where its held vertices lie
+/// @param measure  called with a place of the piece: takes the lengths of the target there into the elements of the context
 /// @throws SolveError if there is none: names the face whose triangle stands in the way
 PieceStart piece_start(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                       const FreedPiece& piece, const Job& job,
+                       const FreedPiece& piece, const SolveContext& context,
                        const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress = {});
 
 } // namespace spia

@@ -163,30 +163,31 @@ void take_lengths(const FreedPiece& piece, const PiecePicture& picture, const Ei
 /// Solves anew with the lengths where the piece has come to lie, until it lies where they were taken.
 /// @param X the solution with other lengths
 /// @param face what it lies on, in words
-Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
+Eigen::Matrix2Xd in_rounds(const SolveContext& context, const std::function<void(const Eigen::Matrix2Xd&)>& measure,
                            Eigen::Matrix2Xd X, std::string_view face, SolveReport& report, const Progress& progress)
 {
     constexpr int most_rounds = 30;
     constexpr double still = 1e-8; // of the piece
     const double size = (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).norm();
-    const Sheet sheet = solved_sheet(job, report);
+    const Sheet sheet = solved_sheet(context, report);
     double way = 0;
     for (int round = 0; round < most_rounds && report.converged; ++round) {
         const Progress mine = progress.part(double(round) / most_rounds, double(round + 1) / most_rounds);
         measure(X);
         Eigen::Matrix2Xd next;
         if (report.relaxed_vertices == 0) {
-            VirtualWork work(job.part, job.element, sheet, job.external);
-            const EquilibriumOptions newton{job.options.most_newton_steps, job.options.tolerance, {}};
-            EquilibriumResult solved =
-                solve_equilibrium(job.part, job.element, work, X, job.matrix, job.cholesky, newton, mine);
+            VirtualWork work(context.part, context.element, sheet, context.external);
+            const EquilibriumOptions newton{context.options.most_newton_steps, context.options.tolerance, {}};
+            EquilibriumResult solved = solve_equilibrium(context.part, context.element, work, X, context.matrix,
+                                                         context.cholesky, newton, mine);
             report.newton.insert(report.newton.end(), solved.steps.begin(), solved.steps.end());
             report.residual = solved.residual;
             report.converged = solved.ended == Ended::converged;
             next = std::move(solved.position);
         } else {
-            const double share = std::exchange(report.process_share, 1); // of the forces: of it the job has all by now
-            next = solve(job, X, report, mine);
+            const double share =
+                std::exchange(report.process_share, 1); // of the forces: of it the context has all by now
+            next = solve(context, X, report, mine);
             report.process_share *= share;
             add_share(report);
         }
@@ -205,7 +206,7 @@ Eigen::Matrix2Xd in_rounds(const Job& job, const std::function<void(const Eigen:
 }
 
 PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const std::vector<int>& fixed,
-                    const FreedPiece& piece, const PiecePicture& picture, const Job& job,
+                    const FreedPiece& piece, const PiecePicture& picture, const SolveContext& context,
                     const std::function<void(const Eigen::Matrix2Xd&)>& measure, const Progress& progress)
 {
     if (picture.ring) {
@@ -213,7 +214,7 @@ PieceStart start_of(const TriMesh& part, const Eigen::Matrix3Xd& state, const st
         if (one_to_one_around_vertices(piece.mesh, X))
             return {std::move(X), StartMethod::harmonic};
     }
-    return piece_start(part, state, fixed, piece, job, measure, progress);
+    return piece_start(part, state, fixed, piece, context, measure, progress);
 }
 
 } // namespace
@@ -257,19 +258,19 @@ SolvedPiece solve_piece(const TriMesh& part, const Eigen::Matrix3Xd& state, cons
     progress.checkpoint(0, "ordering the equations");
     BlockMatrix matrix(piece.mesh.triangle, piece.mesh.vertices());
     Cholesky cholesky(matrix);
-    const Job job{piece.mesh, element,        options,
-                  external,   external.plane, matrix,
-                  cholesky,   true,           pull_of(external, piece.mesh, options)};
+    const SolveContext context{piece.mesh, element,        options,
+                               external,   external.plane, matrix,
+                               cholesky,   true,           pull_of(external, piece.mesh, options)};
     SolvedPiece result;
-    const PieceStart start = start_of(part, state, fixed, piece, picture, job, measure, progress.part(0.03, 0.2));
+    const PieceStart start = start_of(part, state, fixed, piece, picture, context, measure, progress.part(0.03, 0.2));
     result.report.start = start.method;
     measure(start.position);
     Eigen::Matrix2Xd X =
-        solve(job, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
+        solve(context, start.position, result.report, progress.part(0.2, picture.true_lengths() ? 1 : 0.6));
     if (!picture.true_lengths())
-        X = in_rounds(job, measure, std::move(X), name(target), result.report, progress.part(0.6, 1));
+        X = in_rounds(context, measure, std::move(X), name(target), result.report, progress.part(0.6, 1));
 
-    result.face = face_fields(piece.mesh, element, {X}, solved_sheet(job, result.report));
+    result.face = face_fields(piece.mesh, element, {X}, solved_sheet(context, result.report));
     X.colwise() += middle;
     if (const int f = first_flipped(piece, picture, X); f >= 0)
         throw SolveError(

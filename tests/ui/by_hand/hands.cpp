@@ -41,7 +41,7 @@ Hands::Hands(const std::filesystem::path& folder, const std::vector<std::string>
 Json Hands::waited(const std::string& what, const std::function<bool(const Json&)>& fulfilled)
 {
     const auto start = Clock::now();
-    Json now = viewer_.wait(what, fulfilled, patience);
+    Json now = viewer_.wait(what, fulfilled, waiting_limit);
     longest_ = std::max(longest_, std::chrono::duration<double>(Clock::now() - start).count());
     return now;
 }

@@ -11,7 +11,7 @@ namespace spia::viewer {
 /// seconds. Nothing else tells the program what to do.
 class Hands {
 public:
-    static constexpr std::chrono::seconds patience{10};
+    static constexpr std::chrono::seconds waiting_limit{10};
 
     /// @param arguments  what the program is started with; none from a desktop's menu
     explicit Hands(const std::filesystem::path& folder, const std::vector<std::string>& arguments = {});

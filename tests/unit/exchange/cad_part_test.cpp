@@ -533,13 +533,13 @@ TEST(CadPart, DamagedFilesAreRefusedOrReadButNeverCrash)
             // What takes long is stopped: a damaged number can ask for millions of triangles.
             const auto stop = std::make_shared<std::atomic<bool>>(false);
             const auto start = std::chrono::steady_clock::now();
-            const Progress patience(
+            const Progress time_limit(
                 [&](double, std::string_view) {
                     *stop = std::chrono::steady_clock::now() - start > std::chrono::seconds(2);
                 },
                 stop);
             try {
-                examine_part(file, {}, patience);
+                examine_part(file, {}, time_limit);
             } catch (const InputError& error) {
                 EXPECT_EQ(std::string(error.what()).find(file.string() + ": "), 0) << error.what();
                 if (k % 3 == 0 && source.extension() == ".brep") {

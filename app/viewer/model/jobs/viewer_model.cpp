@@ -241,8 +241,8 @@ void ViewerModel::follow_list()
 /// Whether the running job was cancelled and has not come to its next checkpoint for as long as a person waits without wondering.
 bool ViewerModel::waited_long_for_cancel() const
 {
-    constexpr auto patience = std::chrono::milliseconds(500); // half of the second that a cancel may take
-    return cancelled_at_ && std::chrono::steady_clock::now() - *cancelled_at_ > patience;
+    constexpr auto waiting_limit = std::chrono::milliseconds(500); // half of the second that a cancel may take
+    return cancelled_at_ && std::chrono::steady_clock::now() - *cancelled_at_ > waiting_limit;
 }
 
 /// Lets the running chain end by itself. @returns the stages that it has finished
