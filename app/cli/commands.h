@@ -162,7 +162,7 @@ double sheet_thickness(const std::optional<double>& asked, const PartFile& part)
 /// @throws InputError if a K factor and a skin other than the middle surface are asked for
 void require_one_surface(const std::string& k_factor, const std::string& skin);
 /// Where it is from; empty if that needs no word.
-std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part);
+std::string describe_thickness(const std::optional<double>& asked, const PartFile& part);
 
 /// Where the materials and sample parts lie: SPIA_ASSETS, or the folder the program was built from.
 std::filesystem::path assets();

@@ -58,7 +58,7 @@ int compare(const CompareArguments& arguments)
         say("{}: {} triangles, {} vertices\n", arguments.part.string(), part.mesh.triangles(), part.mesh.vertices());
     for (const std::string& line : reading_notes(part))
         say("{}{}\n", arguments.markdown ? "- " : "  ", line);
-    if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
+    if (const std::string text = describe_thickness(arguments.thickness, part); !text.empty())
         say("{}note: {}\n", arguments.markdown ? "- " : "  ", text);
     say("\n");
     say("{}", comparison_table(rows, arguments.markdown ? TableStyle::markdown : TableStyle::text));

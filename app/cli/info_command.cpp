@@ -19,7 +19,7 @@ void print_parts(const DeckOrigin& deck)
 {
     for (const DeckPart& part : deck.parts)
         if (part.elements + part.broken > 0)
-            say("part            {}\n", in_words(part));
+            say("part            {}\n", describe(part));
     constexpr size_t most = 20;
     for (size_t k = 0; k < std::min(most, deck.sets.size()); ++k)
         say("element set     {}\n", deck.sets[k]);
@@ -31,7 +31,7 @@ void print_parts(const DeckOrigin& deck)
 void print_items(const CadTree& tree)
 {
     for (size_t i = 0; i < tree.item.size(); ++i)
-        say("{:<15} {}\n", i == 0 ? "holds" : "", in_words(tree, int(i)));
+        say("{:<15} {}\n", i == 0 ? "holds" : "", describe(tree, int(i)));
 }
 
 void print_solid(const SolidOrigin& solid)

@@ -149,7 +149,7 @@ void add_weld(CLI::App* command, std::optional<double>& gap)
 }
 
 /// The words of the command line. The number behind --weld may be left out, which CLI11 would take the next word for.
-std::vector<std::string> words_of(int count, char** values)
+std::vector<std::string> arguments_of(int count, char** values)
 {
     std::vector<std::string> words;
     for (int i = 1; i < count; ++i) {
@@ -549,7 +549,7 @@ int main(int count, char** values)
             return failed(bad_input, word.empty() ? fmt::format("the word after '{}' is empty", values[i - 1])
                                                   : fmt::format("nothing stands behind '{}'", word));
     try {
-        std::vector<std::string> words = words_of(count, values);
+        std::vector<std::string> words = arguments_of(count, values);
         std::reverse(words.begin(), words.end()); // as CLI11 wants them
         app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {

@@ -44,7 +44,7 @@ void print_fits(const std::vector<LawFit>& fits, const LawFit& taken)
     say("{:<16} {:>8}  {}\n", "law", "rms MPa", "fit");
     for (const LawFit& fit : fits) {
         if (fit.law)
-            say("{:<16} {:>8.3f}  {}{}\n", fit.name, fit.rms_MPa, in_words(*fit.law),
+            say("{:<16} {:>8.3f}  {}{}\n", fit.name, fit.rms_MPa, describe(*fit.law),
                 &fit == &taken ? "   <- taken" : "");
         else
             say("{:<16} {:>8}  none: {}\n", fit.name, "-", fit.reason);

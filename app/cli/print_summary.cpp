@@ -50,7 +50,7 @@ void print_limits(const LimitsResult& limits, const PartFile& part)
 
 void print_bends(const BendTable& table)
 {
-    for (const std::string& line : in_words(table))
+    for (const std::string& line : describe(table))
         say("{}{}\n", line.substr(0, 6) == "note: " ? "  " : "bends     ", line);
 }
 
@@ -61,7 +61,7 @@ void print_summary(const Session& session)
     const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
     say("part      {} triangles, {} boundary loops, {:.6g} mm2\n", part.triangles(), boundary_loops(part).size(),
         area(part));
-    for (const std::string& line : in_words(applied_process(session)))
+    for (const std::string& line : describe(applied_process(session)))
         say("process   {}\n", line);
     if (flat.report.process_share < 1)
         say("process   of these forces {:.2g} % are in the blank\n", 100 * flat.report.process_share);
@@ -80,7 +80,7 @@ void print_summary(const Session& session)
         100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
         flat.face.strain_equivalent.maxCoeff());
     if (session.corner_cut)
-        say("corners   {}\n", in_words(*session.corner_cut));
+        say("corners   {}\n", describe(*session.corner_cut));
     if (flat.skins)
         say("skins     major strain up to {:.3f} outside, {:.3f} inside\n", flat.skins->outer.strain_major.maxCoeff(),
             flat.skins->inner.strain_major.maxCoeff());

@@ -214,7 +214,7 @@ int run(const RunArguments& arguments)
         if (stage == Stage::read) {
             for (const std::string& line : reading_notes(*session.part))
                 say("  {}\n", line);
-            if (const std::string text = thickness_in_words(arguments.thickness, *session.part); !text.empty())
+            if (const std::string text = describe_thickness(arguments.thickness, *session.part); !text.empty())
                 say("  note: {}\n", text);
             require_possible(session);
             require_place(session, arguments.folder, arguments.formats, arguments.json, wanted);

@@ -28,7 +28,7 @@ void require_one_surface(const std::string& k_factor, const std::string& skin)
                         skin));
 }
 
-std::string thickness_in_words(const std::optional<double>& asked, const PartFile& part)
+std::string describe_thickness(const std::optional<double>& asked, const PartFile& part)
 {
     const char* from = part.solid ? "as the part is" : "as in the deck";
     if (asked && part.thickness_mm && *asked != *part.thickness_mm)

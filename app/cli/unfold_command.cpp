@@ -268,7 +268,7 @@ std::vector<std::filesystem::path> keep_states(const UnfoldArguments& arguments,
 }
 
 /// What a run that a step broke off leaves; empty: nothing.
-std::string kept_in_words(const UnfoldArguments& arguments, const UnfoldRun& run)
+std::string describe_kept(const UnfoldArguments& arguments, const UnfoldRun& run)
 {
     return states_are_written(arguments, run)
                ? fmt::format("; the states of the {} steps before it are kept: --redo auto goes on from there",
@@ -395,7 +395,7 @@ int unfold(const UnfoldArguments& arguments)
         say("  {}\n", line);
     require_surface_place(arguments, part);
     options.thickness = sheet_thickness(arguments.thickness, part);
-    if (const std::string text = thickness_in_words(arguments.thickness, part); !text.empty())
+    if (const std::string text = describe_thickness(arguments.thickness, part); !text.empty())
         say("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
     print_map(map);
@@ -460,7 +460,7 @@ int unfold(const UnfoldArguments& arguments)
         say("WARNING   {}\n", text);
     if (!run.failure.empty())
         throw SolveError(fmt::format("step {} \"{}\": {}{}", run.states.size() + 1, steps[run.states.size()].name,
-                                     run.failure, kept_in_words(arguments, run)));
+                                     run.failure, describe_kept(arguments, run)));
     if (!arguments.surface.empty() && !surface)
         throw SolveError("there is no surface, for the steps gave no blank");
     if (surface && surface->error)

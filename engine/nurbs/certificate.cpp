@@ -352,7 +352,7 @@ Certificate certify(const MultiPatch& patches, const Progress& progress)
     return result;
 }
 
-std::string in_words(const Refusal& refusal)
+std::string describe(const Refusal& refusal)
 {
     const char* what = refusal.why == Refusal::Why::folded     ? "folds"
                        : refusal.why == Refusal::Why::vanishes ? "has no normal"

@@ -71,6 +71,6 @@ struct Certificate {
 Certificate certify(const MultiPatch& patches, const Progress& progress = {});
 
 /// In words, e.g. "folds at u = 0.31, v = 0.5 (12.1, 40, 3.2 mm)".
-std::string in_words(const Refusal& refusal);
+std::string describe(const Refusal& refusal);
 
 } // namespace spia

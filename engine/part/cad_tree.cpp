@@ -113,7 +113,7 @@ std::vector<int> chosen_faces(const CadTree& tree, std::span<const std::string> 
     return faces;
 }
 
-std::string in_words(const CadTree& tree, int item)
+std::string describe(const CadTree& tree, int item)
 {
     const CadItem& each = tree.item[size_t(item)];
     int depth = 0;
@@ -128,7 +128,7 @@ std::string item_list(const CadTree& tree)
     constexpr size_t most = 40;
     std::string text;
     for (size_t i = 0; i < std::min(most, tree.item.size()); ++i)
-        text += (i > 0 ? "\n  " : "  ") + in_words(tree, int(i));
+        text += (i > 0 ? "\n  " : "  ") + describe(tree, int(i));
     if (tree.item.size() > most)
         text += fmt::format("\n  and {} more (`spia info` lists them all)", tree.item.size() - most);
     return text;

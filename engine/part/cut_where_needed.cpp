@@ -73,7 +73,7 @@ void report_seam(const CutPart& cut, const TriMesh& uncut, PartFile& part)
 }
 
 /// "90 degrees at 4 corners"
-std::string words_of(const CornerSeam& seam)
+std::string describe(const CornerSeam& seam)
 {
     return fmt::format("up to {:.3g} degrees at {}", seam.defect * 180 / std::numbers::pi,
                        counted(int(seam.corner.size()), "corner", "corners"));
@@ -92,7 +92,7 @@ void cut_where_needed(PartFile& part, SeamOptions seam, const PolygonSoup& file)
         seam = {};
         if (corners) {
             seam = {SeamOptions::Mode::given, corners->path};
-            unrolls = fmt::format(" it unrolls without strain now, where it lacked {}", words_of(*corners));
+            unrolls = fmt::format(" it unrolls without strain now, where it lacked {}", describe(*corners));
         } else
             part.doubts.push_back(part.notes.emplace_back("there are no corners to be cut: it unrolls as it is, or is "
                                                           "curved elsewhere too"));
@@ -139,7 +139,7 @@ void note_corners(PartFile& part, const SeamOptions& seam)
     }
     part.doctor.add(
         Fault::closed_corner, Severity::note, where,
-        fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", words_of(*corners)),
+        fmt::format("the sheet is only bent, but joined where it lacks {}, which strains it", describe(*corners)),
         fmt::format("cut along {:.4g} mm from there to the border it unrolls without strain (--seam corners)",
                     corners->length));
     part.doctor.findings.back().place = std::move(place);

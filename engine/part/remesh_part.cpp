@@ -106,7 +106,7 @@ void remesh_part(PartFile& part, const RemeshOptions& options, const Progress& p
         number_anew(part);
     std::erase_if(part.doctor.findings,
                   [](const Finding& finding) { return finding.fault == Fault::sliver; }); // of others
-    part.notes.push_back(in_words(remeshed));
+    part.notes.push_back(describe(remeshed));
     constexpr double sliver = std::numbers::pi / 180; // as the doctor has it
     int slivers = 0;
     for (int f = 0; f < part.mesh.triangles(); ++f)
@@ -163,7 +163,7 @@ std::vector<char> faces_called(const PartFile& part, std::span<const int> number
     return chosen;
 }
 
-std::string in_words(const Remeshed& remeshed)
+std::string describe(const Remeshed& remeshed)
 {
     constexpr double degrees = 180 / std::numbers::pi;
     return fmt::format(

@@ -42,6 +42,6 @@ bool has_face(const PartFile& part, int number);
 std::vector<char> faces_called(const PartFile& part, std::span<const int> numbers);
 
 /// "remeshed from 1270 to 31161 triangles: ..."
-std::string in_words(const Remeshed& remeshed);
+std::string describe(const Remeshed& remeshed);
 
 } // namespace spia

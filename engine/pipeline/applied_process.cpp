@@ -80,7 +80,7 @@ AppliedProcess applied_process(const Session& session)
     return out;
 }
 
-std::vector<std::string> in_words(const AppliedProcess& process)
+std::vector<std::string> describe(const AppliedProcess& process)
 {
     std::vector<std::string> lines;
     for (const AppliedContact& each : process.contact)

@@ -55,6 +55,6 @@ struct AppliedProcess {
 AppliedProcess applied_process(const Session& session);
 
 /// A short line for each: "contact binder: 2.5 MPa on 12 faces, friction 0.12 on 2 sides, holds up to 1200 N".
-std::vector<std::string> in_words(const AppliedProcess& process);
+std::vector<std::string> describe(const AppliedProcess& process);
 
 } // namespace spia

@@ -73,7 +73,7 @@ Json bend_table_json(const BendTable& table)
             {"notes", all_notes(table)}};
 }
 
-std::string in_words(const SheetBend& bend)
+std::string describe(const SheetBend& bend)
 {
     if (bend.sharp)
         return fmt::format("sharp, {:.5g} degrees {}, allowance {:.5g} mm, deduction {:.5g} mm", bend.angle * degrees,
@@ -83,12 +83,12 @@ std::string in_words(const SheetBend& bend)
                        bend.deduction, bend.laid ? "" : " (not laid by it)");
 }
 
-std::vector<std::string> in_words(const BendTable& table)
+std::vector<std::string> describe(const BendTable& table)
 {
     constexpr size_t most = 20;
     std::vector<std::string> lines{"lengths are those of the " + table.surface};
     for (size_t b = 0; b < std::min(most, table.bends.size()); ++b)
-        lines.push_back(fmt::format("bend {}: {}", b + 1, in_words(table.bends[b])));
+        lines.push_back(fmt::format("bend {}: {}", b + 1, describe(table.bends[b])));
     if (table.bends.size() > most)
         lines.push_back(fmt::format("and {} more bends", table.bends.size() - most));
     for (const std::string& note : all_notes(table))

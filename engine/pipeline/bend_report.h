@@ -19,9 +19,9 @@ std::vector<std::string> all_notes(const BendTable& table);
 std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& table, bool k_is_given);
 
 /// A line each: what the lengths of the blank are lengths of, the bends (the first of many), the notes.
-std::vector<std::string> in_words(const BendTable& table);
+std::vector<std::string> describe(const BendTable& table);
 
 /// "R 3 mm, 90 degrees up, K 0.44, allowance 6.095 mm, deduction 3.905 mm"
-std::string in_words(const SheetBend& bend);
+std::string describe(const SheetBend& bend);
 
 } // namespace spia

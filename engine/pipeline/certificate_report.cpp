@@ -34,7 +34,7 @@ Json patch_json(const PatchCertificate& c)
         json["aspect_max"] = nullptr;
     if (c.refusal) {
         json["refused"] = place_json(c.refusal->place);
-        json["refused"]["why"] = in_words(*c.refusal);
+        json["refused"]["why"] = describe(*c.refusal);
     }
     return json;
 }
@@ -66,7 +66,7 @@ std::optional<std::string> unsuited(const Certificate& certificate)
         return "the patches leak: " + certificate.leak;
     for (size_t p = 0; p < certificate.patch.size(); ++p)
         if (const auto& refusal = certificate.patch[p].refusal)
-            return (certificate.patch.size() == 1 ? "it " : fmt::format("patch {} ", p + 1)) + in_words(*refusal);
+            return (certificate.patch.size() == 1 ? "it " : fmt::format("patch {} ", p + 1)) + describe(*refusal);
     return std::nullopt;
 }
 

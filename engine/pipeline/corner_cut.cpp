@@ -76,7 +76,7 @@ std::shared_ptr<const CornerCut> corner_cut(const PartFile& part, const FlattenR
     return result;
 }
 
-std::string in_words(const CornerCut& cut)
+std::string describe(const CornerCut& cut)
 {
     const auto words = [](const StrainFigures& strain) {
         return fmt::format("up to {:.3f} (mean {:.3f})", strain.most, strain.mean);

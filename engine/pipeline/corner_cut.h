@@ -30,6 +30,6 @@ std::shared_ptr<const CornerCut> corner_cut(const PartFile& part, const FlattenR
                                             const FlattenOptions& options, const Progress& progress = {});
 
 /// "with the corners cut the equivalent strain is up to 0.000 (mean 0.000); joined it is up to 0.819 (mean 0.121)"
-std::string in_words(const CornerCut& cut);
+std::string describe(const CornerCut& cut);
 
 } // namespace spia

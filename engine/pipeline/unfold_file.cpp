@@ -292,7 +292,7 @@ std::vector<std::string> read_friction(const Json& json, const Place& place, con
 }
 
 /// What a pick names, as it names it: "region 4, lip" or "3 faces".
-std::string in_words(const Json& pick)
+std::string describe(const Json& pick)
 {
     std::vector<std::string> words;
     if (pick.contains("regions"))
@@ -309,15 +309,15 @@ std::string in_words(const Json& pick)
 }
 
 /// What a step without a name is called: what it does. @param json with the members of its kind
-std::string step_in_words(const Json& json, UnfoldKind kind)
+std::string describe_step(const Json& json, UnfoldKind kind)
 {
     switch (kind) {
     case UnfoldKind::flatten: return "flatten the whole part";
-    case UnfoldKind::unroll: return "unroll from " + in_words(json["carrying"]);
+    case UnfoldKind::unroll: return "unroll from " + describe(json["carrying"]);
     case UnfoldKind::lay: break;
     }
-    return fmt::format("{} onto {}", in_words(json["freed"]),
-                       in_words(json.contains("carrying") ? json["carrying"] : json["fixed"]));
+    return fmt::format("{} onto {}", describe(json["freed"]),
+                       describe(json.contains("carrying") ? json["carrying"] : json["fixed"]));
 }
 
 UnfoldKind kind_in(const Json& json, const Place& place)
@@ -355,7 +355,7 @@ std::string read_step(const Json& json, const Place& place, const PartFile& part
         place.member("carrying").fail("has no meaning: nothing stays when the whole part is flattened");
     step.name = text_in(json, place, "name", {});
     if (step.name.empty())
-        step.name = step_in_words(json, step.kind);
+        step.name = describe_step(json, step.kind);
     if (lays) {
         step.pick.freed = freed->faces;
         step.pick.fixed = fixed->faces;

@@ -412,8 +412,8 @@ void EvolvingMesh::shorten(const Eigen::VectorXd& share, double least, double gr
         queue.emplace(size, v.idx());
     };
     std::fill(open_.begin(), open_.end(), 0);
-    for (size_t i = 0; i < vertex_told_.size(); ++i)
-        if (const Vertex v(vertex_told_[i]); share[Eigen::Index(i)] < 1)
+    for (size_t i = 0; i < snapshot_vertex_.size(); ++i)
+        if (const Vertex v(snapshot_vertex_[i]); share[Eigen::Index(i)] < 1)
             lower(v, std::max(share[Eigen::Index(i)] * size(v), least));
     while (!queue.empty()) {
         const auto [here, i] = queue.top();
@@ -436,35 +436,35 @@ void EvolvingMesh::shorten(const Eigen::VectorXd& share, double least, double gr
 EvolvingMesh::Finished EvolvingMesh::finished()
 {
     constexpr int none = -1;
-    vertex_told_.clear();
+    snapshot_vertex_.clear();
     std::vector<int> number(mesh_.n_vertices(), none);
     for (int i = 0; i < int(mesh_.n_vertices()); ++i)
         if (const Vertex v(i); !mesh_.status(v).deleted() && !mesh_.is_isolated(v)) { // isolated: of thin faces
-            number[size_t(i)] = int(vertex_told_.size());
-            vertex_told_.push_back(i);
+            number[size_t(i)] = int(snapshot_vertex_.size());
+            snapshot_vertex_.push_back(i);
         }
     Finished result;
-    result.mesh.position.resize(3, Eigen::Index(vertex_told_.size()));
-    for (size_t i = 0; i < vertex_told_.size(); ++i)
-        result.mesh.position.col(Eigen::Index(i)) = at(Vertex(vertex_told_[i]));
+    result.mesh.position.resize(3, Eigen::Index(snapshot_vertex_.size()));
+    for (size_t i = 0; i < snapshot_vertex_.size(); ++i)
+        result.mesh.position.col(Eigen::Index(i)) = at(Vertex(snapshot_vertex_[i]));
     result.mesh.triangle.resize(3, Eigen::Index(mesh_.n_faces()));
-    face_told_.resize(mesh_.n_faces(), none);
+    snapshot_face_.resize(mesh_.n_faces(), none);
     for (int i = 0; i < int(mesh_.n_faces()); ++i) {
         const Face f(i);
-        int& told = face_told_[size_t(i)];
+        int& number_before = snapshot_face_[size_t(i)];
         if (mesh_.status(f).deleted()) {
-            told = none;
+            number_before = none;
             continue;
         }
         const Eigen::Index next = Eigen::Index(result.was.size());
-        result.was.push_back(changed(f) > told_ ? none : told);
+        result.was.push_back(changed(f) > snapshot_tick_ ? none : number_before);
         int k = 0;
         for (const Vertex v : mesh_.fv_range(f))
             result.mesh.triangle(k++, next) = number[size_t(v.idx())];
-        told = int(next);
+        number_before = int(next);
     }
     result.mesh.triangle.conservativeResize(3, Eigen::Index(result.was.size()));
-    told_ = now_;
+    snapshot_tick_ = now_;
     return result;
 }
 

@@ -82,7 +82,7 @@ public:
     bool move(Vertex v, const Vector& place, const Vector& normal, double good_enough);
     /// Those between the pieces of lines that are longer than they were.
     void drop_line_vertices();
-    /// Asks for shorter edges at vertices of the mesh that finished() told last, and around them, growing with the way. Only these, and a few
+    /// Asks for shorter edges at vertices of the mesh that finished() gave last, and around them, growing with the way. Only these, and a few
     /// rings around for triangles to fit in, may be changed then.
     /// @param share   #V of that mesh, of the size that is asked for now: 1 where it stays
     /// @param least   mm, no size becomes smaller
@@ -91,7 +91,7 @@ public:
 
     struct Finished {
         TriMesh mesh;
-        /// Per face its number in the mesh that was told before if neither it nor a neighbour has changed, else -1.
+        /// Per face its number in the mesh that was given before if neither it nor a neighbour has changed, else -1.
         std::vector<int> was;
     };
     Finished finished();
@@ -129,16 +129,16 @@ private:
     const ClosestPointSearch& search_;
     double sagitta_;
     HalfedgeMesh mesh_;
-    std::vector<int> line_edge_;       ///< per edge: 0, or 1 + the line that it is a part of
-    std::vector<char> on_line_, drop_; ///< per vertex
-    std::vector<double> size_;         ///< per vertex, mm
-    std::vector<double> share_;        ///< per vertex, of what the size is there by original_size_
-    std::vector<int> face_;            ///< per vertex: a given face that it is or was on
-    std::vector<Tick> changed_;        ///< per vertex
-    std::vector<char> open_;           ///< per vertex
-    Tick now_ = 0, told_ = -1;         ///< told_: when finished() was asked last
-    std::vector<int> vertex_told_;     ///< per vertex of the mesh told last
-    std::vector<int> face_told_;       ///< per face its number there, -1: none
+    std::vector<int> line_edge_;        ///< per edge: 0, or 1 + the line that it is a part of
+    std::vector<char> on_line_, drop_;  ///< per vertex
+    std::vector<double> size_;          ///< per vertex, mm
+    std::vector<double> share_;         ///< per vertex, of what the size is there by original_size_
+    std::vector<int> face_;             ///< per vertex: a given face that it is or was on
+    std::vector<Tick> changed_;         ///< per vertex
+    std::vector<char> open_;            ///< per vertex
+    Tick now_ = 0, snapshot_tick_ = -1; ///< snapshot_tick_: when finished() was asked last
+    std::vector<int> snapshot_vertex_;  ///< per vertex of the mesh given last
+    std::vector<int> snapshot_face_;    ///< per face its number there, -1: none
 };
 
 inline EvolvingMesh::Vector EvolvingMesh::at(Vertex v) const

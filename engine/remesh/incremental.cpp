@@ -357,7 +357,7 @@ void IncrementalRemesh::refine(const Eigen::VectorXd& share, double least, doubl
     mend(work, progress.part(0.8, 1));
 }
 
-IncrementalRemesh::Told IncrementalRemesh::told()
+IncrementalRemesh::Snapshot IncrementalRemesh::snapshot()
 {
     EvolvingMesh::Finished finished = state_->work.mesh.finished();
     return {std::move(finished.mesh), std::move(finished.was)};
@@ -369,7 +369,7 @@ TriMesh remesh_incrementally(const TriMesh& part, const KeptLines& lines, const 
 {
     IncrementalRemesh remesh(part, lines, size, search, options, progress);
     remesh.run(progress);
-    return remesh.told().mesh;
+    return remesh.snapshot().mesh;
 }
 
 } // namespace spia

@@ -31,18 +31,18 @@ public:
     /// All rounds.
     /// @throws InputError  if more edges would have to be made: names the place where the last one was
     void run(const Progress& progress = {});
-    /// A few rounds around those vertices of the mesh told last where edges have to be shorter; nothing is touched elsewhere.
+    /// A few rounds around those vertices of the mesh given last where edges have to be shorter; nothing is touched elsewhere.
     /// @param share   #V of that mesh, of their length now: 1 where they are good
     /// @param least   mm, of edges
     /// @param growth  of the length per mm of way
     /// @throws InputError  as run() does
     void refine(const Eigen::VectorXd& share, double least, double growth, const Progress& progress = {});
 
-    struct Told {
+    struct Snapshot {
         TriMesh mesh;
-        std::vector<int> was; ///< per face its number in the mesh told before if it is still the same, else -1
+        std::vector<int> was; ///< per face its number in the mesh given before if it is still the same, else -1
     };
-    Told told();
+    Snapshot snapshot();
 
 private:
     struct State;

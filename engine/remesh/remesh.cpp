@@ -108,7 +108,7 @@ struct Fault {
     Eigen::VectorXd share;   ///< #V of the new mesh: of the length of edges there, which may help; empty: none would
 };
 
-std::string place_in_words(const Eigen::Vector3d& p)
+std::string describe_place(const Eigen::Vector3d& p)
 {
     return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x(), p.y(), p.z());
 }
@@ -188,14 +188,14 @@ Fault fault_of(const TriMesh& mesh, const TwoWayDistance& distance, const TriMes
         if (from_part.of_face[f] > tolerance)
             shorten.at(distance.on_mesh().nearest(from_part.place.col(f)).face, f, from_part.of_face[f]);
     if (distance.bound() > tolerance)
-        fault.text = fmt::format(
-            "the remeshed part is {:.3g} mm from the given one at {}, beyond the tolerance of {:.3g} mm",
-            distance.bound(), place_in_words(to_part.seen > from_part.seen ? to_part.where : from_part.where),
-            tolerance);
+        fault.text =
+            fmt::format("the remeshed part is {:.3g} mm from the given one at {}, beyond the tolerance of {:.3g} mm",
+                        distance.bound(),
+                        describe_place(to_part.seen > from_part.seen ? to_part.where : from_part.where), tolerance);
     else if (!over.empty())
-        fault.text = fmt::format(
-            "a face of the remeshed part is turned over at {}",
-            place_in_words(mesh.position(Eigen::all, mesh.triangle.col(over.front())).rowwise().mean()));
+        fault.text =
+            fmt::format("a face of the remeshed part is turned over at {}",
+                        describe_place(mesh.position(Eigen::all, mesh.triangle.col(over.front())).rowwise().mean()));
     return fault;
 }
 
@@ -238,11 +238,11 @@ Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& s
         const auto from = [&](double within) {
             return repair == 0 ? within * all_rounds : all_rounds + (1 - all_rounds) * (repair - 1 + within) / most_repairs;
         };
-        IncrementalRemesh::Told told = remesh.told();
-        result.mesh = std::move(told.mesh);
+        IncrementalRemesh::Snapshot snapshot = remesh.snapshot();
+        result.mesh = std::move(snapshot.mesh);
         if (Fault other = fault_of_type(type, surface_type(result.mesh), size); !other.text.empty())
             return other;
-        distance.measure(result.mesh, told.was, progress.part(from(share_of_making), from(1)));
+        distance.measure(result.mesh, snapshot.was, progress.part(from(share_of_making), from(1)));
         result.distance = distance.bound();
         result.seen = distance.seen();
         Fault fault = fault_of(result.mesh, distance, given.part, size, result.tolerance);

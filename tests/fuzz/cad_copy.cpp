@@ -43,11 +43,11 @@ char* shared_place()
 }
 
 /// Where a fault is, is said.
-[[noreturn]] void end_here(Outcome outcome, const Place& place, const char* fault_in_words = "")
+[[noreturn]] void end_here(Outcome outcome, const Place& place, const char* fault_text = "")
 {
     put_name(place.code, shared_place(), longest_place);
     if (outcome == fault)
-        std::fprintf(stderr, "%s in the reader at %s\n", fault_in_words, shared_place());
+        std::fprintf(stderr, "%s in the reader at %s\n", fault_text, shared_place());
     ::_exit(outcome);
 }
 

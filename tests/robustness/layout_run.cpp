@@ -67,7 +67,7 @@ LayoutRun run_layout(const shapes::OutlineByLot& lot)
         const Certificate certificate = certify(fit.patches);
         for (size_t p = 0; p < certificate.patch.size() && result.fault.empty(); ++p)
             if (const auto& refusal = certificate.patch[p].refusal)
-                result.fault = fmt::format("patch {} {}", p, in_words(*refusal));
+                result.fault = fmt::format("patch {} {}", p, describe(*refusal));
     } catch (const InputError& error) {
         result.fault = error.what();
     }

@@ -26,7 +26,7 @@ int face_of(const TriMesh& part, const SheetBend& bend)
 
 std::string bend_words(const Frame& frame, const SheetBend& bend)
 {
-    std::string words = engine_words(frame, in_words(bend));
+    std::string words = engine_words(frame, describe(bend));
     words += ".\n" + fmt::format("It is {} long; ", length_text(bend.length, frame.lengths()));
     words += bend.sharp ? "two planes meet there without a radius."
                         : fmt::format("its radius is that of the {}.",

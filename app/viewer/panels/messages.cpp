@@ -79,8 +79,8 @@ void add_first_steps(Frame& frame, std::vector<Message>& shown)
     if (text.empty())
         return;
     const double now = ImGui::GetTime();
-    if (ui.first_steps_said != text) {
-        ui.first_steps_said = text;
+    if (ui.first_steps_shown != text) {
+        ui.first_steps_shown = text;
         ui.first_steps_since = now;
     }
     if (frame.state.document.session.surface) {

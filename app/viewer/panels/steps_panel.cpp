@@ -31,9 +31,9 @@ void seam_rows(Frame& frame, const PartFile& part)
     if (const auto& cut = frame.state.document.session.corner_cut) {
         const auto strain = [](const StrainFigures& each) { return fmt::format("up to {:.3f}", each.most); };
         figure(frame, "Strain, corners joined", cut->before ? strain(*cut->before) : "no blank");
-        tooltip(sentence(in_words(*cut)));
+        tooltip(sentence(describe(*cut)));
         figure(frame, "Strain, corners cut", strain(cut->after));
-        tooltip(sentence(in_words(*cut)));
+        tooltip(sentence(describe(*cut)));
     }
     if (frame.state.document.session.options.read.seam.mode == SeamOptions::Mode::automatic)
         return;

@@ -161,7 +161,7 @@ struct Ui {
 
     // the sample part that a start without a file opens
     bool sample = false, sample_exported = false;
-    std::string first_steps_said;
+    std::string first_steps_shown;
     double first_steps_since = 0; ///< seconds of ImGui's clock
 
     std::vector<std::filesystem::path> recent;

@@ -240,7 +240,7 @@ std::vector<Piece> pieces(const CadContent& cad, const PartFile& part)
     return result;
 }
 
-std::string in_words(const Piece& piece)
+std::string describe(const Piece& piece)
 {
     const Eigen::Vector3d size = piece.box.sizes();
     return fmt::format("{} ({}{}, {:.4g} x {:.4g} x {:.4g} mm)", ranges(piece.faces),
@@ -292,7 +292,7 @@ void name_pieces(const CadContent& cad, PartFile& part)
         if (finding.severity == Severity::fatal) {
             std::vector<std::string> choices;
             for (const Piece& piece : std::span(all).first(std::min(most, all.size())))
-                choices.push_back(in_words(piece));
+                choices.push_back(describe(piece));
             // A closed one is no sheet, often a box around the model: nobody wants to keep it.
             finding.advice = fmt::format(
                 "{} the CAD faces of one piece (--part): {}{}",

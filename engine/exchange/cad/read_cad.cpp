@@ -181,7 +181,7 @@ CadContent coarse(CadShape& shape, const Progress& progress)
 }
 
 /// What OpenCASCADE throws, said in our words.
-template <class Work> CadContent in_our_words(const Work& work)
+template <class Work> CadContent with_own_errors(const Work& work)
 {
     try {
         return work();
@@ -208,7 +208,7 @@ template <class Work> CadContent apart(const Work& work, std::chrono::seconds bu
     const OcctSession session; // held here for as long as the child works
     const auto in_it = [&](const Progress& told, const ChildLog& log) {
         session.redirect(log);
-        return packed(in_our_words([&] { return work(told); }));
+        return packed(with_own_errors([&] { return work(told); }));
     };
     const auto log = [](std::string_view text) { spdlog::debug("OpenCASCADE: {}", text); };
     return unpacked(in_child(in_it, log, progress, {busy}));
@@ -239,7 +239,7 @@ CadContent read_cad(const std::filesystem::path& path, const CadOptions& options
 CadContent read_cad_unguarded(const std::filesystem::path& path)
 {
     const OcctSession session;
-    return in_our_words([&] {
+    return with_own_errors([&] {
         CadShape shape = read_cad_shape(path, {});
         return content_of(shape, {}, {}, {});
     });

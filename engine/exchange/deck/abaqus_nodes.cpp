@@ -111,9 +111,9 @@ void AbaqusNodes::close_scope()
 void AbaqusNodes::leave_unread(std::string_view what, std::string_view why)
 {
     constexpr int most = 20;
-    if (told_++ < most)
+    if (reported_++ < most)
         deck_.doubt(fmt::format("line {}: {} is not read: {}", lines_.place().line, what, why));
-    else if (told_ == most + 1)
+    else if (reported_ == most + 1)
         deck_.doubt("and so for more keywords that make nodes");
     card_ = &AbaqusNodes::unread;
 }
@@ -133,7 +133,7 @@ AbaqusNodes::Kind AbaqusNodes::kind_of(std::string_view system) const
 void AbaqusNodes::begin_nodes(const AbaqusKeyword& keyword)
 {
     kind_ = kind_of(keyword["SYSTEM"]);
-    if (kind_ == Kind::spherical && !std::exchange(told_spherical_, true))
+    if (kind_ == Kind::spherical && !std::exchange(reported_spherical_, true))
         deck_.doubt(
             "nodes of *NODE, SYSTEM=S are read with the third coordinate as the angle above the plane of the first "
             "two axes; look at the part");

@@ -103,8 +103,8 @@ private:
     std::optional<Copy> copy_;
     Eigen::Affine3d system_ = Eigen::Affine3d::Identity(); ///< of the nodes that are read
     std::vector<Eigen::Vector3d> system_points_;
-    bool told_spherical_ = false;
-    int told_ = 0;
+    bool reported_spherical_ = false;
+    int reported_ = 0;
     std::int64_t steps_ = 100'000'000; ///< of members looked up: a few seconds
 };
 

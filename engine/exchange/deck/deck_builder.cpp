@@ -258,11 +258,11 @@ void DeckBuilder::drop_absurd_thicknesses()
 {
     constexpr double thickest = 1e5; // in any unit; beyond it a cube or a mean of it is no number any more
     const auto makes_sense = [](double t) { return t == 0 || (t > 0 && t <= thickest); };
-    int told = 0;
+    int reported = 0;
     for (DeckPart& part : deck_.parts) {
         if (!part.thickness || makes_sense(*part.thickness))
             continue;
-        if (told++ < 20)
+        if (reported++ < 20)
             note(fmt::format("part {} {}: its thickness of {:.4g} is invalid and ignored", part.id.value_or(0),
                              part.name, *part.thickness));
         part.thickness.reset();
@@ -288,7 +288,7 @@ void DeckBuilder::thickness_from_elements()
         int shells = 0;
     };
     std::vector<Range> range(deck_.parts.size());
-    int told = 0;
+    int reported = 0;
     for (size_t e = 0; e < shell_.size(); ++e) {
         Range& of_part = range[size_t(shell_[e].part)];
         const double t = thickness_[e] > 0 ? thickness_[e] : at(shell_[e].part).thickness.value_or(0);
@@ -303,11 +303,11 @@ void DeckBuilder::thickness_from_elements()
             part.thickness = low;
         else if (low > 0) { // the sheet that is solved has one; a card of an element goes before that of its section
             part.thickness = sum / shells;
-            if (told++ < 20)
+            if (reported++ < 20)
                 note(fmt::format(
                     "part {} {}: its elements have their own thicknesses, from {:.4g} to {:.4g}; their mean, {:.4g}, is used",
                     part.id.value_or(0), part.name, low, high, *part.thickness));
-        } else if (told++ < 20)
+        } else if (reported++ < 20)
             note(fmt::format(
                 "part {} {}: some of its elements have their own thicknesses, up to {:.4g}, others none; {} is used",
                 part.id.value_or(0), part.name, high, part.thickness ? "that of its section" : "none"));

@@ -118,7 +118,7 @@ std::string title(const DeckPart& part)
     return part.name.empty() ? fmt::format("{}", *part.id) : fmt::format("{} {}", *part.id, part.name);
 }
 
-std::string in_words(const DeckPart& part)
+std::string describe(const DeckPart& part)
 {
     std::string text = fmt::format("{:<28} {:>8} shells", title(part), part.elements + part.broken);
     if (part.thickness)
@@ -138,7 +138,7 @@ std::string part_list(std::span<const DeckPart> parts)
     for (const DeckPart& part : parts) {
         if (part.elements + part.broken == 0 || shown++ >= most)
             continue;
-        text += "  " + in_words(part) + '\n';
+        text += "  " + describe(part) + '\n';
     }
     if (shown > most)
         text += fmt::format("  and {} more (`spia info` lists them all)\n", shown - most);

@@ -27,7 +27,7 @@ DeckChoice choose_parts(const Deck& deck, std::span<const std::string> wanted);
 std::string part_list(std::span<const DeckPart> parts);
 
 /// "3 Hood   240 shells, 1.2 thick, DC04"
-std::string in_words(const DeckPart& part);
+std::string describe(const DeckPart& part);
 
 /// "3 Hood": what a part is called.
 std::string title(const DeckPart& part);

@@ -138,9 +138,9 @@ void DeckLines::include(std::string_view name, bool again)
             }
             return;
         }
-    const size_t told = notes.size();
+    const size_t reported = notes.size();
     note(fmt::format("the included file {} is not there, and what it holds is missing", name.substr(0, 200)));
-    doubts.insert(doubts.end(), notes.begin() + long(told), notes.end());
+    doubts.insert(doubts.end(), notes.begin() + long(reported), notes.end());
 }
 
 void DeckLines::note(std::string text)

@@ -95,7 +95,7 @@ std::string_view law_name(const Hardening& law)
     return std::visit(Name{}, law);
 }
 
-std::string in_words(const Hardening& law)
+std::string describe(const Hardening& law)
 {
     struct Words {
         std::string operator()(const Swift& s) const

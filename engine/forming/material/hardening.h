@@ -44,7 +44,7 @@ using Hardening = std::variant<Swift, Hollomon, Voce, HardeningTable, Ludwik, Ho
 std::string_view law_name(const Hardening& law);
 
 /// A law with its numbers, for people: "Ludwik: 150 MPa + 420 MPa eps^0.45".
-std::string in_words(const Hardening& law);
+std::string describe(const Hardening& law);
 
 /// Flow stress of a law, its slope, and its integral from strain zero.
 struct FlowStress {

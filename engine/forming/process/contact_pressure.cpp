@@ -8,10 +8,10 @@
 namespace spia {
 namespace {
 
-/// @param direction of a face; @param in_words along what it is seen
+/// @param direction of a face; @param name_of_direction along what it is seen
 template <class Direction>
 ContactPressure pressure(const ContactRegion& region, const Eigen::Matrix3Xd& area_vector, const Direction& direction,
-                         const std::string& in_words)
+                         const std::string& name_of_direction)
 {
     double seen = 0, area = 0;
     for (const int f : region.faces) {
@@ -26,7 +26,7 @@ ContactPressure pressure(const ContactRegion& region, const Eigen::Matrix3Xd& ar
     if (!(seen > least_share * area))
         throw InputError(fmt::format("the contact region \"{}\" is seen along {} with {:.2g} % of its area only: "
                                      "a force cannot press there; give a pressure, or another direction",
-                                     region.name, in_words, 100 * seen / area));
+                                     region.name, name_of_direction, 100 * seen / area));
     return {area, *region.force_N / seen};
 }
 

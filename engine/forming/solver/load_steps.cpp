@@ -70,7 +70,7 @@ std::optional<Eigen::Matrix2Xd> in_steps(const SolveContext& context, const Eige
 }
 
 /// Says with which curve it was solved, and how much of the forces is in it.
-void tell(const SolveContext& context, const Eigen::Matrix2Xd& blank, SolveReport& report)
+void describe_result(const SolveContext& context, const Eigen::Matrix2Xd& blank, SolveReport& report)
 {
     const double asked = context.options.curve.trusted_strain;
     const SheetFields face = face_fields(context.part, context.element, {blank}, solved_sheet(context, report));
@@ -81,8 +81,8 @@ void tell(const SolveContext& context, const Eigen::Matrix2Xd& blank, SolveRepor
         report.trusted_strain > trusted_strain(context, Curve::continued, context.options.material.hardening)
             ? fmt::format("the tools pull by up to {:.2g} % of what tears the sheet", 100 * context.pull)
             : "pulled so hard a sheet that softens would neck";
-    report.reason = converged_in_words(report, beyond ? obstacle : "", beyond ? asked : report.trusted_strain,
-                                       context.part.vertices());
+    report.reason = describe_convergence(report, beyond ? obstacle : "", beyond ? asked : report.trusted_strain,
+                                         context.part.vertices());
     add_share(report);
 }
 
@@ -121,7 +121,7 @@ Eigen::Matrix2Xd solve(const SolveContext& context, const Eigen::Matrix2Xd& X, S
         }
         blank = std::move(*stepped);
     }
-    tell(context, blank, report);
+    describe_result(context, blank, report);
     return blank;
 }
 

@@ -142,8 +142,8 @@ Sheet solved_sheet(const SolveContext& context, const SolveReport& report)
     return sheet_with(context, as_given ? Curve::given : Curve::continued);
 }
 
-std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
-                               int vertices)
+std::string describe_convergence(const SolveReport& report, const std::string& obstacle, double wanted_strain,
+                                 int vertices)
 {
     std::string words = report.converged ? "converged" : "the virtual-work system was only solved in its relaxed form";
     if (report.trusted_strain < wanted_strain)
@@ -236,7 +236,7 @@ Eigen::Matrix2Xd continued(const SolveContext& context, Eigen::Matrix2Xd X, Solv
         report.system = !report.converged             ? SolvedSystem::energy
                         : report.relaxed_vertices > 0 ? SolvedSystem::relaxed
                                                       : SolvedSystem::continued;
-        report.reason = converged_in_words(report, obstacle, options.curve.trusted_strain, context.part.vertices());
+        report.reason = describe_convergence(report, obstacle, options.curve.trusted_strain, context.part.vertices());
         return std::move(result.position);
     }
     report.reason = fmt::format(

@@ -47,8 +47,8 @@ void place(const SolveContext& context, Eigen::Matrix2Xd& X);
 Sheet solved_sheet(const SolveContext& context, const SolveReport& report);
 
 /// @param obstacle why the law as given was not kept
-std::string converged_in_words(const SolveReport& report, const std::string& obstacle, double wanted_strain,
-                               int vertices);
+std::string describe_convergence(const SolveReport& report, const std::string& obstacle, double wanted_strain,
+                                 int vertices);
 
 /// From a flip-free start X to the blank, with all forces of the tools at once: energy, then equilibrium; each way tried where
 /// the one before did not get there. SolvedSystem::strict stands for the equations with Curve::given.

@@ -236,13 +236,13 @@ std::string numbers_of(const std::vector<int>& bends)
     return fmt::format("bend{} {}", bends.size() == 1 ? "" : "s", fmt::join(bends, ", "));
 }
 
-std::string kept_in_words(const std::vector<int>& bends, bool of_middle, const std::string& why)
+std::string describe_kept(const std::vector<int>& bends, bool of_middle, const std::string& why)
 {
     return fmt::format("{} {} the lengths of {}: {}", numbers_of(bends), bends.size() == 1 ? "keeps" : "keep",
                        of_middle ? "the middle surface's triangles (K 0.5)" : "the skin's triangles", why);
 }
 
-std::string surface_in_words(const BendTable& table, const SheetLayers& layers)
+std::string describe_surface(const BendTable& table, const SheetLayers& layers)
 {
     if (layers.mesh_at != 0)
         return layers.mesh_at > 0 ? "outer skin" : "inner skin";
@@ -313,13 +313,13 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
         result.laid.corner.push_back(corner);
     }
     for (const auto& [why, bends] : kept)
-        table.kept.push_back(kept_in_words(bends, table.of_middle, why));
+        table.kept.push_back(describe_kept(bends, table.of_middle, why));
     if (layers.k && *layers.k != KFactor{}) {
         if (table.bends.empty())
             table.notes.push_back("no bend over a cylinder was found: the K factor has no effect");
         note_other_bends(part, table.bends, table.notes);
     }
-    table.surface = surface_in_words(table, layers);
+    table.surface = describe_surface(table, layers);
     return result;
 }
 
@@ -342,7 +342,7 @@ void keep_triangles(NeutralFibre& fibre, const std::string& why, const std::stri
         return;
     if (table.of_middle)
         table.surface = "middle surface, K 0.5";
-    table.kept.push_back(kept_in_words(kept, table.of_middle, why));
+    table.kept.push_back(describe_kept(kept, table.of_middle, why));
 }
 
 void place_on_blank(NeutralFibre& fibre, const TriMesh& part, const Blank& blank)

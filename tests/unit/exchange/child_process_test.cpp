@@ -21,13 +21,13 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-void tell_nobody(std::string_view) {}
+void ignore_reports(std::string_view) {}
 
 std::string fault_of(const std::function<std::string(const Progress&, const ChildLog&)>& work,
                      const ChildLimits& limits)
 {
     try {
-        in_child(work, tell_nobody, {}, limits);
+        in_child(work, ignore_reports, {}, limits);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -102,7 +102,7 @@ TEST(ChildProcess, IsGivenUpWhenItComputesTooLongOrNotAtAll)
         }
         return std::string("done");
     };
-    EXPECT_EQ(in_child(pauses, tell_nobody, {}, {.busy = 600s, .idle = 2s}), "done");
+    EXPECT_EQ(in_child(pauses, ignore_reports, {}, {.busy = 600s, .idle = 2s}), "done");
 }
 
 TEST(ChildProcess, DoesNotOutliveItsParent)
@@ -115,7 +115,7 @@ TEST(ChildProcess, DoesNotOutliveItsParent)
             const ssize_t written = ::write(alive[1], "x", 1);
             return ::sleep(20), std::string(size_t(written), ' ');
         };
-        in_child(work, tell_nobody, {});
+        in_child(work, ignore_reports, {});
         ::_exit(0);
     }
     ::close(alive[1]);

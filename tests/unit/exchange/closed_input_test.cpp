@@ -159,7 +159,7 @@ TEST(ClosedInput, SheetIsTakenHoweverThickForItsSize)
                 const PartFile part = examined(known.mesh, {});
                 ++count;
                 if (!part.solid) {
-                    ADD_FAILURE() << "not taken: " << words_of(part);
+                    ADD_FAILURE() << "not taken: " << texts_of(part);
                     continue;
                 }
                 EXPECT_NEAR(part.solid->thickness, known.thickness, known.exact * known.thickness);
@@ -167,7 +167,7 @@ TEST(ClosedInput, SheetIsTakenHoweverThickForItsSize)
                     return text.find("hollow body") != std::string::npos && text.find("--seam") != std::string::npos;
                 });
                 doubted += doubt;
-                EXPECT_FALSE(share <= 0.1 && doubt) << words_of(part);
+                EXPECT_FALSE(share <= 0.1 && doubt) << texts_of(part);
                 EXPECT_TRUE(share < 0.29 || !known.plain || doubt) << "a closed box, too";
                 // Chords of the middle lie nearer to each other than those of the skins, by 1 - cos of half their angle.
                 EXPECT_NEAR((part.solid->outer_area + part.solid->inner_area) / 2, known.middle, 0.04 * known.middle);
@@ -186,7 +186,7 @@ TEST(ClosedInput, HollowBodiesStayWhatTheyAre)
             for (const auto& [name, mesh] : hollow_bodies(around, divisions, seed++)) {
                 SCOPED_TRACE(name);
                 const PartFile part = examined(mesh);
-                EXPECT_FALSE(part.solid) << words_of(part);
+                EXPECT_FALSE(part.solid) << texts_of(part);
                 EXPECT_FALSE(part.seam.empty()) << "it is cut open";
             }
     for (const TriMesh& mesh :
@@ -207,7 +207,7 @@ TEST(ClosedInput, SaysWhatItIsNotSureOf)
     ASSERT_EQ(taller.doubts.size(), 1u);
     EXPECT_NE(taller.doubts[0].find("--skin"), std::string::npos);
     const PartFile asked = examined(tin(34), Skin::outer);
-    ASSERT_TRUE(asked.solid) << words_of(asked);
+    ASSERT_TRUE(asked.solid) << texts_of(asked);
     EXPECT_NEAR(asked.solid->thickness, 34, 1e-9);
     EXPECT_TRUE(asked.doubts.empty());
 }
@@ -242,8 +242,8 @@ TEST(ClosedInput, PlatesWhoseHolesTouchAreSheet)
                 shapes::permuted(shapes::transformed(faces.mesh(), shapes::random_rotation(seed), {1, 2, 3}), seed)
                     .mesh;
             const PartFile part = examined(mesh);
-            ASSERT_TRUE(part.solid) << words_of(part);
-            EXPECT_TRUE(part.doctor.healthy()) << words_of(part);
+            ASSERT_TRUE(part.solid) << texts_of(part);
+            EXPECT_TRUE(part.doctor.healthy()) << texts_of(part);
             EXPECT_NEAR(part.solid->thickness, t, 1e-9);
             EXPECT_NEAR(area(part.mesh), 100 * (columns * rows - 2), 1e-9);
         }
@@ -283,7 +283,7 @@ TEST(ClosedInput, CountersinksAreEdgesOfHolesAndNoSkin)
                     faces.add({above[i], above[next], below[next], below[i]});
                 }
             const PartFile part = examined(faces.mesh());
-            ASSERT_TRUE(part.solid) << words_of(part);
+            ASSERT_TRUE(part.solid) << texts_of(part);
             EXPECT_NEAR(part.solid->thickness, z, 1e-9);
             EXPECT_NEAR(part.solid->least, z, 1e-9) << "nothing thinner is taken for sheet";
             EXPECT_EQ(part.doctor.boundary_loops, 2);
@@ -325,7 +325,7 @@ TEST(ClosedInput, PlatesWithChamfersOnBothSidesHaveTheSizeOfTheirWalls)
                     faces.add({rings[k][i], rings[k][next], rings[k + 1][next], rings[k + 1][i]});
                 }
         const PartFile part = examined(faces.mesh());
-        ASSERT_TRUE(part.solid) << words_of(part);
+        ASSERT_TRUE(part.solid) << texts_of(part);
         EXPECT_EQ(part.doctor.boundary_loops, 2);
         const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
         EXPECT_LT((size - Eigen::Vector3d(80, 50, 0)).norm(), 1e-9) << size.transpose();
@@ -408,12 +408,12 @@ TEST_P(ClosedFile, OfSheetHasItsThicknessAndAHollowBodyHasNone)
         SCOPED_TRACE(t);
         const PartFile part =
             read(shapes::extruded(shapes::sheet_section({flat(22), bend(3, pi / 2), flat(37)}, t, 6), {}, 30));
-        ASSERT_TRUE(part.solid) << words_of(part);
+        ASSERT_TRUE(part.solid) << texts_of(part);
         EXPECT_NEAR(part.solid->thickness, t, 2e-5) << "single precision";
         EXPECT_EQ(part.doctor.boundary_loops, 1) << "one surface of it, not both";
     }
     const PartFile body = read(shapes::extruded({{0, 0}, {30, 0}, {30, 40}, {0, 40}}, {}, 50));
-    EXPECT_FALSE(body.solid) << words_of(body);
+    EXPECT_FALSE(body.solid) << texts_of(body);
     EXPECT_FALSE(body.seam.empty()) << "it is cut open";
 }
 
@@ -440,7 +440,7 @@ TEST(ClosedDeck, OfShellsWithAThicknessIsAHollowBody)
     const PartFile plate = read_part(folder / "plate.inp"), box = read_part(folder / "box.inp");
     ASSERT_TRUE(plate.solid);
     EXPECT_NEAR(plate.solid->thickness, 2, 1e-12);
-    EXPECT_FALSE(box.solid) << words_of(box);
+    EXPECT_FALSE(box.solid) << texts_of(box);
     EXPECT_EQ(box.thickness_mm, 0.7);
     EXPECT_FALSE(box.seam.empty());
 }

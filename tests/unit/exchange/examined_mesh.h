@@ -18,7 +18,7 @@ inline PartFile examined(const TriMesh& mesh, std::optional<Skin> skin = {})
 }
 
 /// All that is said of a part, a line each.
-inline std::string words_of(const PartFile& part)
+inline std::string texts_of(const PartFile& part)
 {
     std::string result;
     for (const std::string& note : part.notes)

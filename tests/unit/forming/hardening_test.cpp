@@ -92,11 +92,11 @@ TEST(FlowStress, WorkAndSlopeAreIntegralAndDerivativeOfEveryLaw)
             continue; // its kinks spoil Simpson's rule; the curve test has it
         for (const double strain : {1e-6, 1e-3, 0.02, 0.3, 1.5}) {
             const FlowStress f = flow_stress(law, strain);
-            EXPECT_NEAR(f.work, area_under(law, strain), 1e-8 * f.work) << in_words(law) << " at " << strain;
+            EXPECT_NEAR(f.work, area_under(law, strain), 1e-8 * f.work) << describe(law) << " at " << strain;
             const double d = 1e-4 * strain;
             const double difference =
                 (flow_stress(law, strain + d).stress - flow_stress(law, strain - d).stress) / (2 * d);
-            EXPECT_NEAR(f.slope, difference, 1e-6 * f.slope) << in_words(law) << " at " << strain;
+            EXPECT_NEAR(f.slope, difference, 1e-6 * f.slope) << describe(law) << " at " << strain;
         }
     }
 }
@@ -110,7 +110,7 @@ TEST(FlowStress, StartsAtTheYieldStressWithAnInfiniteSlopeWhereThePowerIsBelowOn
     EXPECT_DOUBLE_EQ(flow_stress(HockettSherby{140, 420, 4, 1}, 0).slope, 280 * 4);
     EXPECT_TRUE(std::isinf(flow_stress(Hollomon{530, 0.23}, 0).slope));
     for (const Hardening& law : laws)
-        EXPECT_NEAR(flow_stress(law, 0).work, 0, 1e-12) << in_words(law); // MPa; rounding
+        EXPECT_NEAR(flow_stress(law, 0).work, 0, 1e-12) << describe(law); // MPa; rounding
 }
 
 TEST(FlowStress, SpecialCasesOfTheLawsAreOneAnother)
@@ -118,9 +118,9 @@ TEST(FlowStress, SpecialCasesOfTheLawsAreOneAnother)
     for (const double strain : {1e-4, 0.01, 0.2, 0.8}) {
         const auto same = [&](const Hardening& a, const Hardening& b) {
             const FlowStress p = flow_stress(a, strain), q = flow_stress(b, strain);
-            EXPECT_NEAR(p.stress, q.stress, 1e-9 * q.stress) << in_words(a);
-            EXPECT_NEAR(p.slope, q.slope, 1e-9 * q.slope) << in_words(a);
-            EXPECT_NEAR(p.work, q.work, 1e-9 * q.work) << in_words(a);
+            EXPECT_NEAR(p.stress, q.stress, 1e-9 * q.stress) << describe(a);
+            EXPECT_NEAR(p.slope, q.slope, 1e-9 * q.slope) << describe(a);
+            EXPECT_NEAR(p.work, q.work, 1e-9 * q.work) << describe(a);
         };
         same(HockettSherby{130, 290, 12, 1}, Voce{130, 290, 12});
         same(Ludwik{0, 530, 0.23}, Hollomon{530, 0.23});
@@ -137,13 +137,13 @@ TEST(StressCurve, YieldsWhereHookesLineMeetsTheLawHoweverSteepItStarts)
     for (const Hardening& law : laws) {
         const StressCurve curve(law, 206000, {});
         const double y = curve.yield_strain();
-        EXPECT_NEAR(flow_stress(law, y).stress, 206000 * y, 1e-6) << in_words(law);
+        EXPECT_NEAR(flow_stress(law, y).stress, 206000 * y, 1e-6) << describe(law);
         // The rounded knee rises, from the line to the law, and stays finite.
         double before = 0;
         for (double strain = 0.5 * y; strain < 1.6 * y; strain += 0.01 * y) {
             const FlowStress f = curve(strain);
-            EXPECT_GT(f.stress, before) << in_words(law);
-            EXPECT_TRUE(std::isfinite(f.slope) && f.slope >= 0 && f.slope <= 206000 * 1.01) << in_words(law);
+            EXPECT_GT(f.stress, before) << describe(law);
+            EXPECT_TRUE(std::isfinite(f.slope) && f.slope >= 0 && f.slope <= 206000 * 1.01) << describe(law);
             before = f.stress;
         }
     }
@@ -159,7 +159,7 @@ TEST(UniformStrain, IsWhereTheSlopeHasFallenToTheStress)
     EXPECT_NEAR(uniform_strain(Voce{200, 400, 12}, 1), std::log((400 - 200) * (12 + 1) / 400.0) / 12, 1e-12);
     for (const Hardening& law : {laws[4], laws[5], laws[7]}) {
         const FlowStress f = flow_stress(law, uniform_strain(law, 1));
-        EXPECT_NEAR(f.slope, f.stress, 1e-9 * f.stress) << in_words(law);
+        EXPECT_NEAR(f.slope, f.stress, 1e-9 * f.stress) << describe(law);
     }
     EXPECT_EQ(uniform_strain(Hollomon{500, 0.6}, 0.5), 0.5);
     EXPECT_LT(uniform_strain(Voce{300, 310, 1}, 0.5), 1e-12); // never hardens enough

@@ -28,14 +28,14 @@ TEST(MaterialText, ReadsBackAsTheSameGradeForEveryLaw)
                                          SwiftVoce{third, {565, 0.007, 0.26}, {130, 290, 12 * third}}};
     for (const Hardening& law : laws) {
         put(folder / "grade.json", material_text(grade(law)));
-        EXPECT_EQ(read_material(folder / "grade.json"), grade(law)) << in_words(law);
+        EXPECT_EQ(read_material(folder / "grade.json"), grade(law)) << describe(law);
     }
 }
 
 TEST(MaterialText, NamesTheLawAsTheFilesDo)
 {
     EXPECT_THAT(hardening_text(Ludwik{150, 420, 0.45}), testing::HasSubstr("\"law\":\"ludwik\""));
-    EXPECT_THAT(in_words(HockettSherby{140, 420, 4, 0.7}),
+    EXPECT_THAT(describe(HockettSherby{140, 420, 4, 0.7}),
                 testing::HasSubstr("420 MPa - (420 - 140) MPa exp(-4 eps^0.7)"));
 }
 

@@ -186,7 +186,7 @@ TEST(Certificate, RefusesAFoldAndSaysWhere)
     EXPECT_LT(low, 0);
     EXPECT_GT(high, 0);
     EXPECT_LT((c.refusal->place.position - evaluate(s, c.refusal->place.u, c.refusal->place.v).position).norm(), 1e-12);
-    EXPECT_NE(in_words(*c.refusal).find("folds at u = "), std::string::npos);
+    EXPECT_NE(describe(*c.refusal).find("folds at u = "), std::string::npos);
 }
 
 TEST(Certificate, FindsAFoldBetweenTheSamples)
@@ -232,7 +232,7 @@ TEST(Certificate, AgreesWithDenseSamplesOfRandomNets)
             }
         if (c.refusal) {
             ++folded;
-            EXPECT_LT(low, 0.05 * high) << "round " << round << ": " << in_words(*c.refusal);
+            EXPECT_LT(low, 0.05 * high) << "round " << round << ": " << describe(*c.refusal);
         } else {
             ++proved;
             EXPECT_GT(low, 0) << round;

@@ -68,14 +68,14 @@ void expect_same(const TriMesh& plain, const TriMesh& with_marks, int marks, dou
 {
     for (const Skin skin : {Skin::outer, Skin::middle, Skin::inner}) {
         const PartFile expected = examined(plain, skin), found = examined(with_marks, skin);
-        ASSERT_TRUE(expected.solid) << words_of(expected);
-        ASSERT_TRUE(found.solid) << words_of(found);
+        ASSERT_TRUE(expected.solid) << texts_of(expected);
+        ASSERT_TRUE(found.solid) << texts_of(found);
         EXPECT_TRUE(found.doctor.healthy());
         EXPECT_NEAR(found.solid->thickness, expected.solid->thickness, tolerance * thickness);
         EXPECT_NEAR(area(found.mesh), area(expected.mesh), tolerance * area(expected.mesh)) << name(skin);
         EXPECT_EQ(found.doctor.boundary_loops, expected.doctor.boundary_loops);
         const Finding* finding = found.doctor.find(Fault::mark);
-        ASSERT_TRUE(finding) << words_of(found);
+        ASSERT_TRUE(finding) << texts_of(found);
         EXPECT_EQ(finding->severity, Severity::note);
         EXPECT_EQ(finding->count, marks) << finding->text;
         EXPECT_EQ(int(finding->place.size()), marks);
@@ -206,7 +206,7 @@ TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
     for (const int divisions : {0, 2})
         for (const Skin skin : {Skin::outer, Skin::middle, Skin::inner}) {
             const PartFile part = examined(shapes::divided(plate_with_text(0.3), divisions), skin);
-            ASSERT_TRUE(part.solid) << words_of(part);
+            ASSERT_TRUE(part.solid) << texts_of(part);
             std::vector<double> areas;
             for (const Eigen::Matrix3Xd& mark : part.solid->marks) {
                 ASSERT_EQ(mark.col(0), mark.rightCols<1>()) << "closed";
@@ -279,13 +279,13 @@ TEST(Marks, OfAnyOutlineInPlaneSkinAreTakenOut)
             }
         SCOPED_TRACE(fmt::format("{} corners above, {} below, {} mm", tops, feet, depth));
         const PartFile part = examined(faces.mesh());
-        ASSERT_TRUE(part.solid) << words_of(part);
-        EXPECT_TRUE(part.doctor.healthy()) << words_of(part);
+        ASSERT_TRUE(part.solid) << texts_of(part);
+        EXPECT_TRUE(part.doctor.healthy()) << texts_of(part);
         EXPECT_EQ(part.doctor.boundary_loops, 1);
         EXPECT_NEAR(part.solid->thickness, z, 1e-9);
         EXPECT_NEAR(area(part.mesh), 70 * 36, 1e-9);
         const Finding* finding = part.doctor.find(Fault::mark);
-        ASSERT_TRUE(finding) << words_of(part);
+        ASSERT_TRUE(finding) << texts_of(part);
         EXPECT_NE(finding->text.find(fmt::format("{:.4g} mm {}", std::abs(depth), depth > 0 ? "deep" : "high")),
                   std::string::npos)
             << finding->text;
@@ -300,7 +300,7 @@ TEST(Marks, JustTooDeepOnesInAMeshAreRefusedAsInASolid)
     for (const double depth : {0.405, 1., 1.8}) {
         const PartFile part = examined(marked(sheet, solid, box(8, 20, 20, 40), depth));
         EXPECT_FALSE(part.solid);
-        EXPECT_FALSE(part.doctor.healthy()) << "not cut open as a hollow body: " << words_of(part);
+        EXPECT_FALSE(part.doctor.healthy()) << "not cut open as a hollow body: " << texts_of(part);
         EXPECT_TRUE(part.seam.empty());
     }
 }
@@ -341,9 +341,9 @@ TEST(Marks, APocketInAThickPlateIsNoHollowBody)
     for (const double depth : {0.7, 1., 2.}) {
         shapes::write_mesh(folder / "plate.stl", pocketed_plate(100, 60, 3, depth));
         const PartFile part = examine_part(folder / "plate.stl");
-        EXPECT_FALSE(part.doctor.healthy()) << "not cut open as a hollow body: " << words_of(part);
+        EXPECT_FALSE(part.doctor.healthy()) << "not cut open as a hollow body: " << texts_of(part);
         EXPECT_TRUE(part.seam.empty());
-        EXPECT_NE(words_of(part).find(fmt::format("{:.4g} mm off", depth)), std::string::npos) << words_of(part);
+        EXPECT_NE(texts_of(part).find(fmt::format("{:.4g} mm off", depth)), std::string::npos) << texts_of(part);
     }
 }
 
@@ -354,7 +354,7 @@ TEST(Marks, DeeperOnesAreRefusedWithTheirDepth)
     for (const double depth : {0.45, 0.6, -0.5}) {
         const PartFile part = examined(marked(sheet, solid, box(8, 20, 20, 40), depth), Skin::outer);
         EXPECT_FALSE(part.doctor.healthy());
-        const std::string why = words_of(part);
+        const std::string why = texts_of(part);
         EXPECT_NE(why.find(fmt::format("{:.4g} mm off", std::abs(depth))), std::string::npos) << why;
         EXPECT_NE(why.find("0.4 mm"), std::string::npos) << why;
     }
@@ -383,7 +383,7 @@ TEST(SharedCases, ShallowMarksArePassedOver)
         EXPECT_NEAR(area(plain.mesh), (skin == Skin::outer ? 91.0 : 87.85) * 40, 1e-3 * 91 * 40);
         for (const char* file : {"01-mark-0.01.step", "01-mark-0.2.step"}) {
             const PartFile part = read_part(cases / file, options);
-            ASSERT_TRUE(part.solid) << words_of(part);
+            ASSERT_TRUE(part.solid) << texts_of(part);
             EXPECT_NEAR(part.solid->thickness, 4, 4e-6);
             EXPECT_NEAR(area(part.mesh), area(plain.mesh), 1e-6 * area(plain.mesh));
             ASSERT_TRUE(part.doctor.find(Fault::mark));

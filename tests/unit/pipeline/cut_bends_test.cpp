@@ -74,7 +74,7 @@ void expect_as_made(const Session& session, const BentSolid& solid, const Bounds
     }
 }
 
-std::string in_words(const BentSolid& solid)
+std::string describe(const BentSolid& solid)
 {
     std::string text = fmt::format("t {:.4g}, width {:.4g}", solid.thickness, solid.width);
     for (size_t b = 0; b < solid.bend.size(); ++b) {
@@ -92,7 +92,7 @@ class CutBends : public testing::TestWithParam<std::uint64_t> {
 protected:
     void expect_of_step(const BentSolid& solid)
     {
-        SCOPED_TRACE(in_words(solid));
+        SCOPED_TRACE(describe(solid));
         shapes::write_bent_solid(folder_ / "part.step", solid);
         expect(folder_ / "part.step", solid, {1e-4, 1e-3, 1e-3});
     }
@@ -101,7 +101,7 @@ protected:
     {
         shapes::Lots lots(GetParam() + 1000);
         const double chord = degree * lots.between(3, 20);
-        SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", in_words(solid), chord / degree));
+        SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", describe(solid), chord / degree));
         shapes::write_bent_stl(folder_ / "part.stl", solid, chord);
         expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});
     }

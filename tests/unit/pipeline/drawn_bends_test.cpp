@@ -36,7 +36,7 @@ BlankDrawing drawing_of(const Session& session)
                        session.bends.get());
 }
 
-std::string in_words(const std::vector<SheetBend>& bends)
+std::string describe(const std::vector<SheetBend>& bends)
 {
     std::string words;
     for (const SheetBend& bend : bends)
@@ -45,7 +45,7 @@ std::string in_words(const std::vector<SheetBend>& bends)
     return words;
 }
 
-std::string in_words(const BlankDrawing& drawing)
+std::string describe(const BlankDrawing& drawing)
 {
     std::string words;
     for (const DrawnBend& bend : drawing.bends)
@@ -68,7 +68,7 @@ protected:
             ADD_FAILURE() << "a row: R " << bend.inner_radius << ", " << bend.angle / degree << " degrees, "
                           << bend.length << " long" << (bend.sharp ? ", sharp " : " ") << bend.why_not;
         const BlankDrawing drawing = drawing_of(session);
-        EXPECT_TRUE(drawing.bends.empty()) << in_words(drawing);
+        EXPECT_TRUE(drawing.bends.empty()) << describe(drawing);
     }
     void expect_all(CadForm form)
     {
@@ -88,9 +88,9 @@ protected:
                                                std::abs(bend.length - solid.width) < 0.02 * solid.width;
                                     }))
                 << "R " << made.inner_radius << ", " << made.angle / degree << " degrees, " << solid.width
-                << " long; found " << in_words(bends);
+                << " long; found " << describe(bends);
         const BlankDrawing drawing = drawing_of(session);
-        EXPECT_EQ(drawing.bends.size(), solid.bend.size()) << in_words(drawing);
+        EXPECT_EQ(drawing.bends.size(), solid.bend.size()) << describe(drawing);
         for (const DrawnBend& bend : drawing.bends)
             EXPECT_EQ(bend.middle.size(), 1u);
     }

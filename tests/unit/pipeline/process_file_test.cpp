@@ -115,7 +115,7 @@ TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
     session = run_stage(Stage::solve, run_stage(Stage::read, session));
     const auto json = [&] { return nlohmann::json::parse(report_json(session, {}, 0))["process"]; };
     EXPECT_TRUE(json().is_null());
-    EXPECT_TRUE(in_words(applied_process(session)).empty());
+    EXPECT_TRUE(describe(applied_process(session)).empty());
 
     put(folder / "p.json", R"({
       "contact": [{"name": "binder", "box": [[0, 0, -1], [10, 40, 1]], "force_N": 800, "friction": 0.1},
@@ -157,7 +157,7 @@ TEST(ProcessReport, HasTheFiguresOfWhatTheToolsDid)
     EXPECT_EQ(process["tailored"][1]["material"], options.material.name);
     EXPECT_NEAR(process["tailored"][1]["area_mm2"].get<double>(), 1200, 1e-9);
     EXPECT_EQ(process["rolling"], nlohmann::json({0., 1., 0.}));
-    const auto lines = in_words(applied_process(session));
+    const auto lines = describe(applied_process(session));
     EXPECT_EQ(lines.size(), 8u);
     EXPECT_EQ(lines[0], "contact binder: 2 MPa on 8 faces, friction 0.1 on 2 sides, holds up to 160 N");
 

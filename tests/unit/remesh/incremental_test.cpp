@@ -63,14 +63,14 @@ TEST(RemeshIncrementally, RefinesWhereItIsToldAndLeavesAllElseAsItIs)
     for (int trial = 0; trial < 12; ++trial) {
         IncrementalRemesh remesh(dome, lines, sizes, search, {0.1});
         remesh.run();
-        const TriMesh before = remesh.told().mesh;
+        const TriMesh before = remesh.snapshot().mesh;
         Eigen::VectorXd share = Eigen::VectorXd::Ones(before.vertices());
         const std::vector<int> border = boundary_loops(before).at(0);
         const int v = trial % 3 == 0 ? border[random() % border.size()] : int(random() % unsigned(before.vertices()));
         share[v] = 0.4;
         const Eigen::Vector3d place = before.position.col(v);
         remesh.refine(share, 0.1, 0.35);
-        const IncrementalRemesh::Told after = remesh.told();
+        const IncrementalRemesh::Snapshot after = remesh.snapshot();
         EXPECT_LT(edge_length_near(after.mesh, place, 1.5), 0.8 * edge_length_near(before, place, 1.5)) << trial;
         EXPECT_GT(after.mesh.triangles(), before.triangles());
         EXPECT_LT(after.mesh.triangles(), before.triangles() + 200) << "finer at one place only";

@@ -42,21 +42,21 @@ TEST(TwoWayDistance, AfterChangesItIsWhatMeasuringAllAgainGives)
         remesh.run();
         TwoWayDistance distance(part, search, tolerance);
         for (int change = 0; change < 5; ++change) {
-            const IncrementalRemesh::Told told = remesh.told();
-            distance.measure(told.mesh, told.was);
+            const IncrementalRemesh::Snapshot snapshot = remesh.snapshot();
+            distance.measure(snapshot.mesh, snapshot.was);
             TwoWayDistance whole(part, search, tolerance);
-            whole.measure(told.mesh, std::vector<int>(told.was.size(), -1));
+            whole.measure(snapshot.mesh, std::vector<int>(snapshot.was.size(), -1));
             EXPECT_NEAR(distance.seen(), whole.seen(), 0.11 * whole.seen() + 0.1 * tolerance) << name << change;
             EXPECT_NEAR(distance.bound(), whole.bound(), 0.11 * whole.bound() + 0.1 * tolerance) << name << change;
-            expect_bounds_hold(distance.to_part(), told.mesh, search);
+            expect_bounds_hold(distance.to_part(), snapshot.mesh, search);
             expect_bounds_hold(distance.from_part(), part, distance.on_mesh());
-            for (int f = 0; f < told.mesh.triangles(); ++f)
+            for (int f = 0; f < snapshot.mesh.triangles(); ++f)
                 EXPECT_EQ(distance.to_part().nearest[size_t(f)], whole.to_part().nearest[size_t(f)]);
-            const auto same = std::count_if(told.was.begin(), told.was.end(), [](int was) { return was >= 0; });
+            const auto same = std::count_if(snapshot.was.begin(), snapshot.was.end(), [](int was) { return was >= 0; });
             EXPECT_EQ(same > 0, change > 0);
-            Eigen::VectorXd share = Eigen::VectorXd::Ones(told.mesh.vertices());
+            Eigen::VectorXd share = Eigen::VectorXd::Ones(snapshot.mesh.vertices());
             for (int k = 0; k < 3; ++k)
-                share[Eigen::Index(random() % unsigned(told.mesh.vertices()))] = 0.4;
+                share[Eigen::Index(random() % unsigned(snapshot.mesh.vertices()))] = 0.4;
             remesh.refine(share, size / 50, 0.35);
         }
     }

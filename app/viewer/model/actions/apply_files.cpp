@@ -93,7 +93,7 @@ void ViewerModel::Apply::operator()(const DismissMessages&)
 
 void ViewerModel::apply(const Action& action)
 {
-    const int said_before = said_, document_before = state_.history.now();
+    const int posted_before = messages_posted_, document_before = state_.history.now();
     try {
         std::visit(Apply{*this}, action);
     } catch (const std::exception& error) {
@@ -103,7 +103,7 @@ void ViewerModel::apply(const Action& action)
     follow_doubts();
     const Subject subject = state_.history.now() == document_before ? about_refusal(state_) : about_change(state_);
     for (Message& message : state_.messages) // of the action
-        if (message.number > said_before && message.subject.kind == Subject::Kind::none)
+        if (message.number > posted_before && message.subject.kind == Subject::Kind::none)
             message.subject = subject;
     follow_messages();
 }

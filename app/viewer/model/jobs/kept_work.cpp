@@ -10,7 +10,7 @@
 namespace spia::viewer {
 namespace {
 
-std::string in_words(std::filesystem::file_time_type time)
+std::string describe(std::filesystem::file_time_type time)
 {
     const auto saved = std::chrono::file_clock::to_sys(time);
     const auto age = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now() - saved);
@@ -50,7 +50,7 @@ bool KeptWork::look_for_left()
     offer_.reset();
     offered_ = unfinished_session();
     if (offered_)
-        offer_ = {fmt::format("The program ended without saving {}.", name_of(*offered_)), in_words(offered_->time())};
+        offer_ = {fmt::format("The program ended without saving {}.", name_of(*offered_)), describe(offered_->time())};
     return offer_.has_value();
 }
 

@@ -17,7 +17,7 @@ static std::string worst_fault(const PartFile& refused)
 }
 
 /// The new part is not there: the one before stays, with all that was made of it.
-void ViewerModel::say_not_opened(const Opening& opening, const ChainResult& result)
+void ViewerModel::report_not_opened(const Opening& opening, const ChainResult& result)
 {
     const std::string name = opening.document.session.file.filename().string(),
                       open = state_.document.session.file.filename().string();
@@ -75,7 +75,7 @@ bool ViewerModel::take_opening(const ChainResult& result)
     opening_ = false;
     next_.reset(); // was for the new part
     next_in_one_step_ = false;
-    say_not_opened(opening, result);
+    report_not_opened(opening, result);
     return false;
 }
 
@@ -105,7 +105,7 @@ void ViewerModel::replace_document(Opening opening)
     ++documents_;
 }
 
-void ViewerModel::say_failed(const ChainResult& result)
+void ViewerModel::report_failed(const ChainResult& result)
 {
     const bool reading = *result.failed == Stage::read;
     if (reading) {

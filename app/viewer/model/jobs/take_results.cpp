@@ -76,14 +76,14 @@ void ViewerModel::take_result(ChainResult result, const std::string& title)
     else if (result.cancelled)
         say(Severity::hint, fmt::format("{}: cancelled. Finished results are kept.", title), about_refusal(state_));
     else if (result.failed)
-        say_failed(result);
+        report_failed(result);
     else
         for (const std::string& text : shortcomings(document.session))
             if (!of_its_surface(document.session, text))
                 say(Severity::warning, text, about_results(state_));
     const auto& cut = document.session.corner_cut;
     if (cut && !(before.corner_cut && before.part == document.session.part))
-        say(Severity::done, in_words(*cut), about_results(state_));
+        say(Severity::done, describe(*cut), about_results(state_));
     const bool in_one_step = std::exchange(next_in_one_step_, false);
     if (const auto next = std::exchange(next_, std::nullopt); next && !result.cancelled && !result.failed) {
         if (in_one_step)

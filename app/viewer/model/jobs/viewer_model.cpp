@@ -59,7 +59,7 @@ void ViewerModel::say(Severity severity, std::string text, Subject subject)
 void ViewerModel::say(Message message)
 {
     message.text = sentence(in_viewer_words(std::move(message.text)));
-    message.number = ++said_;
+    message.number = ++messages_posted_;
     constexpr size_t most = 50;
     std::erase_if(state_.messages, [&](const Message& before) { // said again, it is the newest once more
         return before.severity == message.severity && before.text == message.text &&

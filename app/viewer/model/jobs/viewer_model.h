@@ -87,7 +87,7 @@ private:
     void take_result(ChainResult result, const std::string& title);
     bool take_opening(const ChainResult& result);
     void forget_waiting(); ///< the file that is read and waits for the user's word
-    void say_not_opened(const Opening& opening, const ChainResult& result);
+    void report_not_opened(const Opening& opening, const ChainResult& result);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
     ChainResult leave_chain();
@@ -98,7 +98,7 @@ private:
                                      const std::shared_ptr<const ClosestPointSearch>& search) const;
     void keep_before(const ChainResult& result, const LaterResults& quads, const LaterResults& surface);
     bool forget_run_without_result(const ChainResult& result, const Session& before);
-    void say_failed(const ChainResult& result);
+    void report_failed(const ChainResult& result);
     void take_export_result();
     void start_steps(std::string title, std::function<StepsOutcome(const Progress&, const StepsSoFar&)> work);
     /// What the chain of a project goes on with when its steps are done.
@@ -114,7 +114,7 @@ private:
     void follow_messages();  ///< those whose subject is no more are gone
     void follow_reference(); ///< makes the differences anew where a result or the reference is another
     void show_step(std::optional<int> step, double position);
-    void say_steps_run(const StepsOutcome& outcome);
+    void report_steps_run(const StepsOutcome& outcome);
     void part_opened();
     void project_opened(const std::shared_ptr<const ClosestPointSearch>& search);
 
@@ -146,7 +146,7 @@ private:
     std::optional<Stage> next_;          ///< run this far when the running job has ended
     bool next_in_one_step_ = false;      ///< and not from the blank of the steps
     double progress_from_ = 0, progress_to_ = 1; ///< of what was asked for, that of the running job
-    int said_ = 0;                       ///< messages so far
+    int messages_posted_ = 0;                    ///< messages so far
     DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
     int openings_ = 0, documents_ = 0;
     std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job

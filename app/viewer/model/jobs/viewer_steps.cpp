@@ -145,7 +145,7 @@ void ViewerModel::take_steps_result()
     else if (!outcome.failure.empty())
         say(Severity::error, sentence(outcome.failure));
     else if (run)
-        say_steps_run(outcome);
+        report_steps_run(outcome);
     if (blank_next && !outcome.cancelled)
         take_blank_of_project(*blank_next);
 }
@@ -164,7 +164,7 @@ void ViewerModel::take_blank_of_project(const BlankNext& next)
     run_to(next.to, "Updating all");
 }
 
-void ViewerModel::say_steps_run(const StepsOutcome& outcome)
+void ViewerModel::report_steps_run(const StepsOutcome& outcome)
 {
     const StepsRun& last = *outcome.run;
     const UnfoldRun& run = last.run;

@@ -14,7 +14,10 @@ std::string_view length_word(LengthUnit unit) { return unit == LengthUnit::inch 
 double shown_length(double mm, LengthUnit unit) { return mm / millimetres(unit); }
 
 /// For texts; fields to type into keep what is typed.
-static double told_length(double mm, LengthUnit unit) { return std::abs(mm) < no_length ? 0 : shown_length(mm, unit); }
+static double displayed_length(double mm, LengthUnit unit)
+{
+    return std::abs(mm) < no_length ? 0 : shown_length(mm, unit);
+}
 
 double kept_length(double shown, LengthUnit unit) { return shown * millimetres(unit); }
 
@@ -41,12 +44,12 @@ int more_decimals(LengthUnit unit) { return unit == LengthUnit::inch ? 2 : 0; }
 
 std::string length_text(double mm, LengthUnit unit, int digits)
 {
-    return fmt::format("{:.{}g} {}", told_length(mm, unit), digits, length_word(unit));
+    return fmt::format("{:.{}g} {}", displayed_length(mm, unit), digits, length_word(unit));
 }
 
 std::string fixed_length(double mm, LengthUnit unit, int decimals, bool sign)
 {
-    const double value = told_length(mm, unit);
+    const double value = displayed_length(mm, unit);
     decimals += more_decimals(unit);
     return sign ? fmt::format("{:+.{}f} {}", value, decimals, length_word(unit))
                 : fmt::format("{:.{}f} {}", value, decimals, length_word(unit));
@@ -57,17 +60,18 @@ std::string thickness_text(double mm, LengthUnit unit)
     if (unit == LengthUnit::mm)
         return length_text(mm, unit, 6);
     constexpr int decimals = 4; // of an inch: gauges of sheet differ by some thousandths
-    return fmt::format("{:.{}f} {}", told_length(mm, unit), decimals, length_word(unit));
+    return fmt::format("{:.{}f} {}", displayed_length(mm, unit), decimals, length_word(unit));
 }
 
 std::string plain_length(double mm, LengthUnit unit)
 {
-    return fmt::format("{} {}", plain_number(told_length(mm, unit)), length_word(unit));
+    return fmt::format("{} {}", plain_number(displayed_length(mm, unit)), length_word(unit));
 }
 
 std::string size_text(double mm, double other_mm, LengthUnit unit)
 {
-    return fmt::format("{:.6g} x {:.6g} {}", told_length(mm, unit), told_length(other_mm, unit), length_word(unit));
+    return fmt::format("{:.6g} x {:.6g} {}", displayed_length(mm, unit), displayed_length(other_mm, unit),
+                       length_word(unit));
 }
 
 std::string in_unit(std::string_view label, LengthUnit unit) { return fmt::format("{}, {}", label, length_word(unit)); }

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace spia::viewer {
 namespace {
 
-std::string words_of(const ManualText& text)
+std::string plain_text(const ManualText& text)
 {
     std::string all;
     for (const ManualSpan& span : text)
@@ -156,10 +156,10 @@ std::string around(const std::string& text, size_t at)
 
 std::string ManualBlock::plain() const
 {
-    std::string all = words_of(text);
+    std::string all = plain_text(text);
     for (const auto& row : rows)
         for (const ManualText& cell : row)
-            all += (all.empty() ? "" : " ") + words_of(cell);
+            all += (all.empty() ? "" : " ") + plain_text(cell);
     return all;
 }
 

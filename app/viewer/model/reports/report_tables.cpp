@@ -104,7 +104,7 @@ std::string equations(const SolveReport& report)
     return "";
 }
 
-std::string repairs_in_words(const DoctorReport& doctor, LengthUnit lengths)
+std::string describe_repairs(const DoctorReport& doctor, LengthUnit lengths)
 {
     std::string text;
     for (const Finding& finding : doctor.findings)
@@ -378,7 +378,7 @@ std::string assumptions(const Session& session, LengthUnit lengths)
     rows +=
         row("Equations", session.options.steps && !session.options.steps->polish ? session.blank->report.reason
                                                                                  : equations(session.blank->report));
-    rows += row("Repairs of the mesh", repairs_in_words(session.part->doctor, lengths));
+    rows += row("Repairs of the mesh", describe_repairs(session.part->doctor, lengths));
     return facts("Assumptions", rows);
 }
 
