@@ -1,4 +1,4 @@
-// Awkward shapes, drawn by lot: each ends with a valid blank or is refused with words that help.
+// Awkward shapes, drawn at random: each ends with a valid blank or is refused with words that help.
 #include <gtest/gtest.h>
 #include <set>
 

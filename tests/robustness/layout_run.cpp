@@ -50,18 +50,18 @@ int inner_curves(const Layout& layout)
 
 } // namespace
 
-LayoutRun run_layout(const shapes::OutlineByLot& lot)
+LayoutRun run_layout(const shapes::RandomOutline& drawn)
 {
     LayoutRun result;
-    const Eigen::Matrix2Xd plane = lot.part.position.topRows(2);
+    const Eigen::Matrix2Xd plane = drawn.part.position.topRows(2);
     PatchesFitOptions options;
     options.tolerance = 1e-3 * (plane.rowwise().maxCoeff() - plane.rowwise().minCoeff()).norm();
     try {
-        const PatchesFit fit = blank_patches(lot.part, Blank{plane}, {}, options);
+        const PatchesFit fit = blank_patches(drawn.part, Blank{plane}, {}, options);
         result.patches = int(fit.patches.patch.size());
         result.split = fit.layout.split;
         result.reached = fit.reached;
-        result.fault = shapes::fault_of_layout(fit.layout, lot.part, Blank{plane});
+        result.fault = shapes::fault_of_layout(fit.layout, drawn.part, Blank{plane});
         if (result.fault.empty())
             result.fault = fault_of_sides(fit.patches, inner_curves(fit.layout));
         const Certificate certificate = certify(fit.patches);

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "engine/layout/fit_patches.h"
-#include "tests/support/outlines_by_lot.h"
+#include "tests/support/random_outlines.h"
 
 namespace spia {
 
@@ -16,6 +16,6 @@ struct LayoutRun {
 /// blank_patches() of a plate with default options, within 1/1000 of its diagonal. Checked without them: as many loops of border as
 /// the plate has, every inner curve of two patches and every outer one of one, areas that add up to the plate's, control points of
 /// shared sides equal to the last bit, every patch proved to have no fold.
-LayoutRun run_layout(const shapes::OutlineByLot& lot);
+LayoutRun run_layout(const shapes::RandomOutline& drawn);
 
 } // namespace spia

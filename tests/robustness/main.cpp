@@ -92,7 +92,7 @@ int unfold_all(int triangles, std::uint64_t seed, const std::string& only, const
     return wrong;
 }
 
-/// A table of grids over outlines and corners drawn by lot, 40 of each kind. @returns how many are not sound, or were refused
+/// A table of grids over outlines and corners drawn at random, 40 of each kind. @returns how many are not sound, or were refused
 int grid_all(const std::string& only, int each)
 {
     fmt::print(
@@ -105,15 +105,15 @@ int grid_all(const std::string& only, int each)
         double slowest = 0;
         std::string names;
         for (int number = 0; number < each; ++number) {
-            const shapes::OutlineByLot lot = shapes::outline_by_lot(kind, number);
+            const shapes::RandomOutline drawn = shapes::random_outline(kind, number);
             const auto clock = std::chrono::steady_clock::now();
-            const shapes::GridByLot made = shapes::grid_by_lot(lot);
+            const shapes::RandomGrid made = shapes::random_grid(drawn);
             slowest =
                 std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count());
             refused += made.refused;
             faulty += !made.fault.empty();
             if (made.refused || !made.fault.empty())
-                names += fmt::format("{}: {}\n", lot.name, made.refused ? "winds too much" : made.fault);
+                names += fmt::format("{}: {}\n", drawn.name, made.refused ? "winds too much" : made.fault);
         }
         fmt::print("| {} | {} | {} | {} | {} | {:.1f} |\n{}", shapes::outline_kind(kind), each, each - refused - faulty,
                    refused, faulty, slowest, names);
@@ -123,16 +123,16 @@ int grid_all(const std::string& only, int each)
     return wrong;
 }
 
-/// A table of patches around the holes of plates drawn by lot. @returns how many have none, or faulty ones
+/// A table of patches around the holes of plates drawn at random. @returns how many have none, or faulty ones
 int layout_all(int plates)
 {
     fmt::print("| plate | patches | divided | within the tolerance | seconds | fault |\n|---|---|---|---|---|---|\n");
     int wrong = 0;
     for (int number = 0; number < plates; ++number) {
-        const shapes::OutlineByLot lot = shapes::outline_by_lot(shapes::outline_kinds - 1, number);
+        const shapes::RandomOutline drawn = shapes::random_outline(shapes::outline_kinds - 1, number);
         const auto clock = std::chrono::steady_clock::now();
-        const LayoutRun run = run_layout(lot);
-        fmt::print("| {} | {} | {} | {} | {:.1f} | {} |\n", lot.name, run.patches, run.split ? "yes" : "",
+        const LayoutRun run = run_layout(drawn);
+        fmt::print("| {} | {} | {} | {} | {:.1f} | {} |\n", drawn.name, run.patches, run.split ? "yes" : "",
                    run.reached ? "yes" : "no",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(), run.fault);
         std::fflush(stdout);

@@ -1,4 +1,4 @@
-// Bent parts, drawn by lot, that no single stroke would make: all unfold without help, without a flip and with no distortion where
+// Bent parts, drawn at random, that no single stroke would make: all unfold without help, without a flip and with no distortion where
 // there need be none.
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Bent, BentFamily, testing::ValuesIn(shapes::bent_family
     return name;
 });
 
-/// Lots whose root is a cylinder around which their sheet goes more than once before it is unrolled.
+/// Seeds whose root is a cylinder around which their sheet goes more than once before it is unrolled.
 TEST(BentFamilyList, LotsThatWindAroundTheirRootUnfoldToo)
 {
     FlattenOptions options;

@@ -16,17 +16,17 @@ struct BentPart {
     bool developable = false;                  ///< there is one, known or not
 };
 
-/// One of many parts that no single stroke would make, its measures drawn by lot.
+/// One of many parts that no single stroke would make, its measures drawn at random.
 struct BentShape {
     std::string family;             ///< e.g. "hem"
     int number;                     ///< within the family, from 0
-    std::function<BentPart()> make; ///< the same mesh at every call, turned by lot
+    std::function<BentPart()> make; ///< the same mesh at every call, turned at random
 
     std::string name() const { return family + " " + std::to_string(number); }
 };
 
 /// At least 30: hems, folded returns, spirals, boxes with lips, Z and hat sections, lipped channels, double flanges with
-/// curved bend lines, hems on curved edges. @param triangles about how many each has @param seed of all lots
+/// curved bend lines, hems on curved edges. @param triangles about how many each has @param seed of all random numbers
 std::vector<BentShape> bent_family(int triangles = 800, std::uint64_t seed = 1);
 
 } // namespace spia::shapes

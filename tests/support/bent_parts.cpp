@@ -99,9 +99,9 @@ TriMesh round_cup(const RoundCup& shape)
 
 TriMesh noisy(TriMesh mesh, double most_mm, unsigned seed)
 {
-    std::mt19937 lots(seed);
+    std::mt19937 random(seed);
     for (double& x : mesh.position.reshaped())
-        x += most_mm * (2 * double(lots()) / double(std::mt19937::max()) - 1);
+        x += most_mm * (2 * double(random()) / double(std::mt19937::max()) - 1);
     return mesh;
 }
 

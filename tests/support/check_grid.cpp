@@ -89,12 +89,12 @@ std::string fault_of(const GridResult& grid, const BlankBoundary& boundary)
     return "";
 }
 
-GridByLot grid_by_lot(const OutlineByLot& lot)
+RandomGrid random_grid(const RandomOutline& drawn)
 {
-    const Blank blank{lot.part.position.topRows(2)};
-    const BlankBoundary boundary = split_boundary(blank, lot.part, lot.corner);
+    const Blank blank{drawn.part.position.topRows(2)};
+    const BlankBoundary boundary = split_boundary(blank, drawn.part, drawn.corner);
     try {
-        return {fault_of(coons_grid(lot.part, blank, boundary), boundary), false};
+        return {fault_of(coons_grid(drawn.part, blank, boundary), boundary), false};
     } catch (const InputError& error) {
         const std::string why = error.what();
         const bool refused = why.find("winds too much for one four-sided patch") != std::string::npos;

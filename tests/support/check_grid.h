@@ -2,7 +2,7 @@
 #include <string>
 
 #include "engine/coons/grid.h"
-#include "tests/support/outlines_by_lot.h"
+#include "tests/support/random_outlines.h"
 
 namespace spia::shapes {
 
@@ -11,12 +11,12 @@ namespace spia::shapes {
 /// outline and in its order.
 std::string fault_of(const GridResult& grid, const BlankBoundary& boundary);
 
-struct GridByLot {
+struct RandomGrid {
     std::string fault; ///< as above; also what was thrown, unless
     bool refused;      ///< the blank was refused as one that winds too much
 };
 
 /// coons_grid() of an outline with default options.
-GridByLot grid_by_lot(const OutlineByLot& lot);
+RandomGrid random_grid(const RandomOutline& drawn);
 
 } // namespace spia::shapes

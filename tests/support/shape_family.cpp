@@ -8,10 +8,10 @@
 
 #include "tests/support/developable.h"
 #include "tests/support/grid_surface.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/revolved.h"
 #include "tests/support/rings.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/square_cup.h"
 
@@ -31,25 +31,25 @@ GridPlan cells(int triangles, double across, double up, bool around = false)
 
 Vector3d polar(double angle, double r, double z) { return {r * std::cos(angle), r * std::sin(angle), z}; }
 
-// Each maker draws its measures from the lots and makes one shape of about n triangles.
+// Each maker draws its measures at random and makes one shape of about n triangles.
 
-TriMesh undercut(Lots& lots, int n)
+TriMesh undercut(SeededRandom& random, int n)
 {
-    return lipped_channel({.top = lots.between(30, 90),
-                           .wall = lots.between(15, 60),
-                           .flange = lots.between(6, 25),
-                           .lip = lots.between(3, 12),
-                           .radius = lots.between(1, 8),
-                           .length = lots.between(40, 200),
+    return lipped_channel({.top = random.between(30, 90),
+                           .wall = random.between(15, 60),
+                           .flange = random.between(6, 25),
+                           .lip = random.between(3, 12),
+                           .radius = random.between(1, 8),
+                           .length = random.between(40, 200),
                            .triangles = n})
         .mesh;
 }
 
 /// A can with a floor and upright or leaning walls, open above.
-TriMesh box_with_walls(Lots& lots, int n)
+TriMesh box_with_walls(SeededRandom& random, int n)
 {
-    const double width = lots.between(40, 120), depth = lots.between(40, 120), height = lots.between(10, 90);
-    const double lean = lots.between(-0.35, 0.25); // of the height: below zero the mouth is narrower than the floor
+    const double width = random.between(40, 120), depth = random.between(40, 120), height = random.between(10, 90);
+    const double lean = random.between(-0.35, 0.25); // of the height: below zero the mouth is narrower than the floor
     const int side = std::max(2, int(std::lround(std::sqrt(n / 2.0 / (1 + 4 * height / width)))));
     const int up = std::max(1, int(std::lround(side * height / width)));
     std::set<Cell> block;
@@ -66,23 +66,23 @@ TriMesh box_with_walls(Lots& lots, int n)
     return mesh;
 }
 
-TriMesh cup_with_flange(Lots& lots, int n)
+TriMesh cup_with_flange(SeededRandom& random, int n)
 {
-    const double corner = lots.between(6, 16);
-    return square_cup({.punch = lots.between(50, 90),
+    const double corner = random.between(6, 16);
+    return square_cup({.punch = random.between(50, 90),
                        .corner_radius = corner,
-                       .punch_radius = lots.between(2, 0.9 * corner),
-                       .die_radius = lots.between(2, 8),
-                       .depth = lots.between(20, 60),
-                       .flange_width = lots.between(5, 30),
+                       .punch_radius = random.between(2, 0.9 * corner),
+                       .die_radius = random.between(2, 8),
+                       .depth = random.between(20, 60),
+                       .flange_width = random.between(5, 30),
                        .triangles = n});
 }
 
 /// A sheet rolled up, neighbouring turns a gap apart.
-TriMesh spiral(Lots& lots, int n)
+TriMesh spiral(SeededRandom& random, int n)
 {
-    const double turns = lots.between(1.2, 4.5), gap = lots.between(2, 10), inner = lots.between(5, 25);
-    const double width = lots.between(30, 120), cone = lots.coin() ? 0 : lots.between(0, 0.5);
+    const double turns = random.between(1.2, 4.5), gap = random.between(2, 10), inner = random.between(5, 25);
+    const double width = random.between(30, 120), cone = random.coin() ? 0 : random.between(0, 0.5);
     const double length = 2 * pi * turns * (inner + gap * turns / 2);
     return grid_surface(cells(n, length, width), [=](double u, double v) {
         const double angle = 2 * pi * turns * u;
@@ -90,21 +90,22 @@ TriMesh spiral(Lots& lots, int n)
     });
 }
 
-TriMesh slit_tube(Lots& lots, int n)
+TriMesh slit_tube(SeededRandom& random, int n)
 {
-    const double radius = lots.between(10, 50), length = lots.between(20, 300),
-                 slit = std::pow(10, lots.between(-4, 0));
-    const double top = radius * lots.between(0.5, 1.5);
+    const double radius = random.between(10, 50), length = random.between(20, 300),
+                 slit = std::pow(10, random.between(-4, 0));
+    const double top = radius * random.between(0.5, 1.5);
     return grid_surface(cells(n, 2 * pi * radius, length), [=](double u, double v) {
         return polar((2 * pi - slit) * u, radius + (top - radius) * v, length * v);
     });
 }
 
-TriMesh tube(Lots& lots, int n)
+TriMesh tube(SeededRandom& random, int n)
 {
-    const double radius = lots.between(10, 50), length = lots.between(0.3, 8) * radius, wave = lots.between(0, 0.2);
-    const double top = radius * lots.between(0.4, 1.6), bend = lots.coin() ? 0 : lots.between(0, 1.2);
-    const int lobes = lots.whole(2, 5);
+    const double radius = random.between(10, 50), length = random.between(0.3, 8) * radius,
+                 wave = random.between(0, 0.2);
+    const double top = radius * random.between(0.4, 1.6), bend = random.coin() ? 0 : random.between(0, 1.2);
+    const int lobes = random.whole(2, 5);
     return grid_surface(cells(n, 2 * pi * radius, length, true), [=](double u, double v) {
         const double angle = 2 * pi * u, r = (radius + (top - radius) * v) * (1 + wave * std::cos(lobes * angle));
         const Vector3d x = polar(angle, r, length * v); // then the axis is bent within the xz plane
@@ -115,11 +116,11 @@ TriMesh tube(Lots& lots, int n)
     });
 }
 
-TriMesh branched_tube(Lots& lots, int n)
+TriMesh branched_tube(SeededRandom& random, int n)
 {
     std::set<Cell> cubes;
-    const int left = lots.whole(2, 5), right = lots.whole(2, 5), up = lots.whole(2, 5);
-    const bool cross = lots.coin();
+    const int left = random.whole(2, 5), right = random.whole(2, 5), up = random.whole(2, 5);
+    const bool cross = random.coin();
     for (int i = -left; i <= right; ++i)
         cubes.insert({i, 0, 0});
     for (int j = cross ? -up : 1; j <= up; ++j)
@@ -131,13 +132,13 @@ TriMesh branched_tube(Lots& lots, int n)
     });
 }
 
-TriMesh handle_body(Lots& lots, int n)
+TriMesh handle_body(SeededRandom& random, int n)
 {
-    if (lots.whole(0, 2) == 0) {
-        const double big = lots.between(30, 80);
-        return torus(big, big * lots.between(0.15, 0.7), n);
+    if (random.whole(0, 2) == 0) {
+        const double big = random.between(30, 80);
+        return torus(big, big * random.between(0.15, 0.7), n);
     }
-    const int a = lots.whole(3, 7), b = lots.whole(3, 5), bars = lots.whole(0, 1);
+    const int a = random.whole(3, 7), b = random.whole(3, 5), bars = random.whole(0, 1);
     std::set<Cell> cubes;
     for (int i = 0; i < a; ++i)
         for (int j = 0; j < b; ++j)
@@ -147,9 +148,9 @@ TriMesh handle_body(Lots& lots, int n)
 }
 
 /// A plate with an arch standing on it, like the handle of a lid.
-TriMesh sheet_with_handle(Lots& lots, int n)
+TriMesh sheet_with_handle(SeededRandom& random, int n)
 {
-    const int a = lots.whole(7, 11), b = lots.whole(3, 7), rise = lots.whole(1, 3), at = lots.whole(2, a - 5);
+    const int a = random.whole(7, 11), b = random.whole(3, 7), rise = random.whole(1, 3), at = random.whole(2, a - 5);
     std::set<Cell> cubes;
     for (int i = 0; i < a; ++i)
         for (int j = 0; j < b; ++j)
@@ -162,20 +163,20 @@ TriMesh sheet_with_handle(Lots& lots, int n)
                         [](const Cell& c, const Eigen::Vector3i& out) { return c[2] == 0 && out[2] <= 0; });
 }
 
-TriMesh closed_body(Lots& lots, int n)
+TriMesh closed_body(SeededRandom& random, int n)
 {
-    if (lots.coin()) {
+    if (random.coin()) {
         TriMesh ellipsoid = closed_sphere(1, n);
         for (int k = 0; k < 3; ++k)
-            ellipsoid.position.row(k) *= lots.between(20, 80);
+            ellipsoid.position.row(k) *= random.between(20, 80);
         return ellipsoid;
     }
     std::set<Cell> cubes;
-    const int a = lots.whole(1, 4), b = lots.whole(1, 3), c = lots.whole(1, 3);
+    const int a = random.whole(1, 4), b = random.whole(1, 3), c = random.whole(1, 3);
     for (int i = 0; i < a; ++i)
         for (int j = 0; j < b; ++j)
             for (int k = 0; k < c; ++k)
-                if (i == 0 || j == 0 || k == 0 || lots.coin()) // its edges stay in one piece
+                if (i == 0 || j == 0 || k == 0 || random.coin()) // its edges stay in one piece
                     cubes.insert({i, j, k});
     if (a * b * c > 3)
         for (int i = 0; i < a; ++i) // no two cubes may touch in an edge only
@@ -187,10 +188,10 @@ TriMesh closed_body(Lots& lots, int n)
 }
 
 /// A bowl with a hundred windows.
-TriMesh hundred_holes(Lots& lots, int n)
+TriMesh hundred_holes(SeededRandom& random, int n)
 {
-    const double size = 300, bulge = lots.between(0, 0.004);
-    const int cells_per_hole = n > 20000 ? 6 : 4, side = 10 * cells_per_hole, bar = lots.whole(1, cells_per_hole - 2);
+    const double size = 300, bulge = random.between(0, 0.004);
+    const int cells_per_hole = n > 20000 ? 6 : 4, side = 10 * cells_per_hole, bar = random.whole(1, cells_per_hole - 2);
     const TriMesh whole = grid_surface({side, side}, [=](double u, double v) {
         const double x = size * (u - 0.5), y = size * (v - 0.5);
         return Vector3d(x, y, bulge * (x * x + 0.4 * y * y));
@@ -206,12 +207,12 @@ TriMesh hundred_holes(Lots& lots, int n)
 }
 
 /// Long thin triangles: one direction is meshed up to fifty times finer than the other.
-TriMesh anisotropic(Lots& lots, int n)
+TriMesh anisotropic(SeededRandom& random, int n)
 {
-    const double aspect = lots.between(15, 50), length = lots.between(80, 200), width = lots.between(60, 150);
-    const double bow = lots.between(0.2, 1.4), ripple = lots.between(0, 4);
+    const double aspect = random.between(15, 50), length = random.between(80, 200), width = random.between(60, 150);
+    const double bow = random.between(0.2, 1.4), ripple = random.between(0, 4);
     const double cell_area = length * width / (n / 2.0);
-    const bool lengthwise = lots.coin();
+    const bool lengthwise = random.coin();
     const double fine = std::sqrt(cell_area / aspect), coarse = fine * aspect;
     const GridPlan plan{std::max(2, int(length / (lengthwise ? coarse : fine))),
                         std::max(2, int(width / (lengthwise ? fine : coarse)))};
@@ -222,14 +223,14 @@ TriMesh anisotropic(Lots& lots, int n)
 }
 
 /// A sheet whose outline is waved in every direction.
-TriMesh waved_outline(Lots& lots, int n)
+TriMesh waved_outline(SeededRandom& random, int n)
 {
     std::array<double, 6> a, phase;
     for (size_t i = 0; i < a.size(); ++i) {
-        a[i] = lots.between(0, 0.12);
-        phase[i] = lots.between(0, 2 * pi);
+        a[i] = random.between(0, 0.12);
+        phase[i] = random.between(0, 2 * pi);
     }
-    const double lift = lots.between(5, 40), saddle = lots.between(0, 0.01);
+    const double lift = random.between(5, 40), saddle = random.between(0, 0.01);
     const int rows = std::max(3, int(std::lround(std::sqrt(n / 12.0))));
     std::vector<Eigen::Matrix3Xd> rings{Eigen::Matrix3Xd::Zero(3, 1)};
     for (int j = 1; j <= rows; ++j) {
@@ -250,10 +251,10 @@ TriMesh waved_outline(Lots& lots, int n)
 }
 
 /// Every twentieth edge is split very near to one of its ends: needles, at one of them caps.
-TriMesh needles(Lots& lots, int n)
+TriMesh needles(SeededRandom& random, int n)
 {
-    const double share = std::pow(10, lots.between(-9, -3));
-    TriMesh mesh = lots.coin() ? dome({.triangles = n}).mesh : hat_channel({.length = 100, .triangles = n}).mesh;
+    const double share = std::pow(10, random.between(-9, -3));
+    TriMesh mesh = random.coin() ? dome({.triangles = n}).mesh : hat_channel({.length = 100, .triangles = n}).mesh;
     std::vector<Vector3d> position;
     for (const auto& x : mesh.position.colwise())
         position.emplace_back(x);
@@ -264,7 +265,7 @@ TriMesh needles(Lots& lots, int n)
     for (size_t f = 0; f < count; f += 20) { // a vertex inside, a share off one corner or off one side
         const Eigen::Vector3i t = faces[f];
         const Vector3d a = position[size_t(t[0])], b = position[size_t(t[1])], c = position[size_t(t[2])];
-        const bool corner = lots.coin();
+        const bool corner = random.coin();
         const Vector3d x = corner ? Vector3d((1 - 2 * share) * a + share * b + share * c)
                                   : Vector3d(share * a + (1 - share) * (0.5 * b + 0.5 * c));
         const int v = int(position.size());
@@ -279,24 +280,24 @@ TriMesh needles(Lots& lots, int n)
 }
 
 /// Every vertex is moved by up to a share of the mean edge.
-TriMesh noisy(Lots& lots, int n)
+TriMesh noisy(SeededRandom& random, int n)
 {
     TriMesh mesh;
-    switch (lots.whole(0, 2)) {
+    switch (random.whole(0, 2)) {
     case 0: mesh = dome({.triangles = n}).mesh; break;
     case 1: mesh = saddle({.triangles = n}); break;
     default: mesh = quarter_cylinder({.triangles = n}).mesh;
     }
-    const double size = mean_edge(mesh) * lots.between(0.05, 0.4);
+    const double size = mean_edge(mesh) * random.between(0.05, 0.4);
     for (double& x : mesh.position.reshaped())
-        x += size * lots.between(-1, 1);
+        x += size * random.between(-1, 1);
     return mesh;
 }
 
-TriMesh twisted_strip(Lots& lots, int n)
+TriMesh twisted_strip(SeededRandom& random, int n)
 {
-    const double turns = lots.between(0.5, 3), length = lots.between(100, 300), width = lots.between(15, 60);
-    const double offset = lots.coin() ? 0 : lots.between(0, width);
+    const double turns = random.between(0.5, 3), length = random.between(100, 300), width = random.between(15, 60);
+    const double offset = random.coin() ? 0 : random.between(0, width);
     return grid_surface(cells(n, length, width), [=](double u, double v) {
         const double angle = 2 * pi * turns * u, r = offset + width * (v - 0.5);
         return Vector3d(length * u, r * std::cos(angle), r * std::sin(angle));
@@ -304,10 +305,10 @@ TriMesh twisted_strip(Lots& lots, int n)
 }
 
 /// A band closed to a ring after so many half twists.
-TriMesh twisted_band(Lots& lots, int n, bool odd)
+TriMesh twisted_band(SeededRandom& random, int n, bool odd)
 {
-    const int half_twists = 2 * lots.whole(odd ? 0 : 1, 2) + (odd ? 1 : 0);
-    const double radius = lots.between(40, 80), width = lots.between(10, 0.6 * radius);
+    const int half_twists = 2 * random.whole(odd ? 0 : 1, 2) + (odd ? 1 : 0);
+    const double radius = random.between(40, 80), width = random.between(10, 0.6 * radius);
     GridPlan plan = cells(n, 2 * pi * radius, width);
     plan.columns = std::max(12, plan.columns);
     const auto place = [=](double u, double v) -> Vector3d {
@@ -327,11 +328,11 @@ TriMesh twisted_band(Lots& lots, int n, bool odd)
 }
 
 /// Three sheets on one line, two sheets in one point, or a pinched one.
-TriMesh crowded(Lots& lots, int n)
+TriMesh crowded(SeededRandom& random, int n)
 {
     const TriMesh page = rectangle(60, 40, cells(n / 3, 60, 40).columns, cells(n / 3, 60, 40).rows);
     TriMesh book = page;
-    for (const double turn : {lots.between(0.5, 1.5), lots.between(2, 4)})
+    for (const double turn : {random.between(0.5, 1.5), random.between(2, 4)})
         book = joined(
             book, transformed(page, Eigen::AngleAxisd(turn, Vector3d::UnitY()).toRotationMatrix(), Vector3d::Zero()));
     // The pages share the vertices of their first edge.
@@ -345,24 +346,24 @@ TriMesh crowded(Lots& lots, int n)
     return without_strays(book);
 }
 
-TriMesh touching(Lots& lots, int n)
+TriMesh touching(SeededRandom& random, int n)
 {
     TriMesh sheet =
         rectangle(80, 80, 2 * std::max(2, int(std::sqrt(n / 8.0))), 2 * std::max(2, int(std::sqrt(n / 8.0))));
     for (auto x : sheet.position.colwise())
-        x[2] = 0.002 * lots.between(0.5, 1.5) * x[0] * x[1];
+        x[2] = 0.002 * random.between(0.5, 1.5) * x[0] * x[1];
     // Two holes that share a corner.
     return without_faces(sheet, [](const Vector3d& x) {
         return (x[0] > 20 && x[0] < 40 && x[1] > 20 && x[1] < 40) || (x[0] > 40 && x[0] < 60 && x[1] > 40 && x[1] < 60);
     });
 }
 
-TriMesh rough_ground(Lots& lots, int n)
+TriMesh rough_ground(SeededRandom& random, int n)
 {
-    const double steep = lots.between(0.5, 6);
+    const double steep = random.between(0.5, 6);
     std::array<Eigen::Vector4d, 8> wave;
     for (Eigen::Vector4d& w : wave)
-        w << lots.between(-9, 9), lots.between(-9, 9), lots.between(0, 2 * pi), lots.between(0.3, 1);
+        w << random.between(-9, 9), random.between(-9, 9), random.between(0, 2 * pi), random.between(0.3, 1);
     return grid_surface(cells(n, 1, 1), [=](double u, double v) {
         double z = 0;
         for (const Eigen::Vector4d& w : wave)
@@ -372,25 +373,25 @@ TriMesh rough_ground(Lots& lots, int n)
 }
 
 /// A sphere with a mouth, down to a small one.
-TriMesh bottle(Lots& lots, int n)
+TriMesh bottle(SeededRandom& random, int n)
 {
-    const double half_angle = lots.between(95, 165);
+    const double half_angle = random.between(95, 165);
     TriMesh mesh = sphere_cap({.radius = 40, .half_angle_deg = half_angle, .triangles = n}).mesh;
-    mesh.position.row(2) *= lots.between(0.6, 2.5);
+    mesh.position.row(2) *= random.between(0.6, 2.5);
     return mesh;
 }
 
-TriMesh deep_cup(Lots& lots, int n)
+TriMesh deep_cup(SeededRandom& random, int n)
 {
-    const double radius = lots.between(15, 40);
-    return sharp_cup({.radius = radius, .height = radius * lots.between(0.5, 5), .triangles = n}).mesh;
+    const double radius = random.between(15, 40);
+    return sharp_cup({.radius = radius, .height = radius * random.between(0.5, 5), .triangles = n}).mesh;
 }
 
 /// Fingers on both sides of a strip, bent.
-TriMesh comb(Lots& lots, int n)
+TriMesh comb(SeededRandom& random, int n)
 {
-    const int fingers = lots.whole(3, 8), side = std::max(4 * fingers, int(std::sqrt(n)));
-    const double depth = lots.between(0.2, 0.45), bend = lots.between(0, 2.5);
+    const int fingers = random.whole(3, 8), side = std::max(4 * fingers, int(std::sqrt(n)));
+    const double depth = random.between(0.2, 0.45), bend = random.between(0, 2.5);
     const TriMesh whole =
         grid_surface({2 * fingers * std::max(1, side / (2 * fingers)), std::max(8, side / 2)}, [=](double u, double v) {
             const double angle = bend * (v - 0.5);
@@ -406,10 +407,10 @@ TriMesh comb(Lots& lots, int n)
 }
 
 /// Sharp creases, to and fro.
-TriMesh accordion(Lots& lots, int n)
+TriMesh accordion(SeededRandom& random, int n)
 {
-    const int folds = lots.whole(2, 7);
-    const double slope = lots.between(0.5, 30), skew = lots.between(0, 0.6), length = 120, width = 80;
+    const int folds = random.whole(2, 7);
+    const double slope = random.between(0.5, 30), skew = random.between(0, 0.6), length = 120, width = 80;
     GridPlan plan = cells(n, length * std::min(slope, 4.0), width);
     plan.columns = folds * std::max(1, plan.columns / folds);
     return grid_surface(plan, [=](double u, double v) {
@@ -419,52 +420,53 @@ TriMesh accordion(Lots& lots, int n)
     });
 }
 
-TriMesh far_or_small(Lots& lots, int n)
+TriMesh far_or_small(SeededRandom& random, int n)
 {
-    TriMesh mesh = lots.coin() ? dome({.triangles = n}).mesh : lipped_channel({.triangles = n}).mesh;
-    const double size = std::pow(10, lots.between(-4, 3));
+    TriMesh mesh = random.coin() ? dome({.triangles = n}).mesh : lipped_channel({.triangles = n}).mesh;
+    const double size = std::pow(10, random.between(-4, 3));
     mesh = scaled(mesh, size);
-    const Vector3d away = Vector3d(lots.between(-1, 1), lots.between(-1, 1), lots.between(-1, 1)) * size * 3e5;
-    return transformed(mesh, random_rotation(std::uint64_t(lots.whole(1, 1000))),
-                       lots.coin() ? away : Vector3d::Zero());
+    const Vector3d away = Vector3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) * size * 3e5;
+    return transformed(mesh, random_rotation(std::uint64_t(random.whole(1, 1000))),
+                       random.coin() ? away : Vector3d::Zero());
 }
 
-TriMesh flanged_ring(Lots& lots, int n)
+TriMesh flanged_ring(SeededRandom& random, int n)
 {
-    const double inner = lots.between(20, 40), collar = lots.between(2, 0.5 * inner), flange = lots.between(5, 40);
-    const double slant = lots.between(0, 0.5) * collar;
+    const double inner = random.between(20, 40), collar = random.between(2, 0.5 * inner),
+                 flange = random.between(5, 40);
+    const double slant = random.between(0, 0.5) * collar;
     Eigen::Matrix2Xd meridian(2, 3);
     meridian << inner, inner + slant, inner + slant + flange, collar, 0, 0;
     return axisymmetric(meridian, n).mesh;
 }
 
-TriMesh confused_orientation(Lots& lots, int n)
+TriMesh confused_orientation(SeededRandom& random, int n)
 {
     TriMesh mesh = dome({.triangles = n}).mesh;
     for (auto t : mesh.triangle.colwise())
-        if (lots.coin())
+        if (random.coin())
             std::swap(t[0], t[1]);
     return mesh;
 }
 
-TriMesh several_pieces(Lots& lots, int n)
+TriMesh several_pieces(SeededRandom& random, int n)
 {
     const TriMesh one = plate({.width = 80, .height = 60, .holes = {{{40, 30}, 10}}, .triangles = n / 2});
-    return joined(one, transformed(scaled(one, lots.between(0.3, 0.9)), Eigen::Matrix3d::Identity(), {100, 0, 0}));
+    return joined(one, transformed(scaled(one, random.between(0.3, 0.9)), Eigen::Matrix3d::Identity(), {100, 0, 0}));
 }
 
 /// A spiral staircase: as steep as it likes around its axis, overlapping itself seen from above.
-TriMesh helicoid(Lots& lots, int n)
+TriMesh helicoid(SeededRandom& random, int n)
 {
-    const double turns = lots.between(1.1, 3), inner = lots.between(2, 20), outer = inner + lots.between(10, 50);
-    const double pitch = lots.between(20, 100);
+    const double turns = random.between(1.1, 3), inner = random.between(2, 20), outer = inner + random.between(10, 50);
+    const double pitch = random.between(20, 100);
     return grid_surface(cells(n, pi * turns * (inner + outer), outer - inner), [=](double u, double v) {
         return polar(2 * pi * turns * u, inner + (outer - inner) * v, pitch * turns * u);
     });
 }
 
 /// A sheet with both its skins and its edges.
-TriMesh both_skins(Lots& lots, int n)
+TriMesh both_skins(SeededRandom& random, int n)
 {
     const int side = std::max(6, int(std::sqrt(n / 4.0)));
     std::set<Cell> tiles;
@@ -472,30 +474,30 @@ TriMesh both_skins(Lots& lots, int n)
         for (int j = 0; j < side; ++j)
             tiles.insert({i, j, 0});
     TriMesh mesh = body_surface(tiles, 200.0 / side, 1);
-    const double thickness = lots.between(0.5, 3), bulge = lots.between(0, 0.005);
+    const double thickness = random.between(0.5, 3), bulge = random.between(0, 0.005);
     for (auto x : mesh.position.colwise())
         x[2] = x[2] * thickness * side / 200 + bulge * (x[0] * x[0] + x[1] * x[1]);
     return mesh;
 }
 
 /// Noise beyond the size of the edges: faces over and under each other.
-TriMesh crumpled(Lots& lots, int n)
+TriMesh crumpled(SeededRandom& random, int n)
 {
-    TriMesh mesh = lots.coin() ? saddle({.triangles = n}) : dome({.triangles = n}).mesh;
-    const double size = mean_edge(mesh) * lots.between(0.6, 2);
+    TriMesh mesh = random.coin() ? saddle({.triangles = n}) : dome({.triangles = n}).mesh;
+    const double size = mean_edge(mesh) * random.between(0.6, 2);
     for (double& x : mesh.position.reshaped())
-        x += size * lots.between(-1, 1);
+        x += size * random.between(-1, 1);
     return mesh;
 }
 
 /// A sheet drawn out into one or more long thin fingers.
-TriMesh whiskers(Lots& lots, int n)
+TriMesh whiskers(SeededRandom& random, int n)
 {
-    const int count = lots.whole(1, 3);
+    const int count = random.whole(1, 3);
     std::array<Vector3d, 3> finger; // place, height
     for (Vector3d& f : finger)
-        f << lots.between(0.25, 0.75), lots.between(0.25, 0.75), lots.between(100, 600);
-    const double width = lots.between(0.04, 0.12);
+        f << random.between(0.25, 0.75), random.between(0.25, 0.75), random.between(100, 600);
+    const double width = random.between(0.04, 0.12);
     return grid_surface(cells(n, 1, 1), [=](double u, double v) {
         double z = 0;
         for (int i = 0; i < count; ++i) {
@@ -507,24 +509,24 @@ TriMesh whiskers(Lots& lots, int n)
 }
 
 /// A closed body with one single face left out.
-TriMesh pinhole(Lots& lots, int n)
+TriMesh pinhole(SeededRandom& random, int n)
 {
     TriMesh mesh =
-        lots.coin() ? closed_sphere(40, n) : body_surface({{0, 0, 0}}, 60, std::max(1, int(std::sqrt(n / 12.0))));
-    mesh.position.row(2) *= lots.between(0.5, 2);
+        random.coin() ? closed_sphere(40, n) : body_surface({{0, 0, 0}}, 60, std::max(1, int(std::sqrt(n / 12.0))));
+    mesh.position.row(2) *= random.between(0.5, 2);
     mesh.triangle.conservativeResize(3, mesh.triangles() - 1);
     return mesh;
 }
 
 /// As few faces as a part can have.
-TriMesh tiny(Lots& lots, int)
+TriMesh tiny(SeededRandom& random, int)
 {
-    const int spokes = lots.whole(2, 5); // a fan without its last face
+    const int spokes = random.whole(2, 5); // a fan without its last face
     TriMesh mesh;
     mesh.position.resize(3, spokes + 1);
-    mesh.position.col(0) << 0, 0, lots.between(0, 20);
+    mesh.position.col(0) << 0, 0, random.between(0, 20);
     for (int i = 0; i < spokes; ++i)
-        mesh.position.col(i + 1) = polar(5.5 * i / spokes, lots.between(5, 30), lots.between(-5, 5));
+        mesh.position.col(i + 1) = polar(5.5 * i / spokes, random.between(5, 30), random.between(-5, 5));
     mesh.triangle.resize(3, spokes - 1);
     for (int i = 0; i + 1 < spokes; ++i)
         mesh.triangle.col(i) << 0, i + 1, i + 2;
@@ -532,9 +534,10 @@ TriMesh tiny(Lots& lots, int)
 }
 
 /// A ribbon one cell wide on a winding way, or with a bridge of one single edge.
-TriMesh ribbon(Lots& lots, int n)
+TriMesh ribbon(SeededRandom& random, int n)
 {
-    const double a = lots.between(1, 4), b = lots.between(1, 4), c = lots.between(0.5, 3), width = lots.between(1, 8);
+    const double a = random.between(1, 4), b = random.between(1, 4), c = random.between(0.5, 3),
+                 width = random.between(1, 8);
     return grid_surface({n / 2, 1}, [=](double u, double v) {
         const double t = 2 * pi * u;
         return Vector3d(60 * std::sin(a * t), 60 * std::sin(b * t + 1) + width * (v - 0.5) * std::cos(t),
@@ -543,10 +546,10 @@ TriMesh ribbon(Lots& lots, int n)
 }
 
 /// Two sheets that hang together by one cell.
-TriMesh bridge(Lots& lots, int n)
+TriMesh bridge(SeededRandom& random, int n)
 {
     const int side = 2 * std::max(3, int(std::sqrt(n / 4.0)) / 2) + 1;
-    const double twist = lots.between(0, 3) / side;
+    const double twist = random.between(0, 3) / side;
     TriMesh mesh = without_faces(rectangle(2 * side + 1, side, 2 * side + 1, side), [=](const Vector3d& x) {
         return std::abs(x[0] - side - 0.5) < 0.5 && std::abs(x[1] - 0.5 * side) > 0.5;
     });
@@ -558,9 +561,9 @@ TriMesh bridge(Lots& lots, int n)
 }
 
 /// Many handles: a block with windows right through it.
-TriMesh sponge(Lots& lots, int n)
+TriMesh sponge(SeededRandom& random, int n)
 {
-    const int a = 2 * lots.whole(1, 2) + 1, b = 2 * lots.whole(1, 2) + 1, c = 2 * lots.whole(0, 1) + 1;
+    const int a = 2 * random.whole(1, 2) + 1, b = 2 * random.whole(1, 2) + 1, c = 2 * random.whole(0, 1) + 1;
     std::set<Cell> cubes;
     for (int i = 0; i < a; ++i)
         for (int j = 0; j < b; ++j)
@@ -571,10 +574,10 @@ TriMesh sponge(Lots& lots, int n)
 }
 
 /// A pipe along a torus knot; closed to a ring, or with two open ends.
-TriMesh knotted(Lots& lots, int n, bool ring)
+TriMesh knotted(SeededRandom& random, int n, bool ring)
 {
-    const int p = lots.whole(2, 3), q = 2 * lots.whole(1, 2) + 1 - (p == 3); // 2,3  2,5  3,2  3,4
-    const double thin = lots.between(3, 8), part = ring ? 1 : 0.97;
+    const int p = random.whole(2, 3), q = 2 * random.whole(1, 2) + 1 - (p == 3); // 2,3  2,5  3,2  3,4
+    const double thin = random.between(3, 8), part = ring ? 1 : 0.97;
     const auto axis = [=](double t) {
         const double r = 60 + 25 * std::cos(q * t);
         return Vector3d(r * std::cos(p * t), r * std::sin(p * t), 25 * std::sin(q * t));
@@ -591,10 +594,10 @@ TriMesh knotted(Lots& lots, int n, bool ring)
 }
 
 /// A pipe with windows in its wall.
-TriMesh windowed_tube(Lots& lots, int n)
+TriMesh windowed_tube(SeededRandom& random, int n)
 {
-    const int windows = lots.whole(2, 5);
-    const double length = lots.between(120, 300), low = lots.between(0.15, 0.35), high = lots.between(0.5, 0.85);
+    const int windows = random.whole(2, 5);
+    const double length = random.between(120, 300), low = random.between(0.15, 0.35), high = random.between(0.5, 0.85);
     GridPlan plan = cells(n, 2 * pi * 30, length, true);
     plan.columns = windows * std::max(4, plan.columns / windows);
     const TriMesh whole = grid_surface(plan, [=](double u, double v) { return polar(2 * pi * u, 30, length * v); });
@@ -605,10 +608,10 @@ TriMesh windowed_tube(Lots& lots, int n)
 }
 
 /// More than a full turn around one vertex: a ruffle.
-TriMesh ruffle(Lots& lots, int n)
+TriMesh ruffle(SeededRandom& random, int n)
 {
-    const int waves = lots.whole(2, 6), rings_count = std::max(2, int(std::lround(std::sqrt(n / 40.0))));
-    const double height = lots.between(0.5, 2.5);
+    const int waves = random.whole(2, 6), rings_count = std::max(2, int(std::lround(std::sqrt(n / 40.0))));
+    const double height = random.between(0.5, 2.5);
     return stitch_rings([&] {
         std::vector<Eigen::Matrix3Xd> rings{Eigen::Matrix3Xd::Zero(3, 1)};
         for (int j = 1; j <= rings_count; ++j) {
@@ -624,9 +627,9 @@ TriMesh ruffle(Lots& lots, int n)
 }
 
 /// Faces from tens of millimetres down to thousandths of one.
-TriMesh graded(Lots& lots, int n)
+TriMesh graded(SeededRandom& random, int n)
 {
-    const double power = lots.between(2, 5), bow = lots.between(0, 0.002);
+    const double power = random.between(2, 5), bow = random.between(0, 0.002);
     return grid_surface(cells(n, 1, 1), [=](double u, double v) {
         const double x = 300 * std::pow(u, power), y = 300 * std::pow(v, power);
         return Vector3d(x, y, bow * (x * x + y * y));
@@ -634,18 +637,18 @@ TriMesh graded(Lots& lots, int n)
 }
 
 /// A height field with walls that stand almost upright.
-TriMesh cliffs(Lots& lots, int n)
+TriMesh cliffs(SeededRandom& random, int n)
 {
-    const double height = lots.between(50, 300), sharp = lots.between(5, 60);
-    const double a = lots.between(3, 9), b = lots.between(3, 9), phase = lots.between(0, 2 * pi);
+    const double height = random.between(50, 300), sharp = random.between(5, 60);
+    const double a = random.between(3, 9), b = random.between(3, 9), phase = random.between(0, 2 * pi);
     return grid_surface(cells(n, 1, 1), [=](double u, double v) {
         return Vector3d(100 * u, 100 * v, height * std::tanh(sharp * std::sin(a * u + phase) * std::cos(b * v)));
     });
 }
 
-TriMesh very_anisotropic(Lots& lots, int n)
+TriMesh very_anisotropic(SeededRandom& random, int n)
 {
-    const double bow = lots.between(0.2, 1.5);
+    const double bow = random.between(0.2, 1.5);
     return grid_surface({std::max(40, n / 4), 2}, [=](double u, double v) {
         const double angle = bow * (u - 0.5);
         return Vector3d(20 / bow * std::sin(angle), 1000 * v, 20 / bow * std::cos(angle) + 30 * v * v);
@@ -658,15 +661,15 @@ std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
 {
     std::vector<FamilyShape> shapes;
     std::uint64_t family = 0;
-    const auto add = [&](const char* name, int count, const std::function<TriMesh(Lots&, int)>& maker,
+    const auto add = [&](const char* name, int count, const std::function<TriMesh(SeededRandom&, int)>& maker,
                          Expected expected = Expected::blank, bool keep_largest = false) {
         ++family;
         for (int i = 0; i < count; ++i) {
-            const std::uint64_t lot = seed * 1'000'003 + family * 1009 + std::uint64_t(i);
+            const std::uint64_t shape_seed = seed * 1'000'003 + family * 1009 + std::uint64_t(i);
             shapes.push_back({name, i, expected,
-                              [maker, lot, triangles] {
-                                  Lots lots(lot);
-                                  return maker(lots, triangles);
+                              [maker, shape_seed, triangles] {
+                                  SeededRandom random(shape_seed);
+                                  return maker(random, triangles);
                               },
                               keep_largest});
         }
@@ -688,9 +691,10 @@ std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
     add("needles", 14, needles, Expected::either); // some are thinner than the doctor can tell from flat
     add("noise", 14, noisy);
     add("twisted strip", 10, twisted_strip);
-    add("twisted band", 6, [](Lots& lots, int n) { return twisted_band(lots, n, false); });
+    add("twisted band", 6, [](SeededRandom& random, int n) { return twisted_band(random, n, false); });
     add(
-        "Moebius band", 6, [](Lots& lots, int n) { return twisted_band(lots, n, true); }, Expected::refusal);
+        "Moebius band", 6, [](SeededRandom& random, int n) { return twisted_band(random, n, true); },
+        Expected::refusal);
     add("crowded edge", 4, crowded, Expected::refusal);
     add("crowded edge, largest", 4, crowded, Expected::blank, true);
     add("touching holes", 4, touching);
@@ -713,9 +717,9 @@ std::vector<FamilyShape> shape_family(int triangles, std::uint64_t seed)
     add("ribbon", 5, ribbon);
     add("bridge", 4, bridge);
     add("sponge", 5, sponge);
-    add("knotted tube", 5, [](Lots& lots, int n) { return knotted(lots, n, false); });
+    add("knotted tube", 5, [](SeededRandom& random, int n) { return knotted(random, n, false); });
     add(
-        "knotted ring", 4, [](Lots& lots, int n) { return knotted(lots, n, true); },
+        "knotted ring", 4, [](SeededRandom& random, int n) { return knotted(random, n, true); },
         Expected::either); // the most slender ones could be sheets with both their skins
     add("windowed tube", 6, windowed_tube);
     add("ruffle", 5, ruffle);

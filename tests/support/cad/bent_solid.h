@@ -80,7 +80,7 @@ struct BentSolid {
     std::vector<Stamp> stamp = {}; ///< of brackets, which have one bend
     std::vector<BendCut> bend_cut = {};
     std::vector<Emboss> emboss = {};
-    std::uint64_t pose = 0; ///< turned and moved by this lot; 0: as said
+    std::uint64_t pose = 0; ///< turned and moved by this seed; 0: as said
 
     /// mm: legs, and arcs at K times the thickness from the inner side
     double developed(double k) const;

@@ -23,8 +23,8 @@
 #include "engine/exchange/cad/occt_session.h"
 #include "tests/support/cad/section_face.h"
 #include "tests/support/cad/write_solid.h"
-#include "tests/support/lots.h"
 #include "tests/support/profile.h"
+#include "tests/support/seeded_random.h"
 
 namespace spia::shapes {
 namespace {
@@ -38,38 +38,40 @@ TopoDS_Shape turned(const Profile& profile, double t)
 }
 
 /// From the middle of the bottom outwards and up.
-Profile round_section(Lots& lots, int kind, double t)
+Profile round_section(SeededRandom& random, int kind, double t)
 {
-    const auto radius = [&] { return t * lots.between(2, 7); };
-    const double bottom = t * lots.between(8, 25);
+    const auto radius = [&] { return t * random.between(2, 7); };
+    const double bottom = t * random.between(8, 25);
     Profile profile({0, 0}, 0);
     switch (kind) {
-    case 0: return profile.straight(bottom).bend(radius(), 90 * degree).straight(t * lots.between(4, 14));
+    case 0: return profile.straight(bottom).bend(radius(), 90 * degree).straight(t * random.between(4, 14));
     case 1:
         return profile.straight(bottom)
             .bend(radius(), 90 * degree)
-            .straight(t * lots.between(1, 10))
+            .straight(t * random.between(1, 10))
             .bend(radius(), -90 * degree)
-            .straight(t * lots.between(3, 12));
+            .straight(t * random.between(3, 12));
     case 2:
         return profile.straight(bottom)
             .bend(radius(), 90 * degree)
-            .straight(t * lots.between(1, 6))
+            .straight(t * random.between(1, 6))
             .bend(radius(), -90 * degree)
-            .straight(t * lots.between(2, 8))
+            .straight(t * random.between(2, 8))
             .bend(radius(), 90 * degree)
-            .straight(t * lots.between(2, 8));
+            .straight(t * random.between(2, 8));
     case 3: {
-        const double slope = degree * lots.between(25, 75);
+        const double slope = degree * random.between(25, 75);
         return profile.straight(bottom)
             .bend(radius(), slope)
-            .straight(t * lots.between(4, 15))
+            .straight(t * random.between(4, 15))
             .bend(radius(), -slope)
-            .straight(t * lots.between(3, 12));
+            .straight(t * random.between(3, 12));
     }
     default: {
-        const double slope = degree * lots.between(25, 70);
-        return profile.bend(t * lots.between(15, 40), slope).bend(radius(), -slope).straight(t * lots.between(3, 12));
+        const double slope = degree * random.between(25, 70);
+        return profile.bend(t * random.between(15, 40), slope)
+            .bend(radius(), -slope)
+            .straight(t * random.between(3, 12));
     }
     }
 }
@@ -147,16 +149,16 @@ TopoDS_Shape made(const Box& box, double t)
     return shape;
 }
 
-Box random_box(Lots& lots, int kind, double t)
+Box random_box(SeededRandom& random, int kind, double t)
 {
     Box box{};
-    box.corner = t * lots.between(6, 15);
-    box.length = 2 * box.corner + t * lots.between(10, 50);
-    box.width = 2 * box.corner + t * lots.between(10, 40);
-    box.bottom = lots.between(2.5 * t, 0.7 * box.corner);
-    box.height = box.bottom + t * lots.between(3, 10);
-    box.lean = kind == 6 ? degree * lots.between(3, 20) : 0;
-    box.brim = kind == 7 ? t * lots.between(4, 12) : 0;
+    box.corner = t * random.between(6, 15);
+    box.length = 2 * box.corner + t * random.between(10, 50);
+    box.width = 2 * box.corner + t * random.between(10, 40);
+    box.bottom = random.between(2.5 * t, 0.7 * box.corner);
+    box.height = box.bottom + t * random.between(3, 10);
+    box.lean = kind == 6 ? degree * random.between(3, 20) : 0;
+    box.brim = kind == 7 ? t * random.between(4, 12) : 0;
     return box;
 }
 
@@ -166,14 +168,14 @@ std::string write_drawn_solid(const std::filesystem::path& file, std::uint64_t s
 {
     static const char* const kinds[] = {"cup",  "flanged cup", "stepped cup",    "cone",
                                         "dome", "box",         "box with draft", "box with a brim"};
-    Lots lots(seed);
+    SeededRandom random(seed);
     const OcctSession session;
     const int kind = int(seed % 8);
-    const double t = 0.6 * std::pow(4., lots.between(0, 1));
+    const double t = 0.6 * std::pow(4., random.between(0, 1));
     if (kind < 5)
-        write_solid(file, turned(round_section(lots, kind, t), t), form);
+        write_solid(file, turned(round_section(random, kind, t), t), form);
     else
-        write_solid(file, made(random_box(lots, kind, t), t), form);
+        write_solid(file, made(random_box(random, kind, t), t), form);
     return fmt::format("{}, {:.3g} mm thick", kinds[kind], t);
 }
 

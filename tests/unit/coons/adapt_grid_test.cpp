@@ -252,23 +252,23 @@ TEST(EvenCells, KeepTheSpacingOfTheLines)
 
 class AdaptedOutline : public testing::TestWithParam<int> {};
 
-/// Outlines by lot, with waves across them for the part, as if they had been formed.
+/// Outlines at random, with waves across them for the part, as if they had been formed.
 TEST_P(AdaptedOutline, HasAGridWithoutAFold)
 {
     int graded = 0, evened = 0;
     for (int number = 0; number < 4; ++number) {
-        const shapes::OutlineByLot lot = shapes::outline_by_lot(GetParam(), number);
-        TriMesh part = lot.part;
+        const shapes::RandomOutline drawn = shapes::random_outline(GetParam(), number);
+        TriMesh part = drawn.part;
         const double size = (part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff()).norm();
         for (int v = 0; v < part.vertices(); ++v)
             part.position(2, v) = 0.05 * size * std::tanh(60 * (part.position(0, v) + part.position(1, v)) / size);
-        const Blank blank{lot.part.position.topRows(2)};
-        const BlankBoundary boundary = split_boundary(blank, part, lot.corner);
+        const Blank blank{drawn.part.position.topRows(2)};
+        const BlankBoundary boundary = split_boundary(blank, part, drawn.corner);
         GridOptions options;
         options.line_grading = 0.6;
         options.even_cells = number % 2 == 0;
         const GridResult grid = coons_grid(part, blank, boundary, options);
-        EXPECT_EQ(shapes::fault_of(grid, boundary), "") << lot.name;
+        EXPECT_EQ(shapes::fault_of(grid, boundary), "") << drawn.name;
         graded += grid.line_grading > 0;
         evened += grid.evened;
     }
@@ -277,7 +277,7 @@ TEST_P(AdaptedOutline, HasAGridWithoutAFold)
 }
 
 // Without spirals (4), of which many have no grid.
-INSTANTIATE_TEST_SUITE_P(ByLot, AdaptedOutline, testing::Values(0, 1, 2, 3, 5, 6, 7), [](const auto& param) {
+INSTANTIATE_TEST_SUITE_P(Random, AdaptedOutline, testing::Values(0, 1, 2, 3, 5, 6, 7), [](const auto& param) {
     std::string name(shapes::outline_kind(param.param));
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;

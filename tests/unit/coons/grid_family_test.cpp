@@ -1,4 +1,4 @@
-// Outlines and corners drawn by lot: a few of each kind. All of them: spia-robustness --grids 40.
+// Outlines and corners drawn at random: a few of each kind. All of them: spia-robustness --grids 40.
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>
@@ -15,14 +15,14 @@ TEST_P(OutlineKind, HasAGridWithoutAFold)
     if (shapes::outline_kind(GetParam()) == "spiral")
         numbers = {0, 1, 12}; // they take seconds each; 12 has a grid by spiral_grid() alone
     for (const int number : numbers) {
-        const shapes::OutlineByLot lot = shapes::outline_by_lot(GetParam(), number);
-        const shapes::GridByLot made = shapes::grid_by_lot(lot);
-        EXPECT_EQ(made.fault, "") << lot.name;
-        EXPECT_FALSE(made.refused) << lot.name;
+        const shapes::RandomOutline drawn = shapes::random_outline(GetParam(), number);
+        const shapes::RandomGrid made = shapes::random_grid(drawn);
+        EXPECT_EQ(made.fault, "") << drawn.name;
+        EXPECT_FALSE(made.refused) << drawn.name;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(ByLot, OutlineKind, testing::Range(0, shapes::outline_kinds), [](const auto& param) {
+INSTANTIATE_TEST_SUITE_P(Random, OutlineKind, testing::Range(0, shapes::outline_kinds), [](const auto& param) {
     std::string name(shapes::outline_kind(param.param));
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;

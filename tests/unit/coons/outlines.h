@@ -8,7 +8,7 @@
 
 #include "engine/forming/blank.h"
 #include "engine/mesh/tri_mesh.h"
-#include "tests/support/outlines_by_lot.h"
+#include "tests/support/random_outlines.h"
 #include "tests/support/shapes.h"
 
 /// Flat parts with difficult outlines. They are their own blank.

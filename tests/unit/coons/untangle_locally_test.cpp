@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/coons/cell_quality.h"
-#include "tests/support/lots.h"
+#include "tests/support/seeded_random.h"
 
 namespace spia {
 
@@ -12,11 +12,11 @@ namespace {
 constexpr int columns = 14, rows = 11;
 const Eigen::Vector2d along_row(6, 0.1), along_column(5, 1.2); // far from the rectangles that untangle() wants
 
-/// Parallelograms of one shape. Their inner nodes are moved by lot, across their length by up to a share of their height.
+/// Parallelograms of one shape. Their inner nodes are moved at random, across their length by up to a share of their height.
 QuadGrid sheared_cells(double share)
 {
     const double height = (along_row.x() * along_column.y() - along_row.y() * along_column.x()) / along_row.norm();
-    shapes::Lots lots(7);
+    shapes::SeededRandom random(7);
     QuadGrid grid;
     grid.columns = columns;
     grid.rows = rows;
@@ -25,7 +25,7 @@ QuadGrid sheared_cells(double share)
         for (int i = 0; i <= columns; ++i) {
             grid.position.col(grid.node(i, j)).head<2>() = i * along_row + j * along_column;
             if (i > 0 && j > 0 && i < columns && j < rows)
-                grid.position(1, grid.node(i, j)) += share * height * lots.between(-1, 1);
+                grid.position(1, grid.node(i, j)) += share * height * random.between(-1, 1);
         }
     return grid;
 }

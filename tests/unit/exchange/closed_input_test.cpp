@@ -9,9 +9,9 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/exchange/examined_mesh.h"
 #include "tests/unit/exchange/sample_compressed.h"
@@ -21,9 +21,9 @@
 namespace spia {
 namespace {
 
-using shapes::Lots;
 using shapes::PlaneLoop;
 using shapes::ProfilePiece;
+using shapes::SeededRandom;
 constexpr double pi = std::numbers::pi;
 
 /// A solid of sheet and what is known of it.
@@ -42,9 +42,9 @@ ProfilePiece bend(double radius, double angle) { return {0, radius, angle}; }
 /// @param share  of the thickness in the least width of the flats
 std::vector<KnownSheet> sheets(double share, int chords, int divisions, std::uint64_t seed)
 {
-    Lots lots(seed);
-    const double t = lots.between(0.5, 8), w = t / share; // the narrowest flat on an inner side
-    const auto more = [&](double least, double most) { return w * lots.between(least, most); };
+    SeededRandom random(seed);
+    const double t = random.between(0.5, 8), w = t / share; // the narrowest flat on an inner side
+    const auto more = [&](double least, double most) { return w * random.between(least, most); };
     std::vector<KnownSheet> result;
     const auto add = [&](std::string name, TriMesh mesh, double exact, bool plain = false) {
         mesh = shapes::divided(mesh, divisions);
@@ -54,7 +54,7 @@ std::vector<KnownSheet> sheets(double share, int chords, int divisions, std::uin
                           .dot(mesh.position.col(mesh.triangle(1, f)).cross(mesh.position.col(mesh.triangle(2, f)))) /
                       6;
         mesh = shapes::permuted(shapes::transformed(mesh, shapes::random_rotation(seed + result.size()),
-                                                    {lots.between(-50, 50), lots.between(-50, 50), 7}),
+                                                    {random.between(-50, 50), random.between(-50, 50), 7}),
                                 seed)
                    .mesh;
         result.push_back({fmt::format("{} (t {:.3g} of {:.3g}, {} chords, {} divisions, seed {})", name, t, w, chords,
@@ -70,23 +70,23 @@ std::vector<KnownSheet> sheets(double share, int chords, int divisions, std::uin
                           shapes::circle({2.1 * w, 1.1 * w}, 0.5 * w, 4 * chords, true)},
                          t),
         1e-6);
-    const double length = more(1, 2), r = t * lots.between(0.1, 2);
+    const double length = more(1, 2), r = t * random.between(0.1, 2);
     const auto bent = [&](const std::string& name, const std::vector<ProfilePiece>& pieces) {
         add(name, shapes::extruded(shapes::sheet_section(pieces, t, chords), {}, length), 1e-6);
     };
     bent("bracket", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2))});
-    bent("open bracket", {flat(more(1, 2)), bend(r, lots.between(0.3, 1.3)), flat(more(1, 2))});
+    bent("open bracket", {flat(more(1, 2)), bend(r, random.between(0.3, 1.3)), flat(more(1, 2))});
     bent("channel", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2))});
     bent("step", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 2)), bend(r, -pi / 2), flat(more(1, 2))});
     bent("hat", {flat(more(1, 2)), bend(r, pi / 2), flat(more(1, 1.5)), bend(r, -pi / 2), flat(more(1, 2)),
                  bend(r, -pi / 2), flat(more(1, 1.5)), bend(r, pi / 2), flat(more(1, 2))});
-    bent("hem", {flat(more(2, 3)), bend(lots.between(0.1, 0.5) * t, pi), flat(more(1, 2))});
-    bent("knuckle", {flat(more(1, 2)), bend(lots.between(0.6, 1.5) * t, lots.between(1.1, 1.45) * pi)});
+    bent("hem", {flat(more(2, 3)), bend(random.between(0.1, 0.5) * t, pi), flat(more(1, 2))});
+    bent("knuckle", {flat(more(1, 2)), bend(random.between(0.6, 1.5) * t, random.between(1.1, 1.45) * pi)});
     // Sharp edges inside and outside.
     const double leg = more(1, 2) + t, foot = more(1, 2) + t;
     add("mitred bracket", shapes::extruded({{0, 0}, {foot, 0}, {foot, t}, {t, t}, {t, leg}, {0, leg}}, {}, length),
         1e-6);
-    const double inside = t * lots.between(0.3, 3);
+    const double inside = t * random.between(0.3, 3);
     add("tube",
         shapes::extruded(shapes::circle({0, 0}, inside + t, 8 * chords, false),
                          {shapes::circle({0, 0}, inside, 8 * chords, true)}, std::max(length, 2 * t)),
@@ -114,18 +114,18 @@ std::vector<KnownSheet> sheets(double share, int chords, int divisions, std::uin
 
 std::vector<std::pair<std::string, TriMesh>> hollow_bodies(int around, int divisions, std::uint64_t seed)
 {
-    Lots lots(seed);
+    SeededRandom random(seed);
     std::vector<std::pair<std::string, TriMesh>> result;
     const auto add = [&](const std::string& name, const TriMesh& mesh) {
         result.emplace_back(fmt::format("{} ({} around, {} divisions, seed {})", name, around, divisions, seed),
                             shapes::transformed(shapes::divided(mesh, divisions),
                                                 shapes::random_rotation(seed + result.size()), {5, -20, 3}));
     };
-    const double a = lots.between(30, 60);
+    const double a = random.between(30, 60);
     const auto rectangle = [](double x, double y) { return PlaneLoop{{0, 0}, {x, 0}, {x, y}, {0, y}}; };
     add("cube", shapes::extruded(rectangle(a, a), {}, a));
-    add("box", shapes::extruded(rectangle(a, a * lots.between(1, 1.5)), {}, a * lots.between(0.7, 2)));
-    add("long box", shapes::extruded(rectangle(a, a * lots.between(1, 1.15)), {}, 8 * a));
+    add("box", shapes::extruded(rectangle(a, a * random.between(1, 1.5)), {}, a * random.between(0.7, 2)));
+    add("long box", shapes::extruded(rectangle(a, a * random.between(1, 1.15)), {}, 8 * a));
     for (const double height : {1.0, 2.0, 10.0}) // the diameter of the shortest is its height, too
         add(fmt::format("closed tube {} diameters long", height),
             shapes::extruded(shapes::circle({0, 0}, a / 2, around, false), {}, height * a));

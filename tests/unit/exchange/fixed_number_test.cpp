@@ -12,13 +12,13 @@ namespace spia {
 
 TEST(FixedNumber, HasItsWidthABlankAPointAndReadsBackToThePrecisionPromised)
 {
-    std::mt19937_64 lots(7);
+    std::mt19937_64 random(7);
     std::uniform_real_distribution<double> mantissa(1, 10), exponent(-98, 98);
     for (const int width : {10, 16, 20}) {
         const double promised = 0.5 * std::pow(10, 8 - width);
         double worst = 0;
         for (int i = 0; i < 20000; ++i) {
-            const double size = mantissa(lots) * std::pow(10, i % 2 ? std::floor(exponent(lots)) : i % 9 - 4);
+            const double size = mantissa(random) * std::pow(10, i % 2 ? std::floor(exponent(random)) : i % 9 - 4);
             const double value = i % 3 ? size : -size;
             const std::string text = fixed_number(value, width);
             ASSERT_EQ(int(text.size()), width) << text;

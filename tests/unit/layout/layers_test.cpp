@@ -6,7 +6,7 @@
 
 #include "engine/layout/layout.h"
 #include "tests/support/check_layout.h"
-#include "tests/support/outlines_by_lot.h"
+#include "tests/support/random_outlines.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
@@ -74,20 +74,20 @@ TEST(Layers, KeepClearOfCuts)
 
 class LayersOfPlates : public testing::TestWithParam<int> {};
 // Of those that had a corner of more than 180 degrees, or folds, with straight lines from the border alone.
-INSTANTIATE_TEST_SUITE_P(ByLot, LayersOfPlates, testing::Values(54, 59, 70, 77, 86, 91));
+INSTANTIATE_TEST_SUITE_P(Random, LayersOfPlates, testing::Values(54, 59, 70, 77, 86, 91));
 
 TEST_P(LayersOfPlates, HaveRoomForCellsAtEveryCorner)
 {
-    const auto lot = shapes::outline_by_lot(shapes::outline_kinds - 1, GetParam());
-    const Layout layout = layered(lot.part);
+    const auto drawn = shapes::random_outline(shapes::outline_kinds - 1, GetParam());
+    const Layout layout = layered(drawn.part);
     const auto [least, greatest] = corners_of(layout);
     EXPECT_GT(least, 0.5);
     EXPECT_LT(greatest, 179.5);
     double sheet = 0, patches = 0;
-    for (int f = 0; f < lot.part.triangles(); ++f) {
-        const Eigen::Vector3d a = lot.part.position.col(lot.part.triangle(0, f)),
-                              b = lot.part.position.col(lot.part.triangle(1, f)),
-                              c = lot.part.position.col(lot.part.triangle(2, f));
+    for (int f = 0; f < drawn.part.triangles(); ++f) {
+        const Eigen::Vector3d a = drawn.part.position.col(drawn.part.triangle(0, f)),
+                              b = drawn.part.position.col(drawn.part.triangle(1, f)),
+                              c = drawn.part.position.col(drawn.part.triangle(2, f));
         sheet += 0.5 * ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
     }
     for (const LayoutPatch& patch : layout.patch)

@@ -3,19 +3,20 @@
 #include <gtest/gtest.h>
 
 #include "engine/mesh/unrolled_skin.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_tools.h"
+#include "tests/support/seeded_random.h"
 
 namespace spia {
 
 TEST(CylinderThrough, PlacesOfAnArcIsTheirsWhereverThePartLies)
 {
-    shapes::Lots lots(6);
+    shapes::SeededRandom random(6);
     for (int trial = 0; trial < 50; ++trial) {
-        const double radius = lots.between(0.3, 20), length = lots.between(0.5, 100), turn = lots.between(0.5, 6);
+        const double radius = random.between(0.3, 20), length = random.between(0.5, 100), turn = random.between(0.5, 6);
         const Eigen::Matrix3d pose = shapes::random_rotation(std::uint64_t(trial));
-        const Eigen::Vector3d far(lots.between(-3000, 3000), lots.between(-3000, 3000), lots.between(-3000, 3000));
-        const int places = lots.whole(4, 40);
+        const Eigen::Vector3d far(random.between(-3000, 3000), random.between(-3000, 3000),
+                                  random.between(-3000, 3000));
+        const int places = random.whole(4, 40);
         Eigen::Matrix3Xd place(3, 2 * places), normal(3, 2 * places);
         for (int i = 0; i < 2 * places; ++i) {
             const double angle = turn * (i / 2) / (places - 1);

@@ -8,8 +8,8 @@
 
 #include "engine/mesh/topology.h"
 #include "tests/support/bent_parts.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_tools.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/sheet_solid.h"
 
 namespace spia {
@@ -34,11 +34,11 @@ int cylinders(const std::vector<StatedSurface>& surface)
 
 TEST(MeasuredCylinders, OfABentSheetAreThoseItWasBentOver)
 {
-    shapes::Lots lots(4);
+    shapes::SeededRandom random(4);
     for (int trial = 0; trial < 20; ++trial) {
-        const double r = lots.between(3, 20), t = lots.between(0.2, 0.6) * r, angle = lots.between(0.7, 2);
+        const double r = random.between(3, 20), t = random.between(0.2, 0.6) * r, angle = random.between(0.7, 2);
         const BentSheet sheet =
-            shapes::bent_sheet(Profile({0, 0}, 0).straight(40).bend(r, -angle).straight(30), 60, lots.between(1, 4));
+            shapes::bent_sheet(Profile({0, 0}, 0).straight(40).bend(r, -angle).straight(30), 60, random.between(1, 4));
         TriMesh solid = solid_of(sheet, t);
         const Eigen::Matrix3d turn = shapes::random_rotation(std::uint64_t(trial));
         solid.position = (turn * solid.position).eval();

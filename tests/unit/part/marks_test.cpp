@@ -8,10 +8,10 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/examined_mesh.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -240,9 +240,9 @@ TEST(Marks, OutlinesLieOnTheSurfaceThatIsTaken)
 TEST(Marks, OfAnyOutlineInPlaneSkinAreTakenOut)
 {
     // Floors and tops with vertices of their own, as meshers make them along curved walls: foot and top of a wall do not match.
-    shapes::Lots lots(7);
+    shapes::SeededRandom random(7);
     for (int sample = 0; sample < 40; ++sample) {
-        const double depth = lots.between(0.2, 0.59) * (sample % 2 ? 1 : -1), z = 3;
+        const double depth = random.between(0.2, 0.59) * (sample % 2 ? 1 : -1), z = 3;
         const int tops = 60 + sample, feet = 50 + (7 * sample) % 41;
         const auto petal = [&](double angle) { return 8 + 3 * std::sin(3 * angle) + 2 * std::cos(5 * angle); };
         const auto loop = [&](int count, double at, double turned) {

@@ -13,7 +13,7 @@
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
-#include "tests/support/lots.h"
+#include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
@@ -99,8 +99,8 @@ protected:
     /// With chords of 3 to 20 degrees.
     void expect_of_stl(const BentSolid& solid)
     {
-        shapes::Lots lots(GetParam() + 1000);
-        const double chord = degree * lots.between(3, 20);
+        shapes::SeededRandom random(GetParam() + 1000);
+        const double chord = degree * random.between(3, 20);
         SCOPED_TRACE(fmt::format("{}; chords of {:.3g} degrees", describe(solid), chord / degree));
         shapes::write_bent_stl(folder_ / "part.stl", solid, chord);
         expect(folder_ / "part.stl", solid, {5e-4, 2e-3, 2e-3});

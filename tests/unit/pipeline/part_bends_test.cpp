@@ -16,10 +16,10 @@
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
 #include "tests/support/cad/bent_solid.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -177,8 +177,8 @@ TEST_F(PartBends, AFamilyOfBracketsChannelsHatsHemsAndKnucklesUnrollsToItsClosed
     int refused = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         const BentSolid solid = shapes::random_bent_solid(seed);
-        shapes::Lots lots(seed + 1000);
-        const double k = lots.between(0.3, 0.5);
+        shapes::SeededRandom random(seed + 1000);
+        const double k = random.between(0.3, 0.5);
         SCOPED_TRACE(fmt::format("{}: {} with {} bends, t {}, K {}{}", seed, solid.kind, solid.bend.size(),
                                  solid.thickness, k, solid.hole ? ", a hole" : ""));
         ++kinds[solid.kind];
@@ -246,17 +246,17 @@ TEST_F(PartBends, AMeshHasTheRadiusOfTheCircleThroughItsVertices)
 TEST_F(PartBends, OfMeshesOfSolidsAreFoundHoweverLargeTheirRadius)
 {
     // As CAD writes them: single precision, chords of every angle; R/t from 0.2 to 60, legs from a tenth of the radius on.
-    shapes::Lots lots(29);
+    shapes::SeededRandom random(29);
     int bends = 0;
     for (int sample = 0; sample < 60; ++sample) {
-        const double t = lots.between(0.5, 4), k = lots.between(0.3, 0.5);
+        const double t = random.between(0.5, 4), k = random.between(0.3, 0.5);
         const int count = 1 + sample % 3, chords = 3 + sample % 9;
         std::vector<shapes::ProfilePiece> profile;
         std::vector<std::pair<double, double>> expected; // inner radius, angle
         double length = 0, sense = 1;
         for (int i = 0; i <= count; ++i) {
-            const double r = t * std::exp(lots.between(std::log(0.2), std::log(60.)));
-            const double angle = lots.between(2.2 / chords, 2.2), leg = lots.between(0.1, 1) * (r + t) + t;
+            const double r = t * std::exp(random.between(std::log(0.2), std::log(60.)));
+            const double angle = random.between(2.2 / chords, 2.2), leg = random.between(0.1, 1) * (r + t) + t;
             profile.push_back({leg, 0, 0});
             length += leg;
             if (i == count)
@@ -267,7 +267,7 @@ TEST_F(PartBends, OfMeshesOfSolidsAreFoundHoweverLargeTheirRadius)
             expected.emplace_back(r, angle);
         }
         SCOPED_TRACE(fmt::format("sample {}: t {:.4g}, {} bends, {} chords each", sample, t, count, chords));
-        const double width = lots.between(0.2, 1) * length;
+        const double width = random.between(0.2, 1) * length;
         const fs::path file = folder_ / "part.stl";
         shapes::write_mesh(file,
                            shapes::transformed(shapes::extruded(shapes::sheet_section(profile, t, chords), {}, width),

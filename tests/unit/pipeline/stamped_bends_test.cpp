@@ -9,7 +9,7 @@
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
 #include "tests/support/flat_area.h"
-#include "tests/support/lots.h"
+#include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
@@ -58,21 +58,21 @@ std::vector<Loop> letter(int kind)
 }
 
 /// A bracket with letters on and beside its bend.
-BentSolid drawn_by_lot(std::uint64_t seed)
+BentSolid random_drawn_solid(std::uint64_t seed)
 {
-    shapes::Lots lots(seed);
+    shapes::SeededRandom random(seed);
     BentSolid solid;
     solid.kind = "bracket";
-    solid.thickness = lots.between(0.8, 3);
-    solid.leg = {lots.between(25, 40), lots.between(25, 40)};
-    solid.bend = {{lots.between(1, 6) * solid.thickness, (lots.coin() ? 1 : -1) * lots.between(0.3, 1.75)}};
+    solid.thickness = random.between(0.8, 3);
+    solid.leg = {random.between(25, 40), random.between(25, 40)};
+    solid.bend = {{random.between(1, 6) * solid.thickness, (random.coin() ? 1 : -1) * random.between(0.3, 1.75)}};
     solid.width = 70;
     solid.pose = seed;
-    const double depth = solid.thickness * lots.between(0.03, 0.19) * (lots.whole(0, 3) ? 1 : -1);
-    const double high = lots.between(8, 14);
+    const double depth = solid.thickness * random.between(0.03, 0.19) * (random.whole(0, 3) ? 1 : -1);
+    const double high = random.between(8, 14);
     for (int k = 0; k < 3; ++k) {
-        const double turn = lots.between(0, 2 * pi), aside = lots.between(-6, 6);
-        Stamp stamp{0, letter(lots.whole(0, 4)), depth};
+        const double turn = random.between(0, 2 * pi), aside = random.between(-6, 6);
+        Stamp stamp{0, letter(random.whole(0, 4)), depth};
         for (Loop& loop : stamp.outline)
             for (Eigen::Vector2d& p : loop)
                 p = Eigen::Rotation2Dd(turn) * (high * p) + Eigen::Vector2d(aside, 15 + 20 * k);
@@ -104,7 +104,7 @@ TEST(StampedBends, OfCadFilesAreLaidFlatAsIfTheyWerePlain)
 {
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-        const BentSolid solid = drawn_by_lot(seed);
+        const BentSolid solid = random_drawn_solid(seed);
         shapes::write_bent_solid(folder / "part.step", solid);
         SCOPED_TRACE(fmt::format("seed {}, t {:.3g}, R {:.3g}, {:.3g} rad, {:.3g} deep", seed, solid.thickness,
                                  solid.bend[0].inner_radius, solid.bend[0].angle, solid.stamp[0].depth));
@@ -123,7 +123,7 @@ TEST(StampedBends, OfMeshesAreLaidFlatAsIfTheyWerePlain)
     const ScratchFolder folder;
     int fallen_back = 0;
     for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-        const BentSolid solid = drawn_by_lot(seed);
+        const BentSolid solid = random_drawn_solid(seed);
         shapes::write_bent_solid(folder / "part.stl", solid, CadForm::stl);
         SCOPED_TRACE(fmt::format("seed {}, t {:.3g}, R {:.3g}, {:.3g} rad, {:.3g} deep", seed, solid.thickness,
                                  solid.bend[0].inner_radius, solid.bend[0].angle, solid.stamp[0].depth));

@@ -17,8 +17,8 @@
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
-#include "tests/support/lots.h"
 #include "tests/support/mesh_file.h"
+#include "tests/support/seeded_random.h"
 #include "tests/support/sheet_solid.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -100,28 +100,29 @@ Drawn drawn_in(const fs::path& file)
 /// Cutouts of all kinds, each with a radius of its own, side by side on the legs.
 BentSolid drilled(std::uint64_t seed)
 {
-    shapes::Lots lots(seed);
+    shapes::SeededRandom random(seed);
     BentSolid solid;
     solid.kind = "drilled";
-    solid.thickness = lots.between(0.8, 3);
-    solid.width = lots.between(60, 120);
+    solid.thickness = random.between(0.8, 3);
+    solid.width = random.between(60, 120);
     solid.pose = seed;
-    const int bends = lots.whole(0, 2);
+    const int bends = random.whole(0, 2);
     for (int b = 0; b < bends; ++b)
-        solid.bend.push_back({lots.between(1, 4) * solid.thickness, lots.between(0.4, 1.6) * (lots.coin() ? 1 : -1)});
+        solid.bend.push_back(
+            {random.between(1, 4) * solid.thickness, random.between(0.4, 1.6) * (random.coin() ? 1 : -1)});
     for (int leg = 0; leg <= bends; ++leg) {
-        const int along = lots.whole(1, 3);
+        const int along = random.whole(1, 3);
         solid.leg.push_back(along * 40);
         for (int k = 0; k < along; ++k) {
             Cutout cutout;
             cutout.leg = leg;
-            cutout.centre = {40 * k + lots.between(16, 24), solid.width * lots.between(0.3, 0.7)};
-            cutout.turn = lots.between(0, pi);
-            cutout.width = lots.between(3, 14);
-            const int kind = lots.whole(0, 2);
-            cutout.length = kind == 0 ? cutout.width : cutout.width + lots.between(2, 8);
-            cutout.radius = kind == 2 ? cutout.width * lots.between(0.1, 0.4) : cutout.width / 2;
-            cutout.halves = lots.coin();
+            cutout.centre = {40 * k + random.between(16, 24), solid.width * random.between(0.3, 0.7)};
+            cutout.turn = random.between(0, pi);
+            cutout.width = random.between(3, 14);
+            const int kind = random.whole(0, 2);
+            cutout.length = kind == 0 ? cutout.width : cutout.width + random.between(2, 8);
+            cutout.radius = kind == 2 ? cutout.width * random.between(0.1, 0.4) : cutout.width / 2;
+            cutout.halves = random.coin();
             solid.cutout.push_back(cutout);
         }
     }
@@ -165,7 +166,7 @@ protected:
     ScratchFolder folder_;
 };
 
-/// Radii and places of all arcs against those that were drawn by lot.
+/// Radii and places of all arcs against those that were drawn at random.
 void expect_cutouts(const BentSolid& solid, const Drawn& drawn, const std::string& what)
 {
     constexpr double same = 1e-9; // of a length

@@ -13,7 +13,7 @@
 #include "engine/pipeline/session.h"
 #include "engine/unfold/plan/bends.h"
 #include "tests/support/cad/bent_solid.h"
-#include "tests/support/lots.h"
+#include "tests/support/seeded_random.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/pipeline/solved_bent_solid.h"
 
@@ -26,57 +26,58 @@ using shapes::Cutout;
 using shapes::Sink;
 
 /// One of a hole on each leg of a plate or a bracket: sunk from either side, to any depth, through all of it at times.
-BentSolid drawn_by_lot(std::uint64_t seed)
+BentSolid random_sunk_solid(std::uint64_t seed)
 {
-    shapes::Lots lots(seed);
+    shapes::SeededRandom random(seed);
     BentSolid solid;
     solid.kind = "sunk";
-    solid.thickness = lots.between(1, 4);
+    solid.thickness = random.between(1, 4);
     solid.width = 100; // so large that the floors of counterbores are specks
     solid.pose = seed;
     solid.leg = {160};
-    if (lots.coin()) {
+    if (random.coin()) {
         solid.leg.push_back(160);
-        solid.bend.push_back({lots.between(1, 3) * solid.thickness, lots.coin() ? 1.2 : -1.2});
+        solid.bend.push_back({random.between(1, 3) * solid.thickness, random.coin() ? 1.2 : -1.2});
     }
     for (int leg = 0; leg < int(solid.leg.size()); ++leg) {
         Sink sink;
         sink.leg = leg;
-        sink.centre = {lots.between(50, 110), lots.between(30, 70)};
-        sink.hole = lots.between(2, 5);
-        sink.counterbore = lots.coin();
-        sink.left = lots.coin();
-        const bool through = !sink.counterbore && lots.whole(0, 2) == 0;
-        sink.depth = solid.thickness * (through ? 1 : lots.between(0.25, 0.9)); // shallower wide counterbores are marks
-        sink.wide = sink.hole + lots.between(0.5, 1.2) * (sink.counterbore ? solid.thickness : sink.depth);
+        sink.centre = {random.between(50, 110), random.between(30, 70)};
+        sink.hole = random.between(2, 5);
+        sink.counterbore = random.coin();
+        sink.left = random.coin();
+        const bool through = !sink.counterbore && random.whole(0, 2) == 0;
+        sink.depth =
+            solid.thickness * (through ? 1 : random.between(0.25, 0.9)); // shallower wide counterbores are marks
+        sink.wide = sink.hole + random.between(0.5, 1.2) * (sink.counterbore ? solid.thickness : sink.depth);
         solid.sink.push_back(sink);
     }
     return solid;
 }
 
 /// Plates and brackets with one to four counterbores of catalogue's sizes, tenths of a millimetre, from both sides.
-BentSolid counterbored_by_lot(std::uint64_t seed)
+BentSolid random_counterbored_solid(std::uint64_t seed)
 {
-    shapes::Lots lots(seed + 1000);
-    const auto tenths = [&](double low, double high) { return std::round(10 * lots.between(low, high)) / 10; };
+    shapes::SeededRandom random(seed + 1000);
+    const auto tenths = [&](double low, double high) { return std::round(10 * random.between(low, high)) / 10; };
     BentSolid solid;
     solid.kind = fmt::format("counterbored, seed {}", seed);
     solid.thickness = tenths(2, 12);
     solid.width = tenths(50, 80);
     solid.pose = seed;
     solid.leg = {tenths(100, 140)};
-    if (solid.thickness < 5 && lots.coin()) {
+    if (solid.thickness < 5 && random.coin()) {
         solid.leg.push_back(40);
-        solid.bend.push_back({lots.between(1, 3) * solid.thickness, lots.coin() ? 1.2 : -1.2});
+        solid.bend.push_back({random.between(1, 3) * solid.thickness, random.coin() ? 1.2 : -1.2});
     }
-    const int count = lots.whole(1, 4);
+    const int count = random.whole(1, 4);
     for (int i = 0; i < count; ++i) {
         Sink sink;
-        sink.centre = {solid.leg[0] * (i + 0.5) / count, solid.width * lots.between(0.4, 0.6)};
+        sink.centre = {solid.leg[0] * (i + 0.5) / count, solid.width * random.between(0.4, 0.6)};
         sink.hole = tenths(1.5, 5);
         sink.wide = sink.hole + tenths(2, 4.5);
         sink.counterbore = true;
-        sink.left = lots.coin();
+        sink.left = random.coin();
         sink.depth = tenths(0.25 * solid.thickness, 0.9 * solid.thickness); // shallower ones are marks
         solid.sink.push_back(sink);
     }
@@ -103,31 +104,31 @@ BentSolid counterbored(double length, double width, double thickness, double wid
 
 /// One to six countersinks and a counterbore or two on one flat of a plate or an L bracket, from both sides, of any angle from 60 to 140 degrees,
 /// a tenth of the thickness deep to all of it, holes of half the thickness to six times it. Hundredths of a millimetre.
-BentSolid any_sinks_by_lot(std::uint64_t seed)
+BentSolid random_mixed_sinks(std::uint64_t seed)
 {
-    shapes::Lots lots(seed + 5000);
+    shapes::SeededRandom random(seed + 5000);
     const auto hundredths = [](double value) { return std::round(100 * value) / 100; };
     BentSolid solid;
     solid.kind = fmt::format("any sinks, seed {}", seed);
-    const double t = solid.thickness = hundredths(lots.between(0.8, 4));
+    const double t = solid.thickness = hundredths(random.between(0.8, 4));
     solid.pose = seed;
     const double cell = 13 * t; // the widest is 11.5 t wide
     solid.width = 2 * cell;
     solid.leg = {3 * cell};
-    if (lots.coin()) {
-        solid.leg.push_back(lots.between(8, 30) * t);
-        solid.bend.push_back({lots.between(0.5, 3) * t, lots.coin() ? 1.3 : -1.3});
+    if (random.coin()) {
+        solid.leg.push_back(random.between(8, 30) * t);
+        solid.bend.push_back({random.between(0.5, 3) * t, random.coin() ? 1.3 : -1.3});
     }
-    const int count = lots.whole(1, 6);
+    const int count = random.whole(1, 6);
     for (int i = 0; i < count; ++i) {
         Sink sink;
-        sink.centre = {(i % 3 + lots.between(0.48, 0.52)) * cell, (i / 3 + lots.between(0.48, 0.52)) * cell};
-        sink.left = lots.coin();
-        sink.hole = hundredths(lots.between(0.25, 3) * t);
-        sink.counterbore = lots.whole(0, 6) == 0;
-        sink.depth = lots.whole(0, 3) == 0 && !sink.counterbore ? t : hundredths(lots.between(0.1, 0.97) * t);
-        const double half_angle = lots.between(30, 70) * std::numbers::pi / 180;
-        sink.wide = sink.hole + hundredths(sink.counterbore ? lots.between(0.2, 2.5) * t
+        sink.centre = {(i % 3 + random.between(0.48, 0.52)) * cell, (i / 3 + random.between(0.48, 0.52)) * cell};
+        sink.left = random.coin();
+        sink.hole = hundredths(random.between(0.25, 3) * t);
+        sink.counterbore = random.whole(0, 6) == 0;
+        sink.depth = random.whole(0, 3) == 0 && !sink.counterbore ? t : hundredths(random.between(0.1, 0.97) * t);
+        const double half_angle = random.between(30, 70) * std::numbers::pi / 180;
+        sink.wide = sink.hole + hundredths(sink.counterbore ? random.between(0.2, 2.5) * t
                                                             : std::max(sink.depth * std::tan(half_angle), 0.03 * t));
         solid.sink.push_back(sink);
     }
@@ -233,7 +234,7 @@ TEST(SunkHoles, HaveTheirLeastDiameterAndAreTold)
     for (std::uint64_t seed = 1; seed <= 24; ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
             SCOPED_TRACE(fmt::format("seed {}", seed));
-            expect_right(folder, drawn_by_lot(seed), form);
+            expect_right(folder, random_sunk_solid(seed), form);
         }
 }
 
@@ -243,7 +244,7 @@ TEST(SunkHoles, OfAnyAngleDepthAndSizeAreRightHoweverManyAreOnAFlat)
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
         for (const CadForm form : {CadForm::step, CadForm::stl}) {
-            const BentSolid solid = any_sinks_by_lot(seed);
+            const BentSolid solid = random_mixed_sinks(seed);
             SCOPED_TRACE(solid.kind);
             expect_right(folder, solid, form);
         }
@@ -374,18 +375,18 @@ TEST(SunkHoles, OfNinetyDegreesAreNoSkinWhereverTheyAre)
     const ScratchFolder folder;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
-        shapes::Lots lots(seed + 900);
+        shapes::SeededRandom random(seed + 900);
         BentSolid solid;
         solid.kind = "plate";
-        solid.thickness = lots.between(1.5, 4);
+        solid.thickness = random.between(1.5, 4);
         solid.width = 120;
         solid.leg = {150};
         Sink sink;
-        sink.centre = {lots.between(20, 130), lots.between(20, 100)};
-        sink.hole = lots.between(1.5, 4);
-        sink.depth = solid.thickness * lots.between(0.5, 0.95);
+        sink.centre = {random.between(20, 130), random.between(20, 100)};
+        sink.hole = random.between(1.5, 4);
+        sink.depth = solid.thickness * random.between(0.5, 0.95);
         sink.wide = sink.hole + sink.depth;
-        sink.left = lots.coin();
+        sink.left = random.coin();
         solid.sink = {sink};
         expect_right(folder, solid, CadForm::step);
     }
@@ -396,7 +397,7 @@ TEST(SunkHoles, AreNoStepsHoweverLargeTheFloorsOfCounterboresAre)
     const ScratchFolder folder;
     std::vector<BentSolid> solids = {counterbored(100, 60, 12, 15, 9, 8.6), counterbored(60, 40, 3, 11, 6.6, 1.5)};
     for (std::uint64_t seed = 1; seed <= 24; ++seed)
-        solids.push_back(counterbored_by_lot(seed));
+        solids.push_back(random_counterbored_solid(seed));
     int large = 0;
     for (const BentSolid& solid : solids) {
         large += std::ranges::any_of(solid.sink, [&](const Sink& sink) { return floor_share(solid, sink) > 0.005; });

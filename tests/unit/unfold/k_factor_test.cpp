@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/unfold/plan/k_factor.h"
-#include "tests/support/lots.h"
+#include "tests/support/seeded_random.h"
 
 namespace spia {
 namespace {
@@ -74,14 +74,14 @@ TEST(KFactor, ATableAtFaultIsRefusedWithItsLine)
 
 TEST(KFactor, ATableOfAnyBytesIsReadOrRefused)
 {
-    shapes::Lots lots(7);
+    shapes::SeededRandom random(7);
     const std::string letters = "0123456789.eE+-,; \t\r\n#RKt/\xff";
     for (int trial = 0; trial < 20'000; ++trial) {
         std::string text;
-        const int length = lots.whole(0, 40);
+        const int length = random.whole(0, 40);
         for (int i = 0; i < length; ++i)
-            text += lots.whole(0, 30) == 0 ? char(lots.whole(-128, 127))
-                                           : letters[size_t(lots.whole(0, int(letters.size()) - 1))];
+            text += random.whole(0, 30) == 0 ? char(random.whole(-128, 127))
+                                             : letters[size_t(random.whole(0, int(letters.size()) - 1))];
         try {
             const KFactor k = parse_k_table(text, "k.txt");
             for (const double ratio : {0., 0.3, 1., 10.}) {

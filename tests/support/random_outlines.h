@@ -6,13 +6,13 @@
 
 #include "engine/mesh/tri_mesh.h"
 
-/// Flat parts with outlines and corners drawn by lot. They are their own blank.
+/// Flat parts with outlines and corners drawn at random. They are their own blank.
 namespace spia::shapes {
 
 /// A counter-clockwise outline, meshed, z = 0. Vertices 0, 1, ... are those of the outline.
 TriMesh meshed_outline(const std::vector<Eigen::Vector2d>& outline);
 
-struct OutlineByLot {
+struct RandomOutline {
     std::string name; ///< kind and number: "comb 17"
     TriMesh part;     ///< z = 0; may have holes
     std::array<int, 4>
@@ -22,9 +22,9 @@ struct OutlineByLot {
 constexpr int outline_kinds = 8;
 std::string_view outline_kind(int kind); ///< star, L, U, comb, spiral, lobes, maze, plate with holes
 
-/// One outline of a kind, turned and stretched by lot: the same every time and everywhere. Corners are any four vertices at
+/// One outline of a kind, turned and stretched at random: the same every time and everywhere. Corners are any four vertices at
 /// which the outline turns to the left, looked at from its neighbours and from one hundredth of its length: a cell with
 /// straight edges cannot have a corner of 180 degrees or more.
-OutlineByLot outline_by_lot(int kind, int number);
+RandomOutline random_outline(int kind, int number);
 
 } // namespace spia::shapes

@@ -1,4 +1,4 @@
-#include "tests/support/outlines_by_lot.h"
+#include "tests/support/random_outlines.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "engine/mesh/mesh_polygon.h"
 #include "engine/mesh/topology.h"
 #include "engine/mesh/vectors.h"
-#include "tests/support/lots.h"
+#include "tests/support/seeded_random.h"
 
 namespace spia::shapes {
 
@@ -27,44 +27,45 @@ constexpr int pieces_of_outline = 260; // about
 
 Point polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
 
-Points star(Lots& lots)
+Points star(SeededRandom& random)
 {
-    const int tips = lots.whole(4, 10);
+    const int tips = random.whole(4, 10);
     Points corners;
     for (int i = 0; i < 2 * tips; ++i)
-        corners.push_back(polar(i % 2 ? lots.between(0.2, 0.7) : lots.between(0.8, 1.3),
-                                pi * (i + lots.between(-0.25, 0.25)) / tips));
+        corners.push_back(polar(i % 2 ? random.between(0.2, 0.7) : random.between(0.8, 1.3),
+                                pi * (i + random.between(-0.25, 0.25)) / tips));
     return corners;
 }
 
-Points l_shape(Lots& lots)
+Points l_shape(SeededRandom& random)
 {
-    const double a = lots.between(1, 2), b = lots.between(1, 2), w = lots.between(0.1, 0.7), h = lots.between(0.1, 0.7);
+    const double a = random.between(1, 2), b = random.between(1, 2), w = random.between(0.1, 0.7),
+                 h = random.between(0.1, 0.7);
     return {{0, 0}, {a, 0}, {a, h}, {w, h}, {w, b}, {0, b}};
 }
 
-Points u_shape(Lots& lots)
+Points u_shape(SeededRandom& random)
 {
-    const double a = lots.between(1, 2), w = lots.between(0.1, 0.4), v = lots.between(0.1, 0.4),
-                 h = lots.between(0.1, 0.5), left = lots.between(0.7, 3), right = lots.between(0.7, 3);
+    const double a = random.between(1, 2), w = random.between(0.1, 0.4), v = random.between(0.1, 0.4),
+                 h = random.between(0.1, 0.5), left = random.between(0.7, 3), right = random.between(0.7, 3);
     return {{0, 0}, {a, 0}, {a, right}, {a - v, right}, {a - v, h}, {w, h}, {w, left}, {0, left}};
 }
 
-Points comb(Lots& lots)
+Points comb(SeededRandom& random)
 {
-    const int teeth = lots.whole(3, 8);
-    const double gap = lots.between(0.25, 0.7), back = lots.between(0.3, 2);
-    const bool both_sides = lots.coin();
+    const int teeth = random.whole(3, 8);
+    const double gap = random.between(0.25, 0.7), back = random.between(0.3, 2);
+    const bool both_sides = random.coin();
     Points corners = {{0, -back}};
     for (int i = 0; both_sides && i + 1 < teeth; ++i) {
-        const double depth = lots.between(0.3, 2.5);
+        const double depth = random.between(0.3, 2.5);
         corners.insert(
             corners.end(),
             {{i + 1 - gap, -back}, {i + 1 - gap, -back - depth}, {i + 1.0, -back - depth}, {i + 1.0, -back}});
     }
     corners.push_back({teeth - gap, -back});
     for (int i = teeth - 1; i >= 0; --i) {
-        const double depth = lots.between(0.3, 4);
+        const double depth = random.between(0.3, 4);
         if (i < teeth - 1)
             corners.push_back({i + 1 - gap, 0});
         corners.insert(corners.end(), {{i + 1 - gap, depth}, {double(i), depth}});
@@ -75,9 +76,9 @@ Points comb(Lots& lots)
 }
 
 /// A band whose width is a share of the pitch.
-Points spiral(Lots& lots)
+Points spiral(SeededRandom& random)
 {
-    const double windings = lots.between(0.8, 3), share = lots.between(0.3, 0.75), core = lots.between(0.6, 1.5);
+    const double windings = random.between(0.8, 3), share = random.between(0.3, 0.75), core = random.between(0.6, 1.5);
     const int n = int(30 * (core + windings) * windings);
     Points outer, inner;
     for (int i = 0; i <= n; ++i) {
@@ -89,12 +90,12 @@ Points spiral(Lots& lots)
     return outer;
 }
 
-Points lobes(Lots& lots)
+Points lobes(SeededRandom& random)
 {
     std::vector<double> a, phase;
     for (int k = 2; k <= 7; ++k) {
-        a.push_back(lots.between(0, 0.3));
-        phase.push_back(lots.between(0, 2 * pi));
+        a.push_back(random.between(0, 0.3));
+        phase.push_back(random.between(0, 2 * pi));
     }
     Points points;
     for (int i = 0; i < pieces_of_outline; ++i) {
@@ -108,15 +109,16 @@ Points lobes(Lots& lots)
 }
 
 /// Corridors on a chess board that branch and never meet again.
-Points maze(Lots& lots)
+Points maze(SeededRandom& random)
 {
     using Field = std::pair<int, int>;
     const std::array<Field, 4> ways = {Field{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     std::set<Field> taken = {{0, 0}};
     std::vector<Field> order = {{0, 0}};
-    const size_t fields = size_t(lots.whole(8, 30));
+    const size_t fields = size_t(random.whole(8, 30));
     for (int trial = 0; trial < 3000 && order.size() < fields; ++trial) {
-        const Field from = order[size_t(lots.whole(0, int(order.size()) - 1))], way = ways[size_t(lots.whole(0, 3))];
+        const Field from = order[size_t(random.whole(0, int(order.size()) - 1))],
+                    way = ways[size_t(random.whole(0, 3))];
         const Field to = {from.first + way.first, from.second + way.second};
         bool free = !taken.contains(to);
         for (int i = -1; i <= 1; ++i)
@@ -158,14 +160,14 @@ Points maze(Lots& lots)
     return corners;
 }
 
-Points plate(Lots& lots)
+Points plate(SeededRandom& random)
 {
-    if (lots.coin())
-        return l_shape(lots);
+    if (random.coin())
+        return l_shape(random);
     Points points;
-    const int n = lots.whole(4, 60);
+    const int n = random.whole(4, 60);
     for (int i = 0; i < n; ++i)
-        points.push_back(polar(1, 2 * pi * (i + lots.between(0, 0.5)) / n));
+        points.push_back(polar(1, 2 * pi * (i + random.between(0, 0.5)) / n));
     return points;
 }
 
@@ -177,10 +179,10 @@ double length(const Points& loop)
     return sum;
 }
 
-Points turned_and_stretched(const Points& loop, Lots& lots)
+Points turned_and_stretched(const Points& loop, SeededRandom& random)
 {
-    const Eigen::Rotation2D<double> first(lots.between(0, 2 * pi)), second(lots.between(0, 2 * pi));
-    const double stretch = std::exp(lots.between(0, 0.9)), size = std::exp(lots.between(0, 5));
+    const Eigen::Rotation2D<double> first(random.between(0, 2 * pi)), second(random.between(0, 2 * pi));
+    const double stretch = std::exp(random.between(0, 0.9)), size = std::exp(random.between(0, 5));
     Points result;
     for (const Point& p : loop) {
         Point q = first * p;
@@ -262,7 +264,7 @@ TriMesh without(const TriMesh& mesh, const std::vector<char>& removed)
 }
 
 /// Cuts up to `wanted` holes with jagged edges into a mesh: around random vertices far enough from everything that is cut.
-TriMesh with_holes(const TriMesh& mesh, int wanted, Lots& lots)
+TriMesh with_holes(const TriMesh& mesh, int wanted, SeededRandom& random)
 {
     std::vector<int> outline = boundary_loops(mesh)[0];
     std::vector<char> near(size_t(mesh.vertices()), 0),
@@ -284,8 +286,8 @@ TriMesh with_holes(const TriMesh& mesh, int wanted, Lots& lots)
     int cut = 0;
     for (int trial = 0; trial < 400 && cut < wanted; ++trial) {
         std::vector<char> hole(size_t(mesh.vertices()), 0);
-        hole[size_t(lots.whole(0, mesh.vertices() - 1))] = 1;
-        spread(hole, lots.whole(1, 3)); // the balls around a vertex, so that no edge pinches
+        hole[size_t(random.whole(0, mesh.vertices() - 1))] = 1;
+        spread(hole, random.whole(1, 3)); // the balls around a vertex, so that no edge pinches
         bool free = true;
         for (size_t v = 0; v < hole.size(); ++v)
             free = free && !(hole[v] && near[v]);
@@ -332,7 +334,7 @@ double inner_angle(const Points& loop, size_t i, double reach)
     return angle > 0 ? angle : angle + 2 * pi;
 }
 
-std::array<int, 4> corners_by_lot(const TriMesh& part, Lots& lots)
+std::array<int, 4> random_corners(const TriMesh& part, SeededRandom& random)
 {
     const auto loops = boundary_loops(part);
     size_t outer = 0;
@@ -354,7 +356,7 @@ std::array<int, 4> corners_by_lot(const TriMesh& part, Lots& lots)
         throw std::logic_error("an outline without four places for corners");
     std::set<int> chosen;
     while (chosen.size() < 4)
-        chosen.insert(convex[size_t(lots.whole(0, int(convex.size()) - 1))]);
+        chosen.insert(convex[size_t(random.whole(0, int(convex.size()) - 1))]);
     std::array<int, 4> corner;
     size_t k = 0;
     for (const int i : chosen)
@@ -384,20 +386,20 @@ std::string_view outline_kind(int kind)
     return names.at(size_t(kind));
 }
 
-OutlineByLot outline_by_lot(int kind, int number)
+RandomOutline random_outline(int kind, int number)
 {
-    Lots lots(std::uint64_t(1000 * kind + number + 1));
-    using Draw = Points (*)(Lots&);
+    SeededRandom random(std::uint64_t(1000 * kind + number + 1));
+    using Draw = Points (*)(SeededRandom&);
     constexpr std::array<Draw, outline_kinds> draw = {star, l_shape, u_shape, comb, spiral, lobes, maze, plate};
-    OutlineByLot result;
+    RandomOutline result;
     result.name = fmt::format("{} {}", outline_kind(kind), number);
-    const Points corners = turned_and_stretched(draw[size_t(kind)](lots), lots);
+    const Points corners = turned_and_stretched(draw[size_t(kind)](random), random);
     // mesh_polygon() refuses some outlines with many points on a straight line that rounding has bent: other points then.
     for (int pieces = pieces_of_outline; result.part.triangles() == 0; pieces += 7)
         result.part = meshed_outline(divided(corners, length(corners) / pieces));
     if (kind == outline_kinds - 1)
-        result.part = with_holes(divided(result.part, 1), 1 + number % 20, lots);
-    result.corner = corners_by_lot(result.part, lots);
+        result.part = with_holes(divided(result.part, 1), 1 + number % 20, random);
+    result.corner = random_corners(result.part, random);
     return result;
 }
 
