@@ -48,7 +48,7 @@ bool same_letters(std::string_view a, std::string_view b)
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
-std::optional<double> deck_number(std::string_view field)
+std::optional<double> read_number(std::string_view field)
 {
     field = without_plus(trimmed(field));
     const size_t first = field.empty() || field.front() != '-' ? 0 : 1;
@@ -69,7 +69,7 @@ std::optional<double> deck_number(std::string_view field)
     return from_text(text.data(), std::copy(lower(*rest) == 'd' ? rest + 1 : rest, end, out));
 }
 
-std::optional<std::int64_t> deck_whole(std::string_view field)
+std::optional<std::int64_t> read_whole_number(std::string_view field)
 {
     field = without_plus(trimmed(field));
     const char *begin = field.data(), *end = begin + field.size();

@@ -226,7 +226,7 @@ void AbaqusNodes::begin_set(const AbaqusKeyword& keyword)
 void AbaqusNodes::listed(const DeckFields& fields)
 {
     for (size_t k = 0; k < fields.count(); ++k)
-        if (const auto id = deck_whole(fields[k]))
+        if (const auto id = read_whole_number(fields[k]))
             sets_.add(*id, *id, 1);
         else if (!fields[k].empty())
             sets_.add_set(without_quotes(fields[k]));

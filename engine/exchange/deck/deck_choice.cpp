@@ -34,7 +34,7 @@ int named(std::string_view name, size_t count, const std::function<std::string_v
 /// -1 if there is none
 int find_part(const Deck& deck, std::string_view wanted)
 {
-    if (const auto id = deck_whole(wanted))
+    if (const auto id = read_whole_number(wanted))
         for (size_t p = 0; p < deck.parts.size(); ++p)
             if (deck.parts[p].id == id)
                 return int(p);

@@ -154,7 +154,7 @@ void DeckLines::note(std::string text)
 
 std::int64_t DeckLines::whole(std::string_view field) const
 {
-    if (const auto value = deck_whole(field))
+    if (const auto value = read_whole_number(field))
         return *value;
     fail(trimmed(field).empty() ? std::string("a number is missing")
                                 : fmt::format("'{}' is not a whole number", trimmed(field).substr(0, 40)));
@@ -167,7 +167,7 @@ std::int64_t DeckLines::whole_or_zero(std::string_view field) const
 
 double DeckLines::number(std::string_view field) const
 {
-    if (const auto value = deck_number(field))
+    if (const auto value = read_number(field))
         return *value;
     fail(trimmed(field).empty() ? std::string("a number is missing")
                                 : fmt::format("'{}' is not a number", trimmed(field).substr(0, 40)));

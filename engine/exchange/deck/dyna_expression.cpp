@@ -103,7 +103,7 @@ std::optional<double> dyna_expression(std::string_view text,
         define_functions(parser);
         for (const std::string& name : names_in(parsed))
             if (const std::optional<std::string> known = value(name))
-                if (const std::optional<double> number = deck_number(*known))
+                if (const std::optional<double> number = read_number(*known))
                     parser.DefineConst(name, *number);
         parser.SetExpr(parsed);
         const double result = parser.Eval();

@@ -40,7 +40,7 @@ void DynaParameters::define_expression(std::string_view line, int width, bool lo
     const size_t cut = comma != line.npos ? comma : std::min(line.size(), size_t(width));
     const std::string_view text = trimmed(line.substr(std::min(line.size(), comma != line.npos ? cut + 1 : cut)));
     const std::string_view name = trimmed(line.substr(0, cut));
-    if (name.empty() || deck_number(text)) {
+    if (name.empty() || read_number(text)) {
         set(name, text, local);
         return;
     }

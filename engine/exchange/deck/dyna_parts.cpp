@@ -136,7 +136,7 @@ void DynaParts::material(std::string_view line)
         return;
     }
     values_.cut(line, {10});
-    if (const auto id = deck_whole(values_.fields()[0])) // newer decks may give a name instead
+    if (const auto id = read_whole_number(values_.fields()[0])) // newer decks may give a name instead
         materials_[*id + values_.placement.material] = {keyword_, title_};
     count_ = -1;
 }

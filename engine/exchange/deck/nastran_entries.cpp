@@ -194,7 +194,7 @@ void NastranEntries::comment(std::string_view line)
         return line.substr(at, std::min(line.find_first_not_of("0123456789", at), line.size()) - at);
     };
     const auto remember = [&](std::string_view number, std::string_view name) {
-        if (const auto id = deck_whole(number); id && !trimmed(name).empty())
+        if (const auto id = read_whole_number(number); id && !trimmed(name).empty())
             property_name_[*id] = std::string(trimmed(name));
     };
     if (constexpr std::string_view head = "$HMNAME PROP"; line.starts_with(head)) {

@@ -161,7 +161,7 @@ private:
     void other_element()
     {
         deck_.count_other_elements(type_ + " lines");
-        if (const auto id = deck_whole(fields_[0])) // or a node, where this line goes on with one before
+        if (const auto id = read_whole_number(fields_[0])) // or a node, where this line goes on with one before
             elements_.add_other(*id);
     }
 
@@ -203,7 +203,7 @@ private:
     void listed()
     {
         for (size_t k = 0; k < fields_.count(); ++k)
-            if (const auto id = deck_whole(fields_[k]))
+            if (const auto id = read_whole_number(fields_[k]))
                 elements_.sets().add(set_, *id, *id, 1);
             else if (!fields_[k].empty())
                 elements_.sets().add_set(set_, without_quotes(fields_[k]));

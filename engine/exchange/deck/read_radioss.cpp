@@ -102,7 +102,7 @@ private:
                 deck_.count_unread_geometry("/TRANSFORM/" + upper_case(word[1]));
         } else if (name == "/SUBMODEL") {
             if (!word[4].empty()) // "V41"
-                require_version(deck_whole(word[4].substr(1)).value_or(0));
+                require_version(read_whole_number(word[4].substr(1)).value_or(0));
             submodels_.begin(lines_.whole(word[2]), !word[3].empty() && lines_.whole(word[3]) != 0);
             card_ = &RadiossReader::submodel;
         } else if (name == "/ENDSUB")

@@ -8,39 +8,39 @@
 namespace spia {
 namespace {
 
-TEST(DeckNumber, IsReadAsFortranWritesIt)
+TEST(ReadNumber, IsReadAsFortranWritesIt)
 {
     const std::pair<const char*, double> known[] = {
         {"1", 1},         {" 12.5 ", 12.5}, {"\t-.5", -0.5},    {"+3.", 3},      {"1.5-3", 1.5e-3}, {"1.+5", 1e5},
         {"-7.5+2", -750}, {".25-1", 0.025}, {"1.5D-3", 1.5e-3}, {"2.d+04", 2e4}, {"1.e+06", 1e6},   {"8.64E8", 8.64e8},
         {"1D3", 1000},    {"7+3", 7000},    {"1e-400", 0},      {"1.-400", 0}};
     for (const auto& [text, value] : known) {
-        const auto read = deck_number(text);
+        const auto read = read_number(text);
         ASSERT_TRUE(read) << text;
         EXPECT_DOUBLE_EQ(*read, value) << text;
     }
-    EXPECT_EQ(deck_number("0.1"), 0.1); // the nearest double, not the sum of digits
-    EXPECT_EQ(deck_number("317.598037570512"), 317.598037570512);
+    EXPECT_EQ(read_number("0.1"), 0.1); // the nearest double, not the sum of digits
+    EXPECT_EQ(read_number("317.598037570512"), 317.598037570512);
 }
 
-TEST(DeckNumber, IsNothingIfItIsNoFiniteNumber)
+TEST(ReadNumber, IsNothingIfItIsNoFiniteNumber)
 {
     for (const char* text : {"",     " ",    "-",    "+",       ".",    "nan", "inf", "-inf", "1e999", "1.+999", "1,5",
                              "1.5x", "0x10", "1.5-", "1.5-3-2", "1.5D", "--1", "+-1", "1 2",  "e5",    "1.5e",   "&t"})
-        EXPECT_FALSE(deck_number(text)) << text;
-    EXPECT_FALSE(deck_number(std::string(100, '1') + "D2")); // longer than any that is written so
+        EXPECT_FALSE(read_number(text)) << text;
+    EXPECT_FALSE(read_number(std::string(100, '1') + "D2")); // longer than any that is written so
 }
 
-TEST(DeckNumber, WholeNumbersMayHaveAPointButNoFraction)
+TEST(ReadNumber, WholeNumbersMayHaveAPointButNoFraction)
 {
-    EXPECT_EQ(deck_whole(" 12 "), 12);
-    EXPECT_EQ(deck_whole("+12"), 12);
-    EXPECT_EQ(deck_whole("-3"), -3);
-    EXPECT_EQ(deck_whole("12."), 12);
-    EXPECT_EQ(deck_whole("12.00"), 12);
-    EXPECT_EQ(deck_whole("9999999999"), 9999999999);
+    EXPECT_EQ(read_whole_number(" 12 "), 12);
+    EXPECT_EQ(read_whole_number("+12"), 12);
+    EXPECT_EQ(read_whole_number("-3"), -3);
+    EXPECT_EQ(read_whole_number("12."), 12);
+    EXPECT_EQ(read_whole_number("12.00"), 12);
+    EXPECT_EQ(read_whole_number("9999999999"), 9999999999);
     for (const char* text : {"", "+-1", "12.5", "1e3", "x", "99999999999999999999", "1 2", "- 3"})
-        EXPECT_FALSE(deck_whole(text)) << text;
+        EXPECT_FALSE(read_whole_number(text)) << text;
 }
 
 TEST(NodeNumbers, AreTheSameByTableAndByBisection)

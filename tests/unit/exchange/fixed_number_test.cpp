@@ -24,7 +24,7 @@ TEST(FixedNumber, HasItsWidthABlankAPointAndReadsBackToThePrecisionPromised)
             ASSERT_EQ(int(text.size()), width) << text;
             ASSERT_EQ(text[0], ' ') << text;
             ASSERT_NE(text.find('.'), text.npos) << text;
-            const auto read = deck_number(text);
+            const auto read = read_number(text);
             ASSERT_TRUE(read) << text;
             worst = std::max(worst, std::abs(*read / value - 1));
         }
