@@ -3,12 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "engine/mesh/face_neighbours.h"
+#include "engine/mesh/plane_regions.h"
 
 namespace spia {
 namespace {
@@ -19,30 +18,25 @@ constexpr double through = 0.9,
 
 constexpr double parallel = 1 - 1e-5; // 0.3 degrees
 
-/// From one triangle across its edge from corner k on.
-struct Border {
-    int face, k, next;
-};
-
 /// A circular hole in a plane.
 struct Mouth {
     int plane;
     RoundEdge circle;
-    std::vector<Border> edge;
+    std::vector<FaceEdge> edge;
 };
 
 class Search {
 public:
     Search(const TriMesh& solid, const Eigen::Matrix3Xd& normal, double thickness)
         : solid_(solid), normal_(normal), thickness_(thickness), same_(same * thickness),
-          neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle)))
+          neighbour_(face_neighbours(solid.triangles(), edge_uses(solid.triangle))),
+          planes_(plane_regions(solid, normal, neighbour_, same_))
     {
         int largest = 0;
         if (normal.cols() > 0)
             normal.colwise().norm().maxCoeff(&largest);
         outwards_ =
             normal.cols() > 0 && along(largest, 0).cross(along(largest, 1)).dot(normal.col(largest)) < 0 ? -1 : 1;
-        find_planes();
     }
 
     std::vector<RoundHole> holes()
@@ -50,7 +44,7 @@ public:
         std::vector<RoundHole> found;
         std::vector<char> taken(size_t(solid_.triangles()), 0);
         for (const Mouth& mouth : mouths()) {
-            const auto of_other = [&](const Border& at) { return taken[size_t(at.next)] != 0; };
+            const auto of_other = [&](const FaceEdge& at) { return taken[size_t(at.next)] != 0; };
             if (std::ranges::any_of(mouth.edge, of_other))
                 continue; // found from its other end
             if (std::optional<RoundHole> hole = followed(mouth)) {
@@ -68,112 +62,32 @@ private:
     double thickness_, same_; ///< mm
     double outwards_ = 1;     ///< -1: triangles go around clockwise, seen from outside
     Eigen::Matrix3Xi neighbour_;
-    std::vector<int> plane_;           ///< per triangle
-    Eigen::Matrix3Xd plane_direction_; ///< per plane, outwards
-    Eigen::VectorXd plane_level_;      ///< per plane, mm: of the origin along its direction
-    double depth_ = 0;                 ///< mm, of the hole that is being followed
-    std::vector<char> inside_;         ///< per triangle: of the wall that is being followed
+    PlaneRegions planes_;
+    double depth_ = 0;         ///< mm, of the hole that is being followed
+    std::vector<char> inside_; ///< per triangle: of the wall that is being followed
 
     auto place(int v) const { return solid_.position.col(v); }
     Eigen::Vector3d along(int f, int k) const
     {
         return place(solid_.triangle((k + 1) % 3, f)) - place(solid_.triangle(k, f));
     }
-    double altitude(int f) const
-    {
-        const double longest = std::max({along(f, 0).norm(), along(f, 1).norm(), along(f, 2).norm()});
-        return 2 * normal_.col(f).norm() / longest;
-    }
-
-    /// Each triangle's plane: that of the largest one from which it can be reached in its plane.
-    void find_planes()
-    {
-        const Eigen::VectorXd size = normal_.colwise().norm();
-        std::vector<int> order(size_t(solid_.triangles()));
-        std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] > size[b]; });
-        plane_.assign(order.size(), -1);
-        std::vector<Eigen::Vector3d> direction;
-        std::vector<double> level;
-        for (const int seed : order)
-            if (plane_[size_t(seed)] < 0) {
-                direction.push_back(normal_.col(seed).normalized());
-                level.push_back(place(solid_.triangle(0, seed)).dot(direction.back()));
-                spread(seed, int(direction.size()) - 1, direction.back());
-            }
-        plane_direction_.resize(3, Eigen::Index(direction.size()));
-        for (size_t i = 0; i < direction.size(); ++i)
-            plane_direction_.col(Eigen::Index(i)) = direction[i];
-        plane_level_ = Eigen::Map<Eigen::VectorXd>(level.data(), Eigen::Index(level.size()));
-    }
-    void spread(int seed, int plane, const Eigen::Vector3d& direction)
-    {
-        constexpr double facing = 0.9; // 25 degrees: slivers have hardly a direction
-        const Eigen::Vector3d origin = place(solid_.triangle(0, seed));
-        const auto in_it = [&](int f) {
-            const Eigen::Vector3d n = normal_.col(f);
-            for (const int v : solid_.triangle.col(f))
-                if (std::abs((place(v) - origin).dot(direction)) > same_)
-                    return false;
-            return n.dot(direction) > facing * n.norm() || altitude(f) < same_;
-        };
-        std::vector<int> reached{seed};
-        plane_[size_t(seed)] = plane;
-        while (!reached.empty()) {
-            const int f = reached.back();
-            reached.pop_back();
-            for (const int next : neighbour_.col(f))
-                if (next >= 0 && plane_[size_t(next)] < 0 && in_it(next)) {
-                    plane_[size_t(next)] = plane;
-                    reached.push_back(next);
-                }
-        }
-    }
+    double altitude(int f) const { return spia::altitude(solid_, f, normal_.col(f)); }
+    int plane(int f) const { return planes_.of[size_t(f)]; }
 
     std::vector<Mouth> mouths() const
     {
-        std::map<int, std::vector<Border>> border;
-        for (int f = 0; f < solid_.triangles(); ++f)
-            for (int k = 0; k < 3; ++k)
-                if (const int next = neighbour_(k, f); next < 0 || plane_[size_t(next)] != plane_[size_t(f)])
-                    border[plane_[size_t(f)]].push_back({f, k, next});
         std::vector<Mouth> found;
-        for (const auto& [plane, edges] : border)
-            for (std::vector<Border>& loop : loops_of(edges))
-                if (const auto circle = hole_in_plane(loop, plane_direction_.col(plane)))
-                    found.push_back({plane, *circle, std::move(loop)});
+        auto borders = borders_of(planes_, solid_, neighbour_);
+        for (size_t p = 0; p < borders.size(); ++p)
+            for (std::vector<FaceEdge>& loop : borders[p])
+                if (const auto circle = hole_in_plane(loop, planes_.direction.col(Eigen::Index(p))))
+                    found.push_back({int(p), *circle, std::move(loop)});
         return found;
     }
-
-    /// Closed rows of edges; those that touch others at a vertex are left out.
-    std::vector<std::vector<Border>> loops_of(const std::vector<Border>& edges) const
-    {
-        std::map<int, const Border*> from;
-        std::map<int, int> uses;
-        for (const Border& at : edges) {
-            const int v = solid_.triangle(at.k, at.face);
-            from[v] = &at;
-            ++uses[v];
-        }
-        std::vector<std::vector<Border>> loops;
-        while (!from.empty()) {
-            const int start = from.begin()->first;
-            std::vector<Border> loop;
-            bool alone = true;
-            for (auto at = from.find(start); at != from.end(); at = from.find(end_of(loop.back()))) {
-                alone &= uses[at->first] == 1 && at->second->next >= 0;
-                loop.push_back(*at->second);
-                from.erase(at);
-            }
-            if (alone && end_of(loop.back()) == start)
-                loops.push_back(std::move(loop));
-        }
-        return loops;
-    }
-    int end_of(const Border& at) const { return solid_.triangle((at.k + 1) % 3, at.face); }
+    int end_of(const FaceEdge& at) const { return solid_.triangle((at.k + 1) % 3, at.face); }
 
     /// The plane is around the circle, so its edges go clockwise.
-    std::optional<RoundEdge> hole_in_plane(const std::vector<Border>& loop, const Eigen::Vector3d& direction) const
+    std::optional<RoundEdge> hole_in_plane(const std::vector<FaceEdge>& loop, const Eigen::Vector3d& direction) const
     {
         Eigen::Matrix3Xd corner(3, Eigen::Index(loop.size()));
         for (size_t i = 0; i < loop.size(); ++i)
@@ -192,7 +106,7 @@ private:
     /// The plane of the other skin, seen from a mouth.
     bool on_other_skin(int f, const RoundEdge& mouth) const
     {
-        if (plane_direction_.col(plane_[size_t(f)]).dot(mouth.axis) > -parallel)
+        if (planes_.direction.col(plane(f)).dot(mouth.axis) > -parallel)
             return false;
         return std::ranges::all_of(solid_.triangle.col(f), [&](int v) {
             const double h = mouth.height(place(v));
@@ -263,9 +177,9 @@ private:
     double depth_below(const RoundEdge& mouth) const
     {
         double most = 0;
-        for (Eigen::Index p = 0; p < plane_level_.size(); ++p)
-            if (plane_direction_.col(p).dot(mouth.axis) < -parallel)
-                if (const double depth = mouth.axis.dot(mouth.centre) + plane_level_[p]; depth < beyond * thickness_)
+        for (Eigen::Index p = 0; p < planes_.level.size(); ++p)
+            if (planes_.direction.col(p).dot(mouth.axis) < -parallel)
+                if (const double depth = mouth.axis.dot(mouth.centre) + planes_.level[p]; depth < beyond * thickness_)
                     most = std::max(most, depth);
         return most;
     }
@@ -278,7 +192,7 @@ private:
         RoundHole hole;
         hole.mouth = mouth.circle;
         const auto may_enter = [&](int f) {
-            return plane_[size_t(f)] != mouth.plane && !on_other_skin(f, mouth.circle) && revolved(f, mouth.circle);
+            return plane(f) != mouth.plane && !on_other_skin(f, mouth.circle) && revolved(f, mouth.circle);
         };
         inside_.resize(size_t(solid_.triangles()), 0);
         std::vector<Eigen::Vector3d> own; // per triangle of the wall
@@ -288,7 +202,7 @@ private:
             own.push_back(altitude(f) < same_ ? before : Eigen::Vector3d(normal_.col(f).normalized()));
         };
         bool complete = true;
-        for (const Border& at : mouth.edge) {
+        for (const FaceEdge& at : mouth.edge) {
             complete &= may_enter(at.next) && goes_on(at.face, at.k, mouth.circle.axis, mouth.circle);
             if (complete && !inside_[size_t(at.next)])
                 enter(at.next, mouth.circle.axis);
@@ -319,7 +233,7 @@ private:
                 if (on_other_skin(next, mouth.circle)) {
                     hole.beyond.push_back(next);
                     end.insert(end.end(), {solid_.triangle(k, f), solid_.triangle((k + 1) % 3, f)});
-                } else if (plane_[size_t(next)] != mouth.plane) {
+                } else if (plane(next) != mouth.plane) {
                     hole.whole = false;
                     if (outwards_ * normal_.col(f).cross(normal_.col(next)).dot(along(f, k)) <= 0)
                         return false;
