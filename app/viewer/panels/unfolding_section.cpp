@@ -148,8 +148,8 @@ void blank_of_steps(Frame& frame)
     const UnfoldRun& run = document.unfolding->run;
     if (!run.blank)
         return coloured(p.warning, "The part is not flat yet; add a step.");
-    const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
-    figure(frame, "Blank of the steps", size_text(size[0], size[1], frame.lengths()));
+    if (const auto size = size_of_blank(document))
+        figure(frame, "Blank of the steps", size_text((*size)[0], (*size)[1], frame.lengths()));
     if (run.flipped > 0)
         return coloured(p.warning, fmt::format("{} triangles of the blank are flipped; unfold in smaller steps there.",
                                                run.flipped));

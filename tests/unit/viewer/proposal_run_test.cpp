@@ -117,12 +117,12 @@ TEST_F(ProposalRun, ThatIsCancelledGoesOnToTheSameResult)
     ASSERT_NE(document.steps[0]->name, first_of_second);
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     const Progress progress([&](double, std::string_view step) { *stop = *stop || step == first_of_second; }, stop);
-    const StepsOutcome cancelled = run_proposal(*document.proposal, document.bends, sheet(), nullptr, progress);
+    const StepsOutcome cancelled = run_proposal(*document.proposal, document.bends, sheet(), {}, nullptr, progress);
     ASSERT_TRUE(cancelled.cancelled);
     EXPECT_LT(cancelled.run->run.states.size(), cancelled.run->steps.size()) << "it is not to pass for done";
     EXPECT_TRUE(cancelled.run->run.failure.empty());
     const StepsOutcome after =
-        run_proposal({document.session.part, -1, cancelled.run->steps}, document.bends, sheet(), cancelled.run, {});
+        run_proposal({document.session.part, -1, cancelled.run->steps}, document.bends, sheet(), {}, cancelled.run, {});
     expect_same(after.run->steps, after.run->run, wanted);
 }
 

@@ -23,7 +23,7 @@ TEST_F(UnfoldingSteps, WhatEndedBeforeARunIsCancelledIsKept)
     const Progress progress([&](double, std::string_view step) { *stop = *stop || step == document.steps[2]->name; },
                             stop);
     const StepsOutcome outcome =
-        run_steps(shared, document.steps, sheet_of_steps(document.session.options.flatten), nullptr, 0, progress);
+        run_steps(shared, document.steps, sheet_of_steps(document.session.options.flatten), {}, nullptr, 0, progress);
     EXPECT_TRUE(outcome.cancelled);
     ASSERT_EQ(outcome.run->run.states.size(), 2u);
     EXPECT_EQ(outcome.run->figure.size(), 2u);
@@ -47,8 +47,8 @@ TEST_F(UnfoldingSteps, ProgressRisesFromNothingToTheEndOverTheStepsThatAreRun)
     const auto fractions = [&](std::shared_ptr<const StepsRun> before, size_t keep) {
         std::vector<double> seen;
         const auto outcome =
-            run_steps(document.session.part, document.steps, sheet_of_steps(document.session.options.flatten), before,
-                      keep, Progress([&](double fraction, std::string_view) { seen.push_back(fraction); }));
+            run_steps(document.session.part, document.steps, sheet_of_steps(document.session.options.flatten), {},
+                      before, keep, Progress([&](double fraction, std::string_view) { seen.push_back(fraction); }));
         EXPECT_EQ(outcome.run->run.states.size(), 5u);
         EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
         EXPECT_NEAR(seen.front(), 0, 1e-12);

@@ -41,6 +41,41 @@ TEST_F(UnfoldingSteps, AProposedListUnfoldsABentSheetToItsDevelopment)
     EXPECT_TRUE(all_steps_done(document));
 }
 
+TEST_F(UnfoldingSteps, TheSizeOfTheirBlankCountsTheBendsByTheKFactor)
+{
+    open_channel();
+    const double thickness = document.session.options.flatten.thickness;
+    const auto length = [&](double k) { return 105 + std::numbers::pi * (5 + (k - 0.5) * thickness); };
+    model.apply(SetKFactor{"0.4"});
+    wait();
+    propose();
+    run();
+    const auto size = size_of_blank(document);
+    ASSERT_TRUE(size) << last(Severity::error);
+    EXPECT_NEAR(size->maxCoeff(), length(0.4), 1e-4 * length(0.4));
+    EXPECT_THAT(last(Severity::done), HasSubstr(fmt::format("a blank of {:.6g} x {:.6g} mm", (*size)[0], (*size)[1])));
+    model.apply(UseBlankOfSteps{false});
+    wait();
+    const Eigen::Matrix2Xd& used = document.session.blank->blank.position;
+    EXPECT_LT((*size - (used.rowwise().maxCoeff() - used.rowwise().minCoeff())).norm(), 1e-9);
+    model.apply(SetKFactor{"0.3"});
+    wait();
+    EXPECT_FALSE(size_of_blank(document)) << "it is that of another K factor";
+}
+
+TEST_F(UnfoldingSteps, SayThatToolsAreLeftOut)
+{
+    open_channel();
+    propose();
+    run();
+    EXPECT_EQ(last(Severity::hint), "");
+    open_channel();
+    model.apply(SetProcess{.edge_restraint = 0.1});
+    propose();
+    run();
+    EXPECT_THAT(last(Severity::hint), HasSubstr("the steps leave them out"));
+}
+
 TEST_F(UnfoldingSteps, TheRegionOfAFaceStaysWhereItIs)
 {
     open_channel();

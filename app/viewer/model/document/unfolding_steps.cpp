@@ -10,6 +10,7 @@
 #include "app/viewer/model/document/step_target.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/part_bends.h"
 #include "engine/unfold/automatic_unfolding.h"
 
 namespace spia::viewer {
@@ -56,6 +57,26 @@ std::shared_ptr<const StepsRun> with_figures(std::shared_ptr<StepsRun> run)
     for (size_t k = 0; k < run->run.states.size(); ++k)
         run->figure.push_back(figures_of(run->run.states[k], *run->steps[k], run->part->mesh));
     return run;
+}
+
+void measure_blank(StepsRun& run, const std::optional<KFactor>& k, const Progress& progress)
+{
+    if (!run.run.blank || run.run.flipped > 0)
+        return;
+    UnfoldRun laid;
+    laid.states = {run.run.states.back()};
+    laid.blank = run.run.blank;
+    try {
+        progress.checkpoint(1, "laying the bends");
+        NeutralFibre fibre = part_bends(*run.part, run.sheet.thickness, k);
+        lay_anew(run.part->mesh, run.sheet, fibre, laid, progress.part(1, 1));
+    } catch (const Cancelled&) {
+        return; // the steps are done all the same
+    } catch (const std::exception&) {
+        return; // a K factor for a skin, say: using the blank tells it
+    }
+    const Eigen::Matrix2Xd& flat = laid.blank->position;
+    run.laid = StepsRun::LaidSize{k, flat.rowwise().maxCoeff() - flat.rowwise().minCoeff()};
 }
 
 /// The steps of a plan; those that the list begins with likewise are its own.
@@ -144,6 +165,14 @@ bool all_steps_done(const Document& document)
            document.unfolding->run.states.size() == document.steps.size();
 }
 
+std::optional<Eigen::Vector2d> size_of_blank(const Document& document)
+{
+    if (!all_steps_done(document))
+        return std::nullopt;
+    const auto& laid = document.unfolding->laid;
+    return laid && laid->k == document.session.options.k_factor ? std::optional(laid->size) : std::nullopt;
+}
+
 std::string_view name(StepStatus status)
 {
     switch (status) {
@@ -218,7 +247,8 @@ StepsOutcome propose_steps(std::shared_ptr<const PartFile> part, std::shared_ptr
 }
 
 StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
-                          std::shared_ptr<const StepsRun> before, const Progress& progress, const StepsSoFar& so_far)
+                          const std::optional<KFactor>& k, std::shared_ptr<const StepsRun> before,
+                          const Progress& progress, const StepsSoFar& so_far)
 {
     StepsOutcome outcome;
     const auto& part = proposal.part;
@@ -246,6 +276,7 @@ StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBe
         const std::vector<std::string>& notes = unfolded.sequence.notes;
         result->given_up.assign(notes.end() - long(unfolded.given_up), notes.end());
         take(unfolded.sequence.steps, std::move(unfolded.run));
+        measure_blank(*result, k, progress);
     } catch (const UnfoldingCancelled& cancelled) {
         outcome.cancelled = true;
         take(cancelled.steps, as_far_as_it_worked(cancelled.done));
@@ -259,8 +290,8 @@ StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBe
 }
 
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
-                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress,
-                       const StepsSoFar& so_far)
+                       const std::optional<KFactor>& k, std::shared_ptr<const StepsRun> before, size_t done,
+                       const Progress& progress, const StepsSoFar& so_far)
 {
     StepsOutcome outcome;
     auto result = std::make_shared<StepsRun>(StepsRun{part, steps, sheet, {}, {}, {}});
@@ -273,6 +304,7 @@ StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, con
                 if (so_far)
                     so_far(cancelled_with({part, steps, sheet, run, {}, {}}, nullptr));
             });
+        measure_blank(*result, k, progress);
     } catch (const UnfoldingCancelled& cancelled) {
         outcome.cancelled = true;
         result->run = cancelled.done;

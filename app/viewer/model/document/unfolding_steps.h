@@ -10,6 +10,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/part/part_file.h"
+#include "engine/unfold/plan/k_factor.h"
 #include "engine/unfold/step/unfold_script.h"
 
 /// Unfolding step by step: the list that the user edits, and what its last run gave.
@@ -59,6 +60,12 @@ struct StepsRun {
     UnfoldRun run;
     std::vector<StepFigures> figure;        ///< one per state
     std::vector<std::string> given_up = {}; ///< steps of a proposal that did not work out, and why: it was planned anew
+    /// The blank's size, mm, with its bends laid by the K factor, as the blank has it that is made of these steps.
+    struct LaidSize {
+        std::optional<KFactor> k;
+        Eigen::Vector2d size;
+    };
+    std::optional<LaidSize> laid = {}; ///< not given: there is no blank, or it has flips
 };
 
 /// The sheet of the steps: material, gauge, tailored pieces, rolling direction. Tools act on the part as a whole and are left out.
@@ -69,6 +76,8 @@ FlattenOptions sheet_of_steps(const FlattenOptions& wanted);
 size_t steps_done(const Document& document);
 /// Whether all steps are done and the run went no further, so that its blank is that of the list.
 bool all_steps_done(const Document& document);
+/// mm, of the blank of the last run as it will lie; nothing if there is none, or the K factor is another one now.
+std::optional<Eigen::Vector2d> size_of_blank(const Document& document);
 
 enum class StepStatus { missing, done, poor, stale, failed, needs_pick };
 std::string_view name(StepStatus status);
@@ -112,13 +121,14 @@ StepsOutcome save_steps(std::shared_ptr<const PartFile> part, std::shared_ptr<co
 /// Runs steps as they were proposed, by automatic_unfolding(): planned anew where one does not work out, the run then has other
 /// steps, as it does where it is cancelled meanwhile; never throws.
 /// @param bends as above; @param before of the same part and sheet, or null: what of it can stay is not solved again
+/// @param k as SessionOptions has it
 StepsOutcome run_proposal(const Proposal& proposal, std::shared_ptr<const PartBends> bends, const FlattenOptions& sheet,
-                          std::shared_ptr<const StepsRun> before, const Progress& progress,
-                          const StepsSoFar& so_far = {});
+                          const std::optional<KFactor>& k, std::shared_ptr<const StepsRun> before,
+                          const Progress& progress, const StepsSoFar& so_far = {});
 
-/// Runs the steps after the first `done` ones, whose states are taken from `before`; never throws.
+/// Runs the steps after the first `done` ones, whose states are taken from `before`; never throws. @param k as above
 StepsOutcome run_steps(std::shared_ptr<const PartFile> part, StepList steps, const FlattenOptions& sheet,
-                       std::shared_ptr<const StepsRun> before, size_t done, const Progress& progress,
-                       const StepsSoFar& so_far = {});
+                       const std::optional<KFactor>& k, std::shared_ptr<const StepsRun> before, size_t done,
+                       const Progress& progress, const StepsSoFar& so_far = {});
 
 } // namespace spia::viewer

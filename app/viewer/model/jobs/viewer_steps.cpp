@@ -39,14 +39,16 @@ void ViewerModel::run_missing_steps()
         return start_steps("Unfolding step by step",
                            [proposal = document.proposal, bends = document.bends,
                             sheet = sheet_of_steps(document.session.options.flatten),
+                            k = document.session.options.k_factor,
                             before = document.unfolding](const Progress& progress, const StepsSoFar& so_far) {
-                               return run_proposal(*proposal, bends, sheet, before, progress, so_far);
+                               return run_proposal(*proposal, bends, sheet, k, before, progress, so_far);
                            });
     start_steps("Unfolding step by step",
                 [part = document.session.part, steps = document.steps,
-                 sheet = sheet_of_steps(document.session.options.flatten), before = document.unfolding,
+                 sheet = sheet_of_steps(document.session.options.flatten), k = document.session.options.k_factor,
+                 before = document.unfolding,
                  done = steps_done(document)](const Progress& progress, const StepsSoFar& so_far) {
-                    return run_steps(part, steps, sheet, before, done, progress, so_far);
+                    return run_steps(part, steps, sheet, k, before, done, progress, so_far);
                 });
 }
 
@@ -215,10 +217,15 @@ void ViewerModel::report_steps_run(const StepsOutcome& outcome)
             end.necking == 1 ? "1 triangle is" : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
     if (end.overlap.places > 0)
         warn(fmt::format("The blank overlaps itself at {}.", counted(size_t(end.overlap.places), "place")));
-    const Eigen::Vector2d size = run.blank->position.rowwise().maxCoeff() - run.blank->position.rowwise().minCoeff();
+    if (has_tools(state_.document.session.options.flatten.process))
+        say(Severity::hint,
+            "Contact, drawbeads, pilots and the held edge act on the part as a whole: the steps leave them out. Take "
+            "them away before you use the blank of the steps, or unfold the part in one step.",
+            about_steps(state_));
+    const auto size = size_of_blank(state_.document);
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
-        fmt::format("Unfolded in {}: a blank of {}.", counted(run.states.size(), "step"),
-                    size_text(size[0], size[1], state_.preferences.lengths)),
+        fmt::format("Unfolded in {}{}.", counted(run.states.size(), "step"),
+                    size ? ": a blank of " + size_text((*size)[0], (*size)[1], state_.preferences.lengths) : ""),
         about_steps(state_));
 }
 
