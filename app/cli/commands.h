@@ -156,12 +156,9 @@ void set_remeshing(ReadOptions& options, const RemeshArguments& arguments);
 void set_welding(ReadOptions& options, std::optional<double> gap);
 MeshTargets mesh_targets(const RemeshArguments& arguments);
 
-/// The thickness of the flat sheet in mm: as asked for, else that of the part (a deck says it, in a solid it is found), else 1.
-/// @throws InputError unless it is above 0
-double sheet_thickness(const std::optional<double>& asked, const PartFile& part);
 /// @throws InputError if a K factor and a skin other than the middle surface are asked for
 void require_one_surface(const std::string& k_factor, const std::string& skin);
-/// Where it is from; empty if that needs no word.
+/// Where the thickness of the sheet is from; empty if that needs no word.
 std::string describe_thickness(const std::optional<double>& asked, const PartFile& part);
 
 /// Where the materials and sample parts lie: SPIA_ASSETS, or the folder the program was built from.

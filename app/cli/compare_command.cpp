@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/flat_thickness.h"
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 
@@ -43,7 +44,7 @@ int compare(const CompareArguments& arguments)
 
     JobDisplay reading{"read"};
     const PartFile part = read_part(arguments.part, read, reading.progress());
-    options.flatten.thickness = sheet_thickness(arguments.thickness, part);
+    options.flatten.thickness = flat_thickness(arguments.thickness, part);
     std::vector<ComparisonRow> rows;
     for (const FlatMethod method : options.methods) {
         CompareOptions one = options;

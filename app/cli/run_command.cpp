@@ -7,6 +7,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/print_summary.h"
+#include "app/cli/shown_chain.h"
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
@@ -17,7 +18,6 @@
 #include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/process_file.h"
 #include "engine/pipeline/report.h"
-#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/shortcomings.h"
 
@@ -144,6 +144,67 @@ OutputOptions output_options(const RunArguments& arguments)
     return result;
 }
 
+/// @throws InputError  as read_process(); if its file and the command line both give a rolling
+///                     direction
+ProcessConditions process_of(const RunArguments& arguments, const PartFile& part, const FlattenOptions& sheet)
+{
+    ProcessConditions process = sheet.process;
+    if (!arguments.process.empty())
+        process = read_process(arguments.process, part, sheet.material, sheet.thickness, assets() / "materials");
+    const auto rolling = rolling_direction(arguments.rolling);
+    if (rolling && process.rolling)
+        throw InputError(
+            fmt::format("--rolling and {} both give a rolling direction; leave one out", arguments.process.string()));
+    if (rolling)
+        process.rolling = rolling;
+    return process;
+}
+
+/// What hangs on the part or its surface.
+/// @throws InputError  if the file of the deformation is at fault
+ChainWishes wishes_of(const RunArguments& arguments)
+{
+    ChainWishes result;
+    result.thickness = arguments.thickness;
+    result.process = [&arguments](const PartFile& part, const FlattenOptions& sheet) {
+        return process_of(arguments, part, sheet);
+    };
+    if (!arguments.deform.empty())
+        result.deformation = read_deformation(arguments.deform);
+    return result;
+}
+
+void say_of_reading(const RunArguments& arguments, const PartFile& part)
+{
+    for (const std::string& line : reading_notes(part))
+        say("  {}\n", line);
+    if (const std::string text = describe_thickness(arguments.thickness, part); !text.empty())
+        say("  note: {}\n", text);
+}
+
+/// Writes the files and the report of a run with a blank: that is worth it, whatever came of the
+/// stages after it. @returns its shortcomings
+std::vector<std::string> write_and_report(const RunArguments& arguments, const ChainRun& made,
+                                          const OutputOptions& wanted)
+{
+    const Session& session = made.session;
+    const auto clock = std::chrono::steady_clock::now();
+    JobDisplay display{"write"};
+    const auto files = write_outputs(session, arguments.folder, arguments.formats, wanted, display.progress());
+    const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    display.done(write_seconds);
+    if (!arguments.json.empty())
+        write_atomically(arguments.json, report_json(session, files, write_seconds, made.failure));
+
+    print_summary(session);
+    for (const auto& file : files)
+        say("wrote     {}\n", file.string());
+    std::vector<std::string> poorer = shortcomings(session);
+    for (const std::string& text : poorer)
+        say("WARNING   {}\n", text);
+    return poorer;
+}
+
 } // namespace
 
 DxfOptions dxf_options(const DxfArguments& arguments)
@@ -177,65 +238,17 @@ int run(const RunArguments& arguments)
     session.options = options(arguments);
     const OutputOptions wanted = output_options(arguments);
     require_file_name(wanted.name); // before the work
-    const auto deformation =
-        arguments.deform.empty() ? std::nullopt : std::optional(read_deformation(arguments.deform));
-    std::exception_ptr error; // of a stage after the solver: the blank is worth writing all the same
-    std::optional<Failure> failure;
-    for (const Stage stage : chain) {
-        JobDisplay display{std::string(name(stage))};
-        try {
-            session = run_stage(stage, session, display.progress());
-            if (stage == Stage::fit && deformation) {
-                session.options.deformation = deformation_of(*deformation, fitted_patches(*session.surface));
-                session = deform_surface(std::move(session));
-            }
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const std::exception& reason) {
-            if (!session.blank)
-                throw;
-            error = std::current_exception();
-            failure = {stage, reason.what()};
-            break;
-        }
-        display.done(session.seconds.at(stage));
-        if (stage == Stage::read)
-            session.options.flatten.thickness = sheet_thickness(arguments.thickness, *session.part);
-        if (stage == Stage::read && !arguments.process.empty())
-            session.options.flatten.process =
-                read_process(arguments.process, *session.part, session.options.flatten.material,
-                             session.options.flatten.thickness, assets() / "materials");
-        if (const auto rolling = rolling_direction(arguments.rolling); stage == Stage::read && rolling) {
-            if (session.options.flatten.process.rolling)
-                throw InputError(fmt::format("--rolling and {} both give a rolling direction; leave one out",
-                                             arguments.process.string()));
-            session.options.flatten.process.rolling = rolling;
-        }
-        if (stage == Stage::read) {
-            for (const std::string& line : reading_notes(*session.part))
-                say("  {}\n", line);
-            if (const std::string text = describe_thickness(arguments.thickness, *session.part); !text.empty())
-                say("  note: {}\n", text);
-            require_possible(session);
-            require_place(session, arguments.folder, arguments.formats, arguments.json, wanted);
-        }
-    }
-    const auto clock = std::chrono::steady_clock::now();
-    JobDisplay display{"write"};
-    const auto files = write_outputs(session, arguments.folder, arguments.formats, wanted, display.progress());
-    const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-    display.done(write_seconds);
-    if (!arguments.json.empty())
-        write_atomically(arguments.json, report_json(session, files, write_seconds, failure));
-
-    print_summary(session);
-    for (const auto& file : files)
-        say("wrote     {}\n", file.string());
-    const auto poorer = shortcomings(session);
-    for (const std::string& text : poorer)
-        say("WARNING   {}\n", text);
-    if (error)
-        std::rethrow_exception(error);
+    const auto begin_with_part = [&](const Session& read) {
+        say_of_reading(arguments, *read.part);
+        require_possible(read);
+        require_place(read, arguments.folder, arguments.formats, arguments.json, wanted);
+    };
+    const ChainRun made = run_shown(std::move(session), Stage::read, Stage::fit, wishes_of(arguments), begin_with_part);
+    if (!made.session.blank)
+        std::rethrow_exception(made.error);
+    const std::vector<std::string> poorer = write_and_report(arguments, made, wanted);
+    if (made.error)
+        std::rethrow_exception(made.error);
     return arguments.strict && !poorer.empty() ? 1 : 0;
 }
 

@@ -1,23 +1,9 @@
-#include <cmath>
 #include <fmt/core.h>
 
 #include "app/cli/commands.h"
 #include "engine/core/error.h"
 
 namespace spia::cli {
-namespace {
-
-constexpr double usual = 1; // mm
-
-} // namespace
-
-double sheet_thickness(const std::optional<double>& asked, const PartFile& part)
-{
-    const double thickness = asked.value_or(part.thickness_mm.value_or(usual));
-    if (!(thickness > 0) || !std::isfinite(thickness))
-        throw InputError(fmt::format("the thickness is {} mm; it must be above 0", thickness));
-    return thickness;
-}
 
 void require_one_surface(const std::string& k_factor, const std::string& skin)
 {
@@ -40,7 +26,7 @@ std::string describe_thickness(const std::optional<double>& asked, const PartFil
         return fmt::format(
             "the deck gives no thickness that could be taken: the sheet is taken {} mm thick (--thickness "
             "for another)",
-            usual);
+            FlattenOptions{}.thickness);
     return "";
 }
 

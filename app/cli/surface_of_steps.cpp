@@ -3,12 +3,13 @@
 #include <chrono>
 #include <fmt/core.h>
 
+#include "app/cli/shown_chain.h"
 #include "app/cli/terminal.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/report.h"
 
 namespace spia::cli {
 namespace {
@@ -37,11 +38,10 @@ void require_surface_place(const UnfoldArguments& arguments, const PartFile& par
                                      arguments.json.string()));
 }
 
-SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
-                                const FlattenOptions& options)
+ChainRun surface_of_steps(const UnfoldArguments& arguments, const PartFile& part, const UnfoldRun& run,
+                          const FlattenOptions& options)
 {
-    SurfaceOfSteps made;
-    Session& session = made.session;
+    Session session;
     session.file = arguments.part;
     session.part = std::make_shared<PartFile>(part);
     session.options.flatten = options;
@@ -49,23 +49,10 @@ SurfaceOfSteps surface_of_steps(const UnfoldArguments& arguments, const PartFile
     if (!arguments.k_factor.empty())
         session.options.k_factor = k_factor(arguments.k_factor);
     session.options.steps = {std::make_shared<UnfoldRun>(run), arguments.surface == "polished"};
-    for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit}) {
-        JobDisplay display{std::string(name(stage))};
-        try {
-            session = run_stage(stage, session, display.progress());
-            display.done(session.seconds.at(stage));
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const std::exception& reason) { // what the steps gave is worth writing all the same
-            made.failure = {stage, reason.what()};
-            made.error = std::current_exception();
-            break;
-        }
-    }
-    return made;
+    return run_shown(std::move(session), Stage::solve, Stage::fit);
 }
 
-std::vector<std::filesystem::path> write_surface(const UnfoldArguments& arguments, const SurfaceOfSteps& made)
+std::vector<std::filesystem::path> write_surface(const UnfoldArguments& arguments, const ChainRun& made)
 {
     if (!made.session.blank || arguments.folder.empty())
         return {};

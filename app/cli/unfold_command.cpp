@@ -20,6 +20,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/deck_outputs.h"
+#include "engine/pipeline/flat_thickness.h"
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
@@ -394,7 +395,7 @@ int unfold(const UnfoldArguments& arguments)
     for (const std::string& line : reading_notes(part))
         say("  {}\n", line);
     require_surface_place(arguments, part);
-    options.thickness = sheet_thickness(arguments.thickness, part);
+    options.thickness = flat_thickness(arguments.thickness, part);
     if (const std::string text = describe_thickness(arguments.thickness, part); !text.empty())
         say("  note: {}\n", text);
     const BendMap map = find_bends(part.mesh);
@@ -428,7 +429,7 @@ int unfold(const UnfoldArguments& arguments)
     files.insert(files.end(), kept.begin(), kept.end());
     if (run.failure.empty())
         carry_lines(arguments, part, run, files, findings);
-    std::optional<SurfaceOfSteps> surface;
+    std::optional<ChainRun> surface;
     if (!arguments.surface.empty() && run.failure.empty() && run.blank) {
         surface = surface_of_steps(arguments, part, run, options);
         for (const auto& file : write_surface(arguments, *surface))

@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {
-
-/// The stage that could not be run, and why not.
-struct Failure {
-    Stage stage;
-    std::string message;
-};
 
 /// The result of a run as JSON, the contract of engine/pipeline/README.md. Stages that have not run are left out.
 /// @param write_seconds time of write_outputs()

@@ -6,7 +6,7 @@
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/exchange/read_part.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 
 namespace spia::viewer {
 namespace {
@@ -40,6 +40,26 @@ std::shared_ptr<const PartFile> refused_part(const Session& session, const Progr
     } catch (const InputError&) { // said already
     }
     return nullptr;
+}
+
+/// The bar goes on from stage to stage, each with its usual share of the time.
+Progress progress_of(Stage stage, Stage from, Stage to, const Progress& progress)
+{
+    const double whole = share_of_time(from, to);
+    const double done = share_of_time(from, stage);
+    return progress.part((done - share_of_time(stage, stage)) / whole, done / whole);
+}
+
+void note_failure(const Failure& failure, const Progress& progress, ChainResult& result)
+{
+    result.failed = failure.stage;
+    result.message = failure.message;
+    if (failure.stage != Stage::read)
+        return;
+    try {
+        result.refused = refused_part(result.session, progress);
+    } catch (const std::exception&) { // the reason above counts
+    }
 }
 
 void note(Stage done, const SessionOptions& options, SessionOptions& made_with)
@@ -136,40 +156,31 @@ std::string out_of_date(const Document& document)
                  : "";
 }
 
-ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
-                      const std::function<void(const ChainResult&)>& ended)
+ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
+                         const std::function<void(const ChainResult&)>& ended)
 {
     ChainResult result;
     result.session = std::move(session);
     result.session.options.deformation.reset(); // of the surface that comes of it, not of the chain
     result.made_with = std::move(made_with);
-    const double whole = share_of_time(from, to);
-    double done = 0;
-    for (const Stage stage : chain) {
-        if (stage < from || stage > to)
-            continue;
-        try {
-            const double begin = done / whole;
-            done += share_of_time(stage, stage);
-            result.session = run_stage(stage, result.session, progress.part(begin, done / whole));
-            note(stage, result.session.options, result.made_with);
-            if (stage == Stage::read)
-                result.search = std::make_shared<ClosestPointSearch>(result.session.part->mesh);
-            if (ended)
-                ended(result);
-        } catch (const Cancelled&) {
-            result.cancelled = true;
-            return result;
-        } catch (const std::exception& error) {
-            result.failed = stage;
-            result.message = error.what();
-            if (stage == Stage::read)
-                try {
-                    result.refused = refused_part(result.session, progress);
-                } catch (const std::exception&) { // the reason above counts
-                }
-            return result;
-        }
+    ChainHooks hooks;
+    hooks.begins = [&](Stage stage) { return progress_of(stage, from, to, progress); };
+    hooks.ended = [&](Stage stage, const Session& made) {
+        result.session = made;
+        note(stage, made.options, result.made_with);
+        if (stage == Stage::read)
+            result.search = std::make_shared<ClosestPointSearch>(made.part->mesh);
+        if (ended)
+            ended(result);
+    };
+    ChainWishes wishes;
+    wishes.thickness = result.session.options.flatten.thickness; // the document takes that of a part
+    try {
+        const ChainRun run = run_chain(result.session, from, to, wishes, hooks);
+        if (run.failure)
+            note_failure(*run.failure, progress, result);
+    } catch (const Cancelled&) {
+        result.cancelled = true;
     }
     return result;
 }

@@ -37,10 +37,12 @@ struct ChainResult {
 /// Share of the time of the whole chain that these stages take, roughly; between 0 and 1.
 double share_of_time(Stage from, Stage to);
 
-/// Runs the stages from `from` to `to`; never throws. What a cancelled or failed run has finished is kept.
+/// Runs the stages from `from` to `to` and notes the options they are made with; never throws. What
+/// a cancelled or failed run has finished is kept. The deformation of the session is left out: it is
+/// of the surface that there was.
 /// @param ended  called on this thread after every stage, with all that has been finished so far
-ChainResult run_chain(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
-                      const std::function<void(const ChainResult&)>& ended = {});
+ChainResult run_and_note(Session session, SessionOptions made_with, Stage from, Stage to, const Progress& progress,
+                         const std::function<void(const ChainResult&)>& ended = {});
 
 /// What to do about a stage that failed, in one sentence. @param options  that it was to be made with
 std::string advice(Stage failed, const SessionOptions& options);

@@ -116,7 +116,7 @@ void ViewerModel::start(Stage from, Stage to, std::string title, const Document&
     chain_job_ = std::make_unique<Job<ChainResult>>(
         [session = std::move(session), made_with = document.made_with, from, to,
          live = live_](const Progress& progress) {
-            return run_chain(session, made_with, from, to, progress, [&](ChainResult result) {
+            return run_and_note(session, made_with, from, to, progress, [&](ChainResult result) {
                 // They hold what holds this mailbox: neither would ever be freed.
                 result.session.options.flatten.watch = result.made_with.flatten.watch = nullptr;
                 live->so_far.post(std::move(result));
