@@ -8,7 +8,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
@@ -37,12 +37,7 @@ struct Cases : testing::Test {
         session.file = folder / file;
         session.options.read = options;
         session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-        session = run_stage(Stage::read, std::move(session));
-        session.options.flatten.thickness = session.part->thickness_mm.value_or(1);
-        for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit})
-            if (stage <= last)
-                session = run_stage(stage, std::move(session));
-        return session;
+        return completed(run_chain(std::move(session), Stage::read, last));
     }
     /// The box of the blank, mm, which has to lie straight.
     static void expect_size(const Session& session, double length, double breadth, double tolerance)

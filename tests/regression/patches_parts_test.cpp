@@ -8,7 +8,7 @@
 #include "engine/exchange/cad/write_step.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/certificate.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 
 namespace spia {
@@ -29,8 +29,7 @@ TEST_P(PerforatedParts, BecomePatchesWithoutAFoldWithinTheTolerance)
     session.file = folder / GetParam();
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     session.options.patches.emplace();
-    for (const Stage stage : chain)
-        session = run_stage(stage, std::move(session));
+    session = completed(run_chain(std::move(session), Stage::read, Stage::fit, {.thickness = 1}));
     ASSERT_TRUE(session.surface && session.surface->patches);
     const PatchesFit& fit = *session.surface->patches;
     EXPECT_TRUE(fit.reached) << fit.deviation_max();

@@ -12,7 +12,7 @@
 #include "engine/mesh/curvature.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 #include "engine/remesh/triangle_quality.h"
 #include "tests/support/cad/exact_volume.h"
@@ -29,9 +29,7 @@ Session solved(const fs::path& file)
     Session session;
     session.file = file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session = run_stage(Stage::read, std::move(session));
-    session.options.flatten.thickness = session.part->thickness_mm.value_or(1);
-    return run_stage(Stage::solve, std::move(session));
+    return completed(run_chain(std::move(session), Stage::read, Stage::solve));
 }
 
 /// Every STEP file there that is a solid of sheet by default options.

@@ -10,6 +10,7 @@
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/bent_parts.h"
@@ -36,11 +37,7 @@ struct InSteps {
         session.options.steps = {
             std::make_shared<UnfoldRun>(automatic_unfolding(part, find_bends(part), {}, session.options.flatten).run)};
     }
-    void finish()
-    {
-        for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit})
-            session = run_stage(stage, session);
-    }
+    void finish() { session = completed(run_chain(session, Stage::solve)); }
 };
 
 } // namespace

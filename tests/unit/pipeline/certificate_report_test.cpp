@@ -5,7 +5,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/report.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "tests/support/joined_patches.h"
 
 namespace spia {
@@ -16,9 +16,7 @@ nlohmann::json report_of(const char* file)
     Session session;
     session.file = std::filesystem::path(SPIA_SOURCE_DIR "/assets/parts") / file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    for (const Stage stage : chain)
-        session = run_stage(stage, std::move(session));
-    return nlohmann::json::parse(report_json(session, {}, 0))["certificate"];
+    return nlohmann::json::parse(report_json(completed(run_chain(std::move(session))), {}, 0))["certificate"];
 }
 
 TEST(CertificateReport, OfAChannelIsClean)

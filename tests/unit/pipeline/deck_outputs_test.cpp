@@ -17,7 +17,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/forming/solver/sheet_fields.h"
 #include "engine/pipeline/outputs.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 #include "tests/unit/exchange/sample_chain.h"
 #include "tests/unit/exchange/sample_decks.h"
@@ -522,9 +522,7 @@ TEST(DeckOutputs, OfASolvedPartConserveTheVolumeOfItsBlank)
     Session session;
     session.file = file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session.options.flatten.thickness = 1.2;
-    for (const Stage stage : {Stage::read, Stage::solve})
-        session = run_stage(stage, std::move(session));
+    session = completed(run_chain(std::move(session), Stage::read, Stage::solve, {.thickness = 1.2}));
     const auto files = write_outputs(session, folder / "out", deck_formats());
     EXPECT_EQ(files.size(), 9u);
     EXPECT_EQ(files, output_files(session, folder / "out", deck_formats()));

@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
@@ -21,9 +22,7 @@ Session lifted(const char* file)
     Session session;
     session.file = std::filesystem::path(SPIA_SOURCE_DIR "/assets/parts") / file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    for (const Stage stage : {Stage::read, Stage::solve, Stage::grid, Stage::lift})
-        session = run_stage(stage, std::move(session));
-    return session;
+    return completed(run_chain(std::move(session), Stage::read, Stage::lift));
 }
 
 } // namespace

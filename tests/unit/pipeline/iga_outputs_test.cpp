@@ -9,6 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/project.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "tests/support/iga_readers.h"
 #include "tests/unit/exchange/scratch_folder.h"
@@ -22,9 +23,7 @@ Session finished(const char* file)
     session.file = std::filesystem::path(SPIA_SOURCE_DIR "/assets/parts") / file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     session.options.grid.cells = 24;
-    for (const Stage stage : chain)
-        session = run_stage(stage, std::move(session));
-    return session;
+    return completed(run_chain(std::move(session)));
 }
 
 TEST(IgaOutputs, HoldTheSurfaceOfTheChainBitForBit)

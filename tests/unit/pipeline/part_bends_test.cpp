@@ -12,6 +12,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
@@ -46,9 +47,7 @@ Session solved(const fs::path& file, const std::optional<KFactor>& k = {}, const
     session.options.read = read;
     session.options.k_factor = k;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session = run_stage(Stage::read, session);
-    session.options.flatten.thickness = session.part->thickness_mm.value_or(1);
-    return run_stage(Stage::solve, session);
+    return completed(run_chain(std::move(session), Stage::read, Stage::solve));
 }
 
 /// Length across `along` and width along it of the outer outline, and how far its vertices are off that rectangle.

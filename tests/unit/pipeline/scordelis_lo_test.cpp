@@ -11,7 +11,7 @@
 #include "engine/exchange/iga/write_mfem.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/nurbs/evaluate.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/grid_surface.h"
 #include "tests/support/iga_readers.h"
@@ -69,9 +69,7 @@ Session finished(const std::optional<LayoutOptions>& patches, std::optional<doub
     session.options.grid.columns = session.options.grid.rows = 20;
     session.options.patches = patches;
     session.options.tolerance = tolerance;
-    for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit})
-        session = run_stage(stage, session);
-    return session;
+    return completed(run_chain(std::move(session), Stage::solve));
 }
 
 /// Through each format and back.

@@ -9,6 +9,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/session.h"
@@ -36,12 +37,7 @@ protected:
         session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
         return run_stage(Stage::read, std::move(session));
     }
-    Session finished(Session session)
-    {
-        for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit})
-            session = run_stage(stage, std::move(session));
-        return session;
-    }
+    Session finished(Session session) { return completed(run_chain(std::move(session), Stage::solve)); }
     ScratchFolder folder;
 };
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 #include "tests/support/cad/bent_solid.h"
 
@@ -16,9 +16,7 @@ inline Session solved_part(const std::filesystem::path& file, std::optional<doub
     Session session;
     session.file = file;
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-    session = run_stage(Stage::read, std::move(session));
-    session.options.flatten.thickness = thickness.value_or(session.part->thickness_mm.value_or(1));
-    return run_stage(Stage::solve, std::move(session));
+    return completed(run_chain(std::move(session), Stage::read, Stage::solve, {.thickness = thickness}));
 }
 
 /// The solid written as a STEP file, read by default options and laid flat with its own thickness.

@@ -9,6 +9,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
@@ -27,13 +28,7 @@ Session sample(const char* file)
     return session;
 }
 
-Session finished(const char* file)
-{
-    Session session = sample(file);
-    for (const Stage stage : chain)
-        session = run_stage(stage, std::move(session));
-    return session;
-}
+Session finished(const char* file) { return completed(run_chain(sample(file))); }
 
 } // namespace
 
@@ -90,8 +85,7 @@ TEST(Chain, LimitsAreJudgedWithTheBlankAndAnewWithoutSolving)
 {
     Session session = sample("square-cup.obj");
     EXPECT_THROW(judge_limits(session), InputError);
-    for (const Stage stage : {Stage::read, Stage::solve})
-        session = run_stage(stage, std::move(session));
+    session = completed(run_chain(std::move(session), Stage::read, Stage::solve));
     ASSERT_TRUE(session.limits);
     const LimitsResult direct =
         forming_limits(session.part->mesh, session.blank->face, session.options.flatten.material, 1);
@@ -112,8 +106,7 @@ TEST(Report, HasTheLimitsAsTheSheetWasJudged)
 {
     Session session = sample("square-cup.obj");
     session.options.limits.margin = 0.2;
-    for (const Stage stage : {Stage::read, Stage::solve})
-        session = run_stage(stage, std::move(session));
+    session = completed(run_chain(std::move(session), Stage::read, Stage::solve));
     const auto json = nlohmann::json::parse(report_json(session, {}, 0));
     const auto& limits = json["limits"];
     EXPECT_EQ(json["hardening"]["law"], "swift");
@@ -410,8 +403,7 @@ TEST(Outputs, TheTableOfFieldsCallsVerticesAsTheFileDoes)
            "0\nf 2 3 5\nf 2 5 6\nf 3 7 8\nf 3 8 5\n"; // the first and fourth vertex are strays
     Session session = sample("dome.obj");
     session.file = folder / "strip.obj";
-    for (const Stage stage : {Stage::read, Stage::solve})
-        session = run_stage(stage, std::move(session));
+    session = completed(run_chain(std::move(session), Stage::read, Stage::solve));
     write_outputs(session, folder / "out", {"csv"});
     std::ifstream file(folder / "out" / "fields.csv");
     std::string line;

@@ -1,4 +1,3 @@
-#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/surface_shortcomings.h"
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/forming/material/material_library.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/usual_tolerance.h"
 #include "tests/support/grid_surface.h"
@@ -27,9 +27,7 @@ Session finished(const TriMesh& mesh, std::optional<double> tolerance = {})
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     session.options.tolerance = tolerance;
     session.options.read.doctor.keep_largest = true; // a slot may leave crumbs of triangles
-    for (const Stage stage : chain)
-        session = run_stage(stage, std::move(session));
-    return session;
+    return completed(run_chain(std::move(session)));
 }
 
 /// A flat U: the middle of one side of a plate is cut out.

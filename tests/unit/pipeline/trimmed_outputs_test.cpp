@@ -7,7 +7,7 @@
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/report.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/shortcomings.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
@@ -20,9 +20,7 @@ Session perforated(bool fill_holes)
     session.file = SPIA_SOURCE_DIR "/assets/parts/perforated-channel.obj";
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     session.options.fill_holes = fill_holes;
-    for (const Stage stage : chain)
-        session = run_stage(stage, std::move(session));
-    return session;
+    return completed(run_chain(std::move(session)));
 }
 
 } // namespace

@@ -7,7 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "tests/support/shapes.h"
 
 namespace spia::viewer {
@@ -32,9 +32,7 @@ const Session& solved_dome()
         Session s;
         s.file = SPIA_SOURCE_DIR "/assets/parts/dome.obj";
         s.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
-        for (const Stage stage : chain)
-            s = run_stage(stage, std::move(s));
-        return s;
+        return completed(run_chain(std::move(s)));
     }();
     return session;
 }

@@ -13,7 +13,7 @@
 #include "app/viewer/views/surface_shape.h"
 #include "engine/coons/cell_quality.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "tests/support/shapes.h"
 
 namespace spia::viewer {
@@ -34,9 +34,7 @@ Session finished_session()
     session.part = std::make_shared<PartFile>(std::move(part));
     session.options.flatten.material = find_material("mild_steel", SPIA_SOURCE_DIR "/assets/materials");
     session.options.grid.cells = 12;
-    for (const Stage stage : {Stage::solve, Stage::grid, Stage::lift, Stage::fit})
-        session = run_stage(stage, session);
-    return session;
+    return completed(run_chain(std::move(session), Stage::solve));
 }
 
 class Scenes : public testing::Test {

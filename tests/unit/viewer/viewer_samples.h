@@ -3,7 +3,7 @@
 
 #include "app/viewer/model/document/document.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/run_stage.h"
+#include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/session.h"
 
 namespace spia::viewer {
@@ -16,9 +16,7 @@ inline Document document_of(const std::filesystem::path& part, Stage last)
     Document document;
     document.session.file = part;
     document.session.options.flatten.material = find_material(document.material, materials_folder);
-    for (const Stage stage : chain)
-        if (stage <= last)
-            document.session = run_stage(stage, document.session);
+    document.session = completed(run_chain(document.session, Stage::read, last));
     return document;
 }
 
