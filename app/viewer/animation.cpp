@@ -5,14 +5,14 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/reports/face_values.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/render/gif_file.h"
 #include "app/viewer/render/picture_file.h"
 #include "app/viewer/views/colour_scale.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
+#include "engine/report/figures/face_values.h"
+#include "engine/report/text/lengths.h"
 
 namespace fs = std::filesystem;
 

@@ -210,7 +210,7 @@ Picture picture_of_window(Renderer& renderer, ViewerModel& model, SceneCache& ca
 }
 
 std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
-                                           const ReportOptions& options)
+                                           const ViewerReportOptions& options)
 {
     constexpr int width = 1200, height = 800;
     constexpr float larger = 1.3f;                                                    // on paper they are small

@@ -1,8 +1,8 @@
 #pragma once
 #include "app/viewer/model/actions/actions.h"
-#include "app/viewer/model/reports/html_report.h"
 #include "app/viewer/panels/ui.h"
 #include "app/viewer/render/renderer.h"
+#include "engine/report/html/html_report.h"
 
 namespace spia::viewer {
 
@@ -37,7 +37,7 @@ struct TitledPicture {
 
 /// The pictures of a report, of those views that have something to show.
 std::vector<TitledPicture> report_pictures(Renderer& renderer, ViewerModel& model, SceneCache& cache,
-                                           const ReportOptions& options);
+                                           const ViewerReportOptions& options);
 
 /// As the report holds them; needs no OpenGL. @throws ExchangeError
 std::vector<ReportPicture> png_files(const std::vector<TitledPicture>& pictures);

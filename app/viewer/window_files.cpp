@@ -4,11 +4,11 @@
 #include <fmt/core.h>
 
 #include "app/viewer/gl_window.h"
-#include "app/viewer/model/reports/html_report.h"
 #include "app/viewer/model/reports/lights.h"
 #include "app/viewer/pictures.h"
 #include "app/viewer/render/picture_file.h"
 #include "engine/core/error.h"
+#include "engine/report/html/html_report.h"
 
 namespace spia::viewer {
 
@@ -115,7 +115,7 @@ void WindowFiles::write_report(const WriteReport& wanted)
         throw InputError("There is nothing to report yet: unfold the part first.");
     if (shows_refused(model_.state()))
         throw InputError("Go back to the part first, in the step Part: the view shows the file that was refused.");
-    ReportOptions options = wanted.options;
+    ReportOptions options = report_options(wanted.options);
     if (const std::string stale = out_of_date(document); !stale.empty())
         options.remarks = stale + (options.remarks.empty() ? "" : "\n" + options.remarks);
     std::vector<std::string> doubts;

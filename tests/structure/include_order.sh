@@ -2,7 +2,7 @@
 # A module includes only what stands before it in this list, a room of it likewise; heavy third-party headers stay where they belong.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-order=(core mesh remesh sparse forming compare limits unfold coons nurbs layout deform part exchange picture pipeline)
+order=(core mesh remesh sparse forming compare limits unfold coons nurbs layout deform part exchange picture pipeline report)
 bad=0
 complain() {
     printf '%s\n' "$*"
@@ -31,6 +31,7 @@ rooms() {
 }
 rooms forming material process solver
 rooms unfold target plan step
+rooms report text figures html
 while IFS= read -r line; do
     complain "only engine/exchange/cad and the lines as STEP and IGES know the CAD kernel: $line"
 done < <(grep -rnE '#include <(Standard_|Geom_|TopoDS|BRep|IGES|STEP|Interface_|Message_|XSControl)' engine app |

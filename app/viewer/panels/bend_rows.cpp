@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "app/viewer/model/document/k_choice.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/panels/widgets.h"
 #include "engine/pipeline/bend_report.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "app/viewer/model/picking/section.h"
-#include "app/viewer/model/reports/crack_verdict.h"
-#include "app/viewer/model/reports/face_values.h"
-#include "app/viewer/model/reports/figures.h"
 #include "app/viewer/model/reports/point_cloud.h"
-#include "app/viewer/model/reports/statistics.h"
 #include "app/viewer/views/scene_cache.h"
+#include "engine/report/figures/crack_verdict.h"
+#include "engine/report/figures/face_values.h"
+#include "engine/report/figures/figures.h"
+#include "engine/report/figures/statistics.h"
 
 namespace spia::viewer {
 

@@ -2,10 +2,10 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/model/reports/lights.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

@@ -6,13 +6,13 @@
 #include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/model/picking/vertex_picking.h"
 #include "app/viewer/model/reports/comparison.h"
-#include "app/viewer/model/reports/number_text.h"
-#include "app/viewer/model/reports/statistics.h"
 #include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/colours.h"
 #include "engine/core/error.h"
+#include "engine/report/figures/statistics.h"
+#include "engine/report/text/number_text.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/reports/face_values.h"
-#include "app/viewer/model/reports/number_text.h"
 #include "app/viewer/model/reports/viewer_words.h"
-#include "app/viewer/model/reports/zone_look.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/views/colour_scale.h"
+#include "engine/report/figures/face_values.h"
+#include "engine/report/text/number_text.h"
+#include "engine/report/text/zone_look.h"
 
 namespace spia::viewer {
 namespace {

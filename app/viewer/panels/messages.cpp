@@ -2,8 +2,8 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/reports/first_steps.h"
-#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "app/viewer/model/actions/json_members.h"
 #include "app/viewer/model/document/grades.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

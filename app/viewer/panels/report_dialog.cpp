@@ -17,7 +17,7 @@ void heading(const Frame& frame, const char* text)
     ImGui::PopFont();
 }
 
-void pictures_column(const Frame& frame, ReportOptions& options)
+void pictures_column(const Frame& frame, ViewerReportOptions& options)
 {
     const Session& session = frame.state.document.session;
     heading(frame, "Pictures");
@@ -56,7 +56,7 @@ void tables_column(const Frame& frame, ReportTables& tables)
 void report_dialog(Frame& frame)
 {
     ReportChoices& choices = frame.ui.reporting;
-    ReportOptions& options = choices.options;
+    ViewerReportOptions& options = choices.options;
     const Session& session = frame.state.document.session;
     const bool appears = std::exchange(frame.ui.show_report, false);
     if (appears) {

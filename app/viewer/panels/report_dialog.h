@@ -9,7 +9,7 @@ struct Frame;
 
 /// What was chosen in the report dialog; kept until the program ends, title and remarks until another part is opened.
 struct ReportChoices {
-    ReportOptions options;
+    ViewerReportOptions options;
     std::string file, suggested; ///< see follow()
     std::string about;           ///< the part that title and remarks were written for
 };

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/document/grades.h"
-#include "app/viewer/model/reports/number_text.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/bend_rows.h"
 #include "app/viewer/panels/dialog_parts.h"
@@ -11,6 +10,7 @@
 #include "app/viewer/panels/step_parts.h"
 #include "app/viewer/panels/surface_step.h"
 #include "app/viewer/panels/widgets.h"
+#include "engine/report/text/number_text.h"
 
 namespace spia::viewer {
 namespace {

@@ -11,7 +11,6 @@
 #include "app/viewer/model/actions/actions.h"
 #include "app/viewer/model/jobs/viewer_model.h"
 #include "app/viewer/model/picking/view_cube.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/panels/animation_dialog.h"
 #include "app/viewer/panels/charts.h"
 #include "app/viewer/panels/comparison_section.h"
@@ -31,6 +30,7 @@
 #include "app/viewer/panels/theme.h"
 #include "app/viewer/views/scene_cache.h"
 #include "app/viewer/views/step_scene.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <imgui_internal.h> // ClearActiveID, NavRectRel
 
-#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/model/reports/wrapped_text.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
+#include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/viewer/model/reports/face_values.h"
-#include "app/viewer/model/reports/number_text.h"
-#include "app/viewer/model/reports/zone_look.h"
+#include "engine/report/figures/face_values.h"
+#include "engine/report/text/number_text.h"
+#include "engine/report/text/zone_look.h"
 
 namespace spia::viewer {
 namespace {

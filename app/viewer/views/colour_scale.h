@@ -6,7 +6,7 @@
 
 #include "app/viewer/model/document/document.h"
 #include "app/viewer/model/document/scene.h"
-#include "app/viewer/model/reports/lengths.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 

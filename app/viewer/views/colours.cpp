@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/viewer/model/reports/zone_look.h"
 #include "engine/core/colour_map.h"
+#include "engine/report/text/zone_look.h"
 
 namespace spia::viewer {
 namespace {

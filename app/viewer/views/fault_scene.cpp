@@ -1,9 +1,9 @@
 #include "app/viewer/views/fault_scene.h"
 
-#include "app/viewer/model/reports/lengths.h"
-#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
+#include "engine/report/text/lengths.h"
+#include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
 namespace {

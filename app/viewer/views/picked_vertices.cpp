@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/views/palette.h"
 #include "app/viewer/views/scene_mesh.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "app/viewer/model/document/scene.h"
 #include "app/viewer/model/document/state.h"
-#include "app/viewer/model/reports/face_values.h"
-#include "app/viewer/model/reports/figures.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/report/figures/face_values.h"
+#include "engine/report/figures/figures.h"
 
 namespace spia::viewer {
 

@@ -1,11 +1,11 @@
-#include "app/viewer/model/reports/face_values.h"
+#include "engine/report/figures/face_values.h"
 
 #include <gmock/gmock.h>
 
-#include "app/viewer/model/reports/figures.h"
-#include "app/viewer/model/reports/number_text.h"
 #include "app/viewer/views/colour_scale.h"
 #include "app/viewer/views/views.h"
+#include "engine/report/figures/figures.h"
+#include "engine/report/text/number_text.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/viewer/viewer_samples.h"
 

@@ -1,10 +1,10 @@
-#include "app/viewer/model/reports/lengths.h"
+#include "engine/report/text/lengths.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/views/colour_scale.h"
+#include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
 namespace {

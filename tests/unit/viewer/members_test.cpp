@@ -45,7 +45,7 @@ TEST(Members, AreAllFieldsOfTheirStructs)
     EXPECT_EQ(members<CsvTables>, fields<CsvTables>());
     EXPECT_EQ(members<OutputOptions>, fields<OutputOptions>());
     EXPECT_EQ(members<ReportTables>, fields<ReportTables>());
-    EXPECT_EQ(members<ReportOptions>, fields<ReportOptions>());
+    EXPECT_EQ(members<ViewerReportOptions>, fields<ViewerReportOptions>());
     EXPECT_EQ(members<SeamOptions>, fields<SeamOptions>());
     EXPECT_EQ(members<Reading>, fields<Reading>());
     EXPECT_EQ(members<RemeshOptions>, fields<RemeshOptions>() - 2) << "all but what counts as a line";

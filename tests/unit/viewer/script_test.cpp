@@ -158,7 +158,7 @@ TEST(Script, OptionsOfFilesCarryTheirValuesAndKeepTheOthers)
               (OutputOptions{LengthUnit::inch, "d", {true, false, true, true, true}, {true, false}, {}}));
     const auto report = std::get<WriteReport>(action_from_json(json(
         R"({"do":"write_report","file":"r","options":{"title":"t","remarks":"m","pictures":["quads"],"standard_look":false,"tables":{"solver":false}}})")));
-    EXPECT_EQ(report.options, (ReportOptions{"t", "m", {View::quads}, false, {true, true, true, false, true}}));
+    EXPECT_EQ(report.options, (ViewerReportOptions{"t", "m", {View::quads}, false, {true, true, true, false, true}}));
     const auto picture = std::get<Screenshot>(
         action_from_json(json(R"({"do":"screenshot","file":"p","view":"part","labels":false,"transparent":true})")));
     EXPECT_TRUE(picture.legend && picture.transparent);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/viewer/model/reports/statistics.h"
+#include "engine/report/figures/statistics.h"
 #include "tests/support/revolved.h"
 #include "tests/support/shapes.h"
 

@@ -4,8 +4,8 @@
 
 #include "app/viewer/model/actions/script.h"
 #include "app/viewer/model/document/chain.h"
-#include "app/viewer/model/reports/html_report.h"
 #include "app/viewer/model/reports/state_report.h"
+#include "engine/report/html/html_report.h"
 #include "tests/unit/viewer/steps_fixture.h"
 
 namespace spia::viewer {

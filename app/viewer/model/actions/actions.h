@@ -437,7 +437,7 @@ struct ExportFiles {
 }; ///< "export", in the background; options: unit, name, glb {part, ...}, csv {fields, outline}
 struct WriteReport {
     std::filesystem::path file;
-    ReportOptions options;
+    ViewerReportOptions options;
 }; ///< "write_report": HTML; options: title, remarks, pictures, standard_look, tables {key_figures, ...}
 /// "screenshot" (PNG); no view: the window. Without a size it is as large as on the screen.
 struct Screenshot {

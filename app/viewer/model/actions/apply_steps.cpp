@@ -5,8 +5,8 @@
 
 #include "app/viewer/model/actions/apply.h"
 #include "app/viewer/model/document/chain.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "engine/mesh/region.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "app/viewer/model/actions/names.h"
-#include "app/viewer/model/document/field.h"
 #include "engine/core/json_file.h"
+#include "engine/report/figures/field.h"
 
 /// Structs to and from JSON by a list of their members, once for scripts, projects and reports:
 ///

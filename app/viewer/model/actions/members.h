@@ -69,10 +69,10 @@ inline constexpr auto mm_or_inch = [](LengthUnit unit, const Place& place) {
         place.fail("must be \"mm\" or \"inch\"");
 };
 template <>
-inline constexpr auto members_of<ReportOptions> =
-    std::tuple{member("title", &ReportOptions::title),       member("remarks", &ReportOptions::remarks),
-               member("pictures", &ReportOptions::pictures), member("standard_look", &ReportOptions::standard_look),
-               member("tables", &ReportOptions::tables),     member("lengths", &ReportOptions::lengths, mm_or_inch)};
+inline constexpr auto members_of<ViewerReportOptions> = std::tuple{
+    member("title", &ViewerReportOptions::title),       member("remarks", &ViewerReportOptions::remarks),
+    member("pictures", &ViewerReportOptions::pictures), member("standard_look", &ViewerReportOptions::standard_look),
+    member("tables", &ViewerReportOptions::tables),     member("lengths", &ViewerReportOptions::lengths, mm_or_inch)};
 
 inline constexpr auto is_path = [](const std::vector<std::vector<int>>& path, const Place& place) {
     for (size_t i = 0; i < path.size(); ++i)

@@ -52,4 +52,10 @@ ProcessConditions process_of(const Document& document, const std::filesystem::pa
     return process;
 }
 
+bool is_smoothed(const FieldDisplay& display)
+{
+    return !display.per_face && display.field != Field::none && display.field != Field::zone &&
+           display.field != Field::deviation; // that is measured at the vertices
+}
+
 } // namespace spia::viewer

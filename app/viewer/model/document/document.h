@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/model/document/field.h"
 #include "app/viewer/model/document/limits_choice.h"
 #include "app/viewer/model/document/process_choice.h"
 #include "app/viewer/model/document/scene.h"
 #include "app/viewer/model/document/unfolding_steps.h"
 #include "app/viewer/model/document/view.h"
 #include "engine/pipeline/session.h"
+#include "engine/report/figures/field.h"
 
 namespace spia::viewer {
 
@@ -78,6 +78,8 @@ struct FieldDisplay {
     bool directions = false; ///< glyphs of the principal strains
     bool difference = false; ///< now minus reference; only where there is one, see comparison.h
 };
+/// Whether the colours of a field are means at the vertices, which peaks of single faces exceed.
+bool is_smoothed(const FieldDisplay& display);
 
 /// Who says what the sheet is.
 enum class SheetSource {

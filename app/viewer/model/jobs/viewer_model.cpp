@@ -7,10 +7,10 @@
 #include <mutex>
 
 #include "app/viewer/model/document/grades.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 

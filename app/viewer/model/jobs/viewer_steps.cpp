@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include "app/viewer/model/jobs/viewer_model.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/model/reports/viewer_words.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/viewer/model/document/flat_mesh.h"
 #include "app/viewer/model/picking/measuring.h"
 #include "engine/exchange/export_scene.h"
+#include "engine/forming/flat_mesh.h"
 #include "engine/nurbs/tessellate.h"
 
 namespace spia::viewer {

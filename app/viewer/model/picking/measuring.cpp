@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "app/viewer/model/actions/names.h"
-#include "app/viewer/model/document/flat_mesh.h"
 #include "app/viewer/model/picking/curvature_at.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "engine/core/error.h"
+#include "engine/forming/flat_mesh.h"
 #include "engine/mesh/vectors.h"
+#include "engine/report/text/lengths.h"
 #include "engine/unfold/target/fit_target.h"
 
 namespace spia::viewer {

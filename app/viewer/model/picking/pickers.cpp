@@ -1,8 +1,8 @@
 #include "app/viewer/model/picking/pickers.h"
 
-#include "app/viewer/model/document/flat_mesh.h"
 #include "app/viewer/model/picking/measuring.h"
 #include "engine/core/error.h"
+#include "engine/forming/flat_mesh.h"
 #include "engine/mesh/topology.h"
 
 namespace spia::viewer {

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "app/viewer/model/document/chain.h"
-#include "app/viewer/model/document/flat_mesh.h"
 #include "app/viewer/model/jobs/viewer_model.h"
-#include "app/viewer/model/reports/figures.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "engine/core/error.h"
+#include "engine/forming/flat_mesh.h"
 #include "engine/mesh/topology.h"
+#include "engine/report/figures/figures.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 namespace {

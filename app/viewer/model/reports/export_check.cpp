@@ -5,8 +5,8 @@
 
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/state.h"
-#include "app/viewer/model/reports/lengths.h"
 #include "app/viewer/model/reports/lights.h"
+#include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
 

@@ -8,9 +8,6 @@
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/state.h"
 #include "app/viewer/model/reports/export_check.h"
-#include "app/viewer/model/reports/lengths.h"
-#include "app/viewer/model/reports/number_text.h"
-#include "app/viewer/model/reports/shown_lengths.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "engine/coons/cell_quality.h"
 #include "engine/mesh/edge_uses.h"
@@ -18,6 +15,9 @@
 #include "engine/nurbs/smooth_joins.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/surface_shortcomings.h"
+#include "engine/report/text/lengths.h"
+#include "engine/report/text/number_text.h"
+#include "engine/report/text/shown_lengths.h"
 
 namespace spia::viewer {
 namespace {

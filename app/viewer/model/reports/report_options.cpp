@@ -1,6 +1,13 @@
 #include "app/viewer/model/reports/report_options.h"
 
+#include "app/viewer/model/reports/viewer_words.h"
+
 namespace spia::viewer {
+
+ReportOptions report_options(const ViewerReportOptions& options)
+{
+    return {options.title, options.remarks, options.tables, {options.lengths, in_viewer_words}};
+}
 
 ViewerState standard_look(const ViewerState& state)
 {

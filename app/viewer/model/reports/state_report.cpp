@@ -9,9 +9,9 @@
 #include "app/viewer/model/picking/measuring.h"
 #include "app/viewer/model/picking/vertex_picking.h"
 #include "app/viewer/model/reports/comparison.h"
-#include "app/viewer/model/reports/face_values.h"
 #include "app/viewer/model/reports/lights.h"
 #include "engine/pipeline/report.h"
+#include "engine/report/figures/face_values.h"
 
 namespace spia::viewer {
 namespace {

@@ -1,0 +1,86 @@
+#include "engine/report/figures/crack_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "engine/report/text/lengths.h"
+
+namespace spia {
+namespace {
+
+/// The share of the limit that is used up where it is greatest. Zones::distance is what is left of it in engineering major strain.
+void find_greatest_share(const LimitsResult& limits, const SheetFields& face, CrackVerdict& verdict)
+{
+    const Eigen::VectorXd& left = limits.zones.distance;
+    for (Eigen::Index f = 0; f < left.size(); ++f) {
+        const double strain = engineering_strain(face.strain_major[f]), limit = strain + left[f];
+        if (!std::isfinite(left[f]) || !(limit > 0))
+            continue;
+        if (verdict.face < 0 || strain / limit > verdict.share) {
+            verdict.share = std::max(0., strain / limit);
+            verdict.face = int(f);
+        }
+    }
+}
+
+std::string counted(int faces) { return faces == 1 ? "1 face" : fmt::format("{} faces", faces); }
+
+std::string place(const TriMesh& part, int face, LengthUnit lengths)
+{
+    const Eigen::Vector3d at = (part.position.col(part.triangle(0, face)) + part.position.col(part.triangle(1, face)) +
+                                part.position.col(part.triangle(2, face))) /
+                               (3 * millimetres(lengths));
+    return fmt::format("{:.4g}, {:.4g}, {:.4g} {}", at[0] + 0., at[1] + 0., at[2] + 0., length_word(lengths));
+}
+
+} // namespace
+
+CrackVerdict crack_verdict(const Session& session, LengthUnit lengths)
+{
+    CrackVerdict verdict;
+    if (!session.part || !session.blank || !session.limits)
+        return verdict;
+    const LimitsResult& limits = *session.limits;
+    const SheetFields& face = session.blank->face;
+    find_greatest_share(limits, face, verdict);
+    if (verdict.face < 0) {
+        verdict.kind = CrackVerdict::Kind::unknown;
+        verdict.text = fmt::format(
+            "Whether it cracks cannot be told: there is no forming limit curve for {}. The greatest thinning is "
+            "{:.1f} %.",
+            session.options.flatten.material.name, std::max(0., 100 * face.thinning.maxCoeff()));
+        return verdict;
+    }
+    const auto faces = [&](Zone zone) { return limits.zones.share[size_t(zone)].faces; };
+    const int above = faces(Zone::crack), near = faces(Zone::risk) + faces(Zone::marginal);
+    const std::string used = fmt::format("the greatest strain is {:.0f} % of the forming limit", 100 * verdict.share);
+    if (above > 0) {
+        verdict.kind = CrackVerdict::Kind::cracks;
+        verdict.text = fmt::format("Cracks expected in {}, first at {}: {}.", counted(above),
+                                   place(session.part->mesh, verdict.face, lengths), used);
+    } else if (near > 0) {
+        verdict.kind = CrackVerdict::Kind::at_limit;
+        verdict.text =
+            fmt::format("At the limit in {}: {}, which leaves less than the required margin.", counted(near), used);
+    } else {
+        verdict.kind = CrackVerdict::Kind::safe;
+        verdict.text = fmt::format("No cracks expected: {}.", used);
+    }
+    if (const int thick = faces(Zone::strong_thickening); thick > 0)
+        verdict.text += fmt::format(" Wrinkles are likely: {} by more than the allowed {:.0f} %.",
+                                    thick == 1 ? "1 face thickens" : fmt::format("{} faces thicken", thick),
+                                    100 * limits.settings.max_thickening);
+    const Eigen::VectorXd& left = limits.zones.distance;
+    const auto untold = std::count_if(left.begin(), left.end(), [](double each) { return !std::isfinite(each); });
+    if (untold > 0)
+        verdict.text +=
+            fmt::format(" It cannot be told for {}, whose sheet has no forming limit curve.", counted(int(untold)));
+    if (above == 0 && near == 0)
+        verdict.text += " Bending over radii is not counted.";
+    if (!session.blank->report.whole())
+        verdict.text += " The result has not converged, so this is a guess.";
+    return verdict;
+}
+
+} // namespace spia

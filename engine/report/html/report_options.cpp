@@ -1,0 +1,12 @@
+#include "engine/report/html/report_options.h"
+
+#include "engine/report/text/shown_lengths.h"
+
+namespace spia {
+
+std::string ReportReader::told(std::string text) const
+{
+    return in_shown_lengths(words ? words(std::move(text)) : text, lengths);
+}
+
+} // namespace spia
