@@ -36,7 +36,7 @@ struct RemeshArguments {
 };
 
 struct RunArguments {
-    std::filesystem::path part, folder = "spia-out", json, process;
+    std::filesystem::path part, folder = "spia-out", json, report, process;
     std::string material = "mild_steel", unit, skin; ///< of a solid: outer, inner, middle; empty: middle
     std::string k_factor;                            ///< a number, a name or a file; empty: 0.5
     std::vector<std::string> parts;                  ///< of a solver deck, ids or names

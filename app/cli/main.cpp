@@ -354,6 +354,11 @@ int main(int count, char** values)
         ->capture_default_str();
     run_command->add_option("--name", run.name, "of the files, without ending (default: the part's)");
     run_command->add_option("--json", run.json, "write the figures of the run")->type_name("FILE");
+    run_command
+        ->add_option("--report", run.report,
+                     "write a report to print or pass on: figures, warnings, assumptions, pictures, in one HTML file "
+                     "(in inch with --export-unit inch, else in mm)")
+        ->type_name("FILE.html");
     run_command->add_flag("--strict", run.strict, "exit 1 if the result has shortcomings");
     run_command->add_option("--threads", threads, "most threads (default: all); the result is the same for any")
         ->type_name("N")

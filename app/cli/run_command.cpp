@@ -20,6 +20,8 @@
 #include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/shortcomings.h"
+#include "engine/report/html/html_report.h"
+#include "engine/report/html/report_pictures.h"
 
 namespace spia::cli {
 namespace {
@@ -182,6 +184,19 @@ void say_of_reading(const RunArguments& arguments, const PartFile& part)
         say("  note: {}\n", text);
 }
 
+/// @param poorer  shortcomings of the session
+void write_report(const RunArguments& arguments, const Session& session, const std::vector<std::string>& poorer,
+                  const std::optional<Failure>& failure)
+{
+    ReportOptions options;
+    options.reader.lengths = length_unit(arguments.export_unit) == LengthUnit::inch ? LengthUnit::inch : LengthUnit::mm;
+    std::vector<std::string> doubts = poorer;
+    if (failure)
+        doubts.insert(doubts.begin(),
+                      fmt::format("the stage {} has no result: {}", name(failure->stage), failure->message));
+    write_html_report(arguments.report, session, drawn_pictures(session, options.reader.lengths), options, doubts);
+}
+
 /// Writes the files and the report of a run with a blank: that is worth it, whatever came of the
 /// stages after it. @returns its shortcomings
 std::vector<std::string> write_and_report(const RunArguments& arguments, const ChainRun& made,
@@ -196,10 +211,15 @@ std::vector<std::string> write_and_report(const RunArguments& arguments, const C
     if (!arguments.json.empty())
         write_atomically(arguments.json, report_json(session, files, write_seconds, made.failure));
 
+    std::vector<std::string> poorer = shortcomings(session);
+    if (!arguments.report.empty())
+        write_report(arguments, session, poorer, made.failure);
+
     print_summary(session);
     for (const auto& file : files)
         say("wrote     {}\n", file.string());
-    std::vector<std::string> poorer = shortcomings(session);
+    if (!arguments.report.empty())
+        say("wrote     {}\n", arguments.report.string());
     for (const std::string& text : poorer)
         say("WARNING   {}\n", text);
     return poorer;
@@ -241,11 +261,14 @@ int run(const RunArguments& arguments)
     const auto begin_with_part = [&](const Session& read) {
         say_of_reading(arguments, *read.part);
         require_possible(read);
-        require_place(read, arguments.folder, arguments.formats, arguments.json, wanted);
+        require_place(read, arguments.folder, arguments.formats, {arguments.json, arguments.report}, wanted);
     };
     const ChainRun made = run_shown(std::move(session), Stage::read, Stage::fit, wishes_of(arguments), begin_with_part);
-    if (!made.session.blank)
+    if (!made.session.blank) {
+        if (!arguments.report.empty())
+            say("report    not written: there is no blank\n");
         std::rethrow_exception(made.error);
+    }
     const std::vector<std::string> poorer = write_and_report(arguments, made, wanted);
     if (made.error)
         std::rethrow_exception(made.error);

@@ -31,7 +31,7 @@ void require_surface_place(const UnfoldArguments& arguments, const PartFile& par
     OutputOptions wanted;
     wanted.name = arguments.name;
     wanted.dxf = dxf_options(arguments.dxf);
-    require_place(session, arguments.folder, arguments.surface_formats, arguments.json, wanted);
+    require_place(session, arguments.folder, arguments.surface_formats, {arguments.json}, wanted);
     const auto report = report_file(arguments);
     if (!arguments.json.empty() && same_place(arguments.json, report))
         throw InputError(fmt::format("{} is where the report of the surface goes; give --json another name",

@@ -224,24 +224,27 @@ ColourRange central_range(const Eigen::VectorXd& values)
 
 class Picture {
 public:
-    explicit Picture(const ExportScene& scene)
-        : scene_(scene), range_(central_range(scene.fields->thinning)), levels_(round_values(range_)),
+    Picture(const ExportScene& scene, Panels panels, LengthUnit lengths)
+        : scene_(scene), sheet_(panels != Panels::shape), quads_(panels != Panels::sheet && scene.quad_mesh),
+          surface_(panels != Panels::sheet && (scene.surface || !scene.control_nets.empty())), lengths_(lengths),
+          range_(central_range(scene.fields->thinning)), levels_(round_values(range_)),
           view_(view_of(*scene.part, false)), lift_(0.004 * bounding_diagonal(*scene.part)),
-          canvas_((2 + (scene.quad_mesh ? 1 : 0) + (scene.surface || !scene.control_nets.empty() ? 1 : 0)) *
-                      panel_width,
-                  panel_height + legend_height)
+          canvas_((2 * sheet_ + quads_ + surface_) * panel_width, panel_height + sheet_ * legend_height)
     {
     }
 
     std::string png()
     {
-        draw_part();
-        draw_blank();
-        if (scene_.quad_mesh)
+        if (sheet_) {
+            draw_part();
+            draw_blank();
+        }
+        if (quads_)
             draw_quad_mesh(*scene_.quad_mesh);
-        if (scene_.surface || !scene_.control_nets.empty())
+        if (surface_)
             draw_surface();
-        draw_legend();
+        if (sheet_)
+            draw_legend();
         return canvas_.png();
     }
 
@@ -262,9 +265,10 @@ private:
         });
         draw_light_edges(panel, part, lift_on(panel));
         draw_boundary(panel, part, lift_on(panel));
-        const Vector3d size = part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff();
-        panel.title("part", fmt::format("{} triangles, {:.4g} x {:.4g} x {:.4g} mm", part.triangles(), size.x(),
-                                        size.y(), size.z()));
+        const Vector3d size =
+            (part.position.rowwise().maxCoeff() - part.position.rowwise().minCoeff()) / millimetres(lengths_);
+        panel.title("part", fmt::format("{} triangles, {:.4g} x {:.4g} x {:.4g} {}", part.triangles(), size.x(),
+                                        size.y(), size.z(), name(lengths_)));
     }
 
     void draw_blank()
@@ -283,8 +287,10 @@ private:
             });
         }
         draw_boundary(panel, flat, lift_on(panel));
-        const Vector3d size = flat.position.rowwise().maxCoeff() - flat.position.rowwise().minCoeff();
-        panel.title("flat blank", fmt::format("{:.4g} x {:.4g} mm, contours of thinning", size.x(), size.y()));
+        const Vector3d size =
+            (flat.position.rowwise().maxCoeff() - flat.position.rowwise().minCoeff()) / millimetres(lengths_);
+        panel.title("flat blank",
+                    fmt::format("{:.4g} x {:.4g} {}, contours of thinning", size.x(), size.y(), name(lengths_)));
     }
 
     void draw_quad_mesh(const QuadGrid& grid)
@@ -368,6 +374,8 @@ private:
     }
 
     const ExportScene& scene_;
+    const bool sheet_, quads_, surface_; ///< which panels there are
+    const LengthUnit lengths_;
     const ColourRange range_; ///< of thinning; values beyond it have the colours of its ends
     const std::vector<double> levels_;
     const Matrix3d view_;
@@ -378,10 +386,16 @@ private:
 
 } // namespace
 
-void write_picture(const std::filesystem::path& path, const ExportScene& scene)
+std::string picture_png(const ExportScene& scene, Panels panels, LengthUnit lengths)
 {
     require_complete(scene);
-    write_atomically(path, Picture(scene).png());
+    const bool shape = scene.quad_mesh || scene.surface || !scene.control_nets.empty();
+    return panels == Panels::shape && !shape ? "" : Picture(scene, panels, lengths).png();
+}
+
+void write_picture(const std::filesystem::path& path, const ExportScene& scene)
+{
+    write_atomically(path, picture_png(scene));
 }
 
 } // namespace spia

@@ -14,12 +14,12 @@
 #include "engine/exchange/mesh/write_vtu.h"
 #include "engine/exchange/sheet_field_list.h"
 #include "engine/exchange/text/write_csv.h"
-#include "engine/nurbs/tessellate.h"
 #include "engine/picture/picture.h"
 #include "engine/pipeline/bends_for_shop.h"
 #include "engine/pipeline/deck_outputs.h"
 #include "engine/pipeline/drawn_blank.h"
 #include "engine/pipeline/iga_outputs.h"
+#include "engine/pipeline/session_scene.h"
 
 namespace fs = std::filesystem;
 
@@ -68,24 +68,6 @@ std::vector<std::string> file_names(const std::string& format, const Session& se
     if (format == "glb" && options.glb == GltfNodes{false, false, false, false, false})
         throw InputError("nothing is chosen of the GLB file; take part, blank, quad_mesh, surface or control_net");
     return {file_stem(session, options) + "." + format};
-}
-
-/// All patches in triangles.
-Tessellation tessellation_of(const MultiPatch& patches, const Progress& progress)
-{
-    Tessellation whole;
-    for (size_t p = 0; p < patches.patch.size(); ++p) {
-        const double all = double(patches.patch.size());
-        const Tessellation piece = tessellate(patches.patch[p], 3, progress.part(double(p) / all, double(p + 1) / all));
-        const Eigen::Index vertices = whole.mesh.position.cols(), faces = whole.mesh.triangle.cols();
-        whole.mesh.position.conservativeResize(3, vertices + piece.mesh.position.cols());
-        whole.mesh.position.rightCols(piece.mesh.position.cols()) = piece.mesh.position;
-        whole.normal.conservativeResize(3, vertices + piece.normal.cols());
-        whole.normal.rightCols(piece.normal.cols()) = piece.normal;
-        whole.mesh.triangle.conservativeResize(3, faces + piece.mesh.triangle.cols());
-        whole.mesh.triangle.rightCols(piece.mesh.triangle.cols()) = piece.mesh.triangle.array() + int(vertices);
-    }
-    return whole;
 }
 
 /// Also the straight bends of a bracket; what a drawn part has in their place is no matter for a press brake.
@@ -146,7 +128,7 @@ bool same_place(const fs::path& a, const fs::path& b)
 }
 
 void require_place(const Session& session, const fs::path& folder, const std::vector<std::string>& formats,
-                   const fs::path& other, const OutputOptions& options)
+                   const std::vector<fs::path>& others, const OutputOptions& options)
 {
     std::error_code failed;
     fs::create_directories(folder, failed);
@@ -159,7 +141,9 @@ void require_place(const Session& session, const fs::path& folder, const std::ve
     for (const std::string& format : formats)
         for (const std::string& file : file_names(format, session, options)) // also what has no surface yet
             files.push_back(folder / file);
-    if (!other.empty()) {
+    for (const fs::path& other : others) {
+        if (other.empty())
+            continue;
         for (const fs::path& file : files)
             if (same_place(file, other))
                 throw ExchangeError(fmt::format("{} is wanted for two files; choose another name", other.string()));
@@ -186,24 +170,9 @@ std::vector<fs::path> write_outputs(const Session& session, const fs::path& fold
     const std::string name = file_stem(session, options);
     const LengthUnit unit = options.unit;
     constexpr double prepared = 0.1; // share of the time
-    ExportScene scene;
-    scene.name = name;
-    scene.part = &part;
-    scene.blank = &flat.blank;
-    scene.fields = &flat.node;
-    const Zones* zones = session.limits ? &session.limits->zones : nullptr;
-    scene.zones = zones;
-    if (session.lifted)
-        scene.quad_mesh = &session.lifted->lifted;
-    Tessellation tessellation;
-    MultiPatch surface;
-    if (session.surface) {
-        surface = surface_patches(session);
-        tessellation = tessellation_of(surface, progress.part(0, prepared));
-        scene.surface = &tessellation.mesh;
-        scene.surface_normal = &tessellation.normal;
-        scene.control_nets = surface.patch;
-    }
+    const SessionScene shown(session, name, progress.part(0, prepared));
+    const ExportScene& scene = shown.scene();
+    const Zones* zones = scene.zones;
 
     size_t of_all = 0;
     for (const std::string& format : formats)

@@ -51,11 +51,11 @@ std::vector<std::filesystem::path> output_files(const Session& session, const st
 bool same_place(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Finds out what would keep write_outputs() from writing, before the work that fills the files; makes the folder.
-/// @param other one more file that the caller will write; may be empty
+/// @param others more files that the caller will write; empty paths do not count
 /// @throws InputError as output_files(); ExchangeError if a place cannot be written, or a file would take the place of
 ///         the part itself or of another output
 void require_place(const Session& session, const std::filesystem::path& folder, const std::vector<std::string>& formats,
-                   const std::filesystem::path& other = {}, const OutputOptions& options = {});
+                   const std::vector<std::filesystem::path>& others = {}, const OutputOptions& options = {});
 
 /// Writes the results of a session, solved at least, into a folder, which is made if need be: output_files(). Each file
 /// appears whole or not at all. What has no surface yet leaves out of each file what belongs to it.

@@ -192,6 +192,31 @@ TEST(Picture, HasAPanelForEachShapeAndTheSameBytesTwice)
     EXPECT_EQ(decoded(content_of(folder / "x.png")).width, 3 * 500);
 }
 
+TEST(Picture, OfSomePanelsIsThatPartOfTheWhole)
+{
+    const samples::Chain chain = samples::chain();
+    ExportScene scene = chain.scene();
+    const Image all = decoded(picture_png(scene)), sheet = decoded(picture_png(scene, Panels::sheet)),
+                shape = decoded(picture_png(scene, Panels::shape));
+    ASSERT_EQ(sheet.width, 2 * 500);
+    ASSERT_EQ(sheet.height, all.height);
+    ASSERT_EQ(shape.width, 2 * 500);
+    ASSERT_EQ(shape.height, all.height - 100) << "no legend, for nothing has its colours";
+    int sheet_differs = 0, shape_differs = 0; // by rounding, at the edges of what is drawn
+    for (int y = 0; y < shape.height; ++y)
+        for (int x = 0; x < 2 * 500; ++x) {
+            sheet_differs += (sheet.colour(x, y) - all.colour(x, y)).norm() > 0.1;
+            shape_differs += (shape.colour(x, y) - all.colour(1000 + x, y)).norm() > 0.1;
+        }
+    EXPECT_EQ(sheet_differs, 0);
+    EXPECT_LT(shape_differs, 100) << "of 460 000 pixels";
+    EXPECT_NE(picture_png(scene, Panels::sheet, LengthUnit::inch), picture_png(scene, Panels::sheet));
+    scene.quad_mesh = nullptr;
+    scene.surface = nullptr;
+    scene.control_nets = {};
+    EXPECT_EQ(picture_png(scene, Panels::shape), "") << "there is nothing to draw";
+}
+
 TEST(Picture, ShowsWherePatchesMeet)
 {
     const ScratchFolder folder;

@@ -126,7 +126,7 @@ TEST(IgaOutputs, AreLeftOutWithoutASurface)
                session.surface->result.surface.control / 1000)
                   .norm(),
               1e-12);
-    EXPECT_THROW(require_place(session, folder / "new", {"mfem"}, folder / "new" / "dome-mfem.mesh"), ExchangeError);
+    EXPECT_THROW(require_place(session, folder / "new", {"mfem"}, {folder / "new" / "dome-mfem.mesh"}), ExchangeError);
     session.surface.reset();
     EXPECT_TRUE(write_outputs(session, folder / "none", iga_formats()).empty());
 }

@@ -338,9 +338,11 @@ TEST(Outputs, AFileNeverTakesThePlaceOfThePart)
     session.file = part; // as if it had been read from there
     EXPECT_THROW(require_place(session, folder / ".", {"glb"}), ExchangeError);
     EXPECT_THROW(write_outputs(session, folder / ".", {"csv", "glb"}), ExchangeError);
-    EXPECT_THROW(require_place(session, folder / "new", {"csv"}, part), ExchangeError);
-    EXPECT_THROW(require_place(session, folder / "new", {"csv"}, folder / "new" / "fields.csv"), ExchangeError);
-    EXPECT_NO_THROW(require_place(session, folder / "new", {"glb"}, folder / "new.json"));
+    EXPECT_THROW(require_place(session, folder / "new", {"csv"}, {part}), ExchangeError);
+    EXPECT_THROW(require_place(session, folder / "new", {"csv"}, {folder / "new" / "fields.csv"}), ExchangeError);
+    EXPECT_NO_THROW(require_place(session, folder / "new", {"glb"}, {folder / "new.json", {}}));
+    EXPECT_THROW(require_place(session, folder / "new", {"glb"}, {folder / "new.json", folder / "./new.json"}),
+                 ExchangeError);
     EXPECT_EQ(std::filesystem::file_size(part), size);
     EXPECT_FALSE(std::filesystem::exists(folder / "new.json"));
 }
