@@ -11,8 +11,8 @@
 #include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/flat_thickness.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia::cli {
 

@@ -8,8 +8,9 @@
 #include "engine/exchange/deck/deck_choice.h"
 #include "engine/exchange/read_part.h"
 #include "engine/mesh/topology.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
+#include "engine/report/figures/figures.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia::cli {
 namespace {
@@ -92,7 +93,7 @@ int info(const InfoArguments& arguments)
     say("boundary loops  {}\n", number(doctor.boundary_loops));
     say("genus           {}\n", number(doctor.genus));
     if (doctor.healthy()) {
-        const Eigen::Vector3d size = part.mesh.position.rowwise().maxCoeff() - part.mesh.position.rowwise().minCoeff();
+        const Eigen::Vector3d size = part_figures(part).size;
         say("part            {} triangles, {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm2\n", part.mesh.triangles(), size[0],
             size[1], size[2], area(part.mesh));
     }

@@ -5,12 +5,12 @@
 #include <fmt/core.h>
 #include <numbers>
 
-#include "engine/mesh/topology.h"
 #include "engine/nurbs/certificate.h"
 #include "engine/pipeline/applied_process.h"
 #include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
+#include "engine/report/figures/figures.h"
 
 namespace spia::cli {
 namespace {
@@ -56,11 +56,11 @@ void print_bends(const BendTable& table)
 
 void print_summary(const Session& session)
 {
-    const TriMesh& part = session.part->mesh;
     const FlattenResult& flat = *session.blank;
-    const Eigen::Vector2d size = flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
-    say("part      {} triangles, {} boundary loops, {:.6g} mm2\n", part.triangles(), boundary_loops(part).size(),
-        area(part));
+    const ResultFigures figures = result_figures(session);
+    const Eigen::Vector2d size = figures.blank.sides();
+    say("part      {} triangles, {} boundary loops, {:.6g} mm2\n", session.part->mesh.triangles(),
+        figures.part.boundary_loops, figures.part.area);
     for (const std::string& line : describe(applied_process(session)))
         say("process   {}\n", line);
     if (flat.report.process_share < 1)
@@ -76,9 +76,8 @@ void print_summary(const Session& session)
                                     : "NOT converged");
     if (session.bends)
         print_bends(*session.bends);
-    say("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n",
-        100 * flat.face.thinning.minCoeff(), 100 * flat.face.thinning.maxCoeff(),
-        flat.face.strain_equivalent.maxCoeff());
+    say("forming   thinning {:+.1f} to {:+.1f} %, equivalent strain up to {:.3f}\n", 100 * figures.sheet.thinning[0],
+        100 * figures.sheet.thinning[1], figures.sheet.strain_equivalent);
     if (session.corner_cut)
         say("corners   {}\n", describe(*session.corner_cut));
     if (flat.skins)
@@ -94,23 +93,20 @@ void print_summary(const Session& session)
     }
     if (!session.surface)
         return;
-    const Deviation& deviation = session.surface->deviation;
     const NurbsSurface& surface = session.surface->result.surface;
     const auto& patches = session.surface->patches;
     say("surface   {}, deviation max {:.4g} mm, rms {:.4g} mm\n",
-        patches
-            ? fmt::format("{} with {} control points", counted(int(patches->patches.patch.size()), "patch", "patches"),
-                          shared_controls(patches->patches).count)
-            : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
-        deviation.max(), std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
+        patches ? fmt::format("{} with {} control points", counted(figures.surface->patches, "patch", "patches"),
+                              figures.surface->control_points)
+                : fmt::format("{} x {} control points", surface.count_u, surface.count_v),
+        figures.surface->deviation_max, figures.surface->deviation_rms);
     if (const TrimResult& trim = session.surface->trim; !trim.loop.empty())
         say("holes     {}, of IGES and STEP files, within {:.2g} mm of {} vertices\n",
             counted(int(trim.loop.size()), "trimming curve", "trimming curves"), trim.distance,
             trim.loop.size() == 1 ? "its" : "their");
     if (const auto& fit = session.surface->fit; fit && patches)
         say("          {} {:.4g} mm in {}, {}{}\n", fit->reached ? "within" : "NOT within", fit->tolerance,
-            counted(fit->rounds, "round", "rounds"),
-            counted(int(patches->patches.interfaces.size()), "interface", "interfaces"),
+            counted(fit->rounds, "round", "rounds"), counted(figures.surface->joints, "interface", "interfaces"),
             patches->layout.edges > 0
                 ? fmt::format(", patches end on {}", counted(patches->layout.edges, "sharp edge", "sharp edges"))
                 : "");
@@ -126,18 +122,16 @@ void print_summary(const Session& session)
     }
     if (const auto& fit = session.surface->fit; fit && !patches)
         say("          {} {:.4g} mm{}, {} + {} knots inserted in {} rounds\n", fit->reached ? "within" : "NOT within",
-            fit->tolerance, fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * deviation.within()),
+            fit->tolerance,
+            fit->reached ? "" : fmt::format(" ({:.2f} % of the area is)", 100 * session.surface->deviation.within()),
             fit->knots_u, fit->knots_v, fit->rounds);
-    const Certificate& certificate = surface_certificate(session);
     if (session.deformed)
         say("deformed  control points moved by up to {:.4g} mm; deviations are those of the surface before\n",
             session.deformed->result.largest);
-    double scaled = 1;
-    for (const PatchCertificate& patch : certificate.patch)
-        scaled = std::min(scaled, patch.least_scaled);
-    const auto why_not = unsuited(certificate);
+    const auto why_not = unsuited(surface_certificate(session));
     say("analysis  {}, least scaled Jacobian {:.3f}\n",
-        why_not ? "not proved to be fit for it: " + *why_not : "proved to have no fold", scaled);
+        why_not ? "not proved to be fit for it: " + *why_not : "proved to have no fold",
+        figures.certificate->least_scaled);
 }
 
 } // namespace spia::cli

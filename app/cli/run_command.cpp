@@ -17,11 +17,12 @@
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/patch_file.h"
 #include "engine/pipeline/process_file.h"
-#include "engine/pipeline/report.h"
+#include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/report/html/html_report.h"
 #include "engine/report/html/report_pictures.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
-#include "engine/pipeline/report.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia::cli {
 namespace {

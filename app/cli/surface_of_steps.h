@@ -4,6 +4,8 @@
 
 #include "app/cli/commands.h"
 #include "engine/pipeline/run_chain.h"
+#include "engine/pipeline/session.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia::cli {
 

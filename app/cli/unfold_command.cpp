@@ -24,7 +24,6 @@
 #include "engine/pipeline/line_file.h"
 #include "engine/pipeline/outputs.h"
 #include "engine/pipeline/part_bends.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/seam_file.h"
 #include "engine/pipeline/sharp_folds.h"
 #include "engine/pipeline/shortcomings.h"
@@ -32,6 +31,8 @@
 #include "engine/pipeline/unfold_outputs.h"
 #include "engine/pipeline/unfold_shortcomings.h"
 #include "engine/pipeline/unfold_states.h"
+#include "engine/report/figures/figures.h"
+#include "engine/report/json/report_json.h"
 #include "engine/unfold/automatic_unfolding.h"
 #include "engine/unfold/map_lines.h"
 #include "engine/unfold/step/polish.h"
@@ -98,10 +99,10 @@ void print_states(const UnfoldRun& run, double diagonal)
         for (Eigen::Index f = 0; f < state.step.size(); ++f)
             if (state.step[f] == int(k + 1))
                 moved.push_back(int(f));
-        const Eigen::VectorXd thinning = state.face.thinning(moved);
+        const SheetFigures figures = sheet_figures(state.face, moved);
         say("step {:<4} {}: {}, equivalent strain up to {:.4f}, thinning {:+.1f} to {:+.1f} %{}\n", k + 1, state.name,
-            state.plain, state.face.strain_equivalent(moved).maxCoeff(), 100 * thinning.minCoeff(),
-            100 * thinning.maxCoeff(), state.converged ? "" : ", NOT converged");
+            state.plain, figures.strain_equivalent, 100 * figures.thinning[0], 100 * figures.thinning[1],
+            state.converged ? "" : ", NOT converged");
         if (state.on && (std::holds_alternative<HeightFace>(state.on->face) || creased(*state.on, diagonal)))
             say("          along the hinge {:.3g} mm beside the fixed faces, turned by {:.2f} deg\n",
                 state.on->distance_mm, state.on->angle * degrees);

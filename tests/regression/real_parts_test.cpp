@@ -6,9 +6,9 @@
 
 #include "engine/core/error.h"
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia {
 namespace {

@@ -31,7 +31,7 @@ rooms() {
 }
 rooms forming material process solver
 rooms unfold target plan step
-rooms report text figures html
+rooms report text figures json html
 while IFS= read -r line; do
     complain "only engine/exchange/cad and the lines as STEP and IGES know the CAD kernel: $line"
 done < <(grep -rnE '#include <(Standard_|Geom_|TopoDS|BRep|IGES|STEP|Interface_|Message_|XSControl)' engine app |

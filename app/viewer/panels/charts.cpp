@@ -18,10 +18,23 @@ const PartFigures& examined_figures(Frame& frame)
                : part_figures(frame);
 }
 
+const BlankSize& blank_size(Frame& frame)
+{
+    const Session& session = frame.state.document.session;
+    return frame.ui.charts.blank.of({session.part, session.blank},
+                                    [&] { return blank_size(session.part->mesh, session.blank->blank); });
+}
+
 const SheetFigures& sheet_figures(Frame& frame)
 {
     const auto& blank = frame.state.document.session.blank;
-    return frame.ui.charts.sheet.of({blank}, [&] { return sheet_figures(*blank); });
+    return frame.ui.charts.sheet.of({blank}, [&] { return without_noise(sheet_figures(blank->face)); });
+}
+
+const SurfaceFigures& surface_figures(Frame& frame)
+{
+    const auto& surface = frame.state.document.session.surface;
+    return frame.ui.charts.surface.of({surface}, [&] { return surface_figures(*surface); });
 }
 
 const GridFigures& grid_figures(Frame& frame)

@@ -35,16 +35,20 @@ struct Charts {
         section, section_elsewhere;
     Memo<PointCloud, Blank, Limits, int, int> strains;
     Memo<PartFigures, std::shared_ptr<const PartFile>> part, refused;
+    Memo<BlankSize, std::shared_ptr<const PartFile>, Blank> blank;
     Memo<SheetFigures, Blank> sheet;
+    Memo<SurfaceFigures, Surface> surface;
     Memo<GridFigures, std::shared_ptr<const GridStage>, Blank> grid;
     Memo<CrackVerdict, Blank, Limits, LengthUnit> cracks;
 };
 
-/// Of the results there are; the part, the blank, the grid must be there.
+/// Of the results there are; the part, the blank, the grid, the surface must be there.
 const PartFigures& part_figures(Frame& frame);
 /// Of the one that the mesh doctor's panel is about.
 const PartFigures& examined_figures(Frame& frame);
-const SheetFigures& sheet_figures(Frame& frame);
+const BlankSize& blank_size(Frame& frame);
+const SheetFigures& sheet_figures(Frame& frame); ///< without_noise()
+const SurfaceFigures& surface_figures(Frame& frame);
 const GridFigures& grid_figures(Frame& frame);
 /// Whether the sheet will crack.
 const CrackVerdict& crack_verdict(Frame& frame);

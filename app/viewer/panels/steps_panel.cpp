@@ -221,7 +221,8 @@ void unfold_step(Frame& frame)
     k_factor_control(frame);
     skins_control(frame);
     const SheetFigures& sheet = sheet_figures(frame);
-    figure(frame, "Blank", size_text(sheet.size[0], sheet.size[1], frame.lengths()));
+    const Eigen::Vector2d size = blank_size(frame).sides();
+    figure(frame, "Blank", size_text(size[0], size[1], frame.lengths()));
     bend_rows(frame);
     figure(frame, "Thinning", percent_range(sheet.thinning));
     tooltip("Smallest and largest value of all faces; negative: thicker than before");
@@ -362,7 +363,7 @@ void surface_step(Frame& frame)
     ViewSettings view = frame.state.view;
     if (surface_look_combo(view.surface_look))
         frame.actions.push(SetViewSettings{view});
-    surface_figures(frame, *session.surface);
+    surface_rows(frame, *session.surface);
     shape_editor(frame);
 }
 

@@ -34,7 +34,7 @@ std::string of_patch(const Certificate& certificate, size_t patch)
     return certificate.patch.size() > 1 ? fmt::format(" (patch {})", patch + 1) : "";
 }
 
-void certificate_figures(Frame& frame, const Certificate& certificate)
+void certificate_rows(Frame& frame, const Certificate& certificate)
 {
     const Palette p = palette_of(frame.state.view.dark);
     const auto why_not = unsuited(certificate);
@@ -45,9 +45,9 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
                     : "The surface normal never vanishes or flips; proved by the Bezier coefficients of every span");
     if (certificate.patch.empty())
         return;
-    const size_t sharp = worst(certificate, [](const PatchCertificate& c) { return -c.least_scaled; });
+    const CertificateFigures figures = certificate_figures(certificate);
     figure(frame, "Sharpest cell (1 is best)",
-           fmt::format("{:.3f}", certificate.patch[sharp].least_scaled) + of_patch(certificate, sharp));
+           fmt::format("{:.3f}", figures.least_scaled) + of_patch(certificate, figures.patch));
     tooltip(
         "Least scaled Jacobian: sine of the angle between the lines u and v. 1: at right angles, 0: the cell has collapsed");
     const size_t flat = worst(certificate, [](const PatchCertificate& c) { return c.condition; });
@@ -65,10 +65,8 @@ void certificate_figures(Frame& frame, const Certificate& certificate)
     ImGui::PopStyleColor();
     tooltip(certificate.leak.empty() ? "Neighbouring patches share the knots and control points of their common side"
                                      : engine_words(frame, certificate.leak));
-    double angle = 0;
-    for (const InterfaceCertificate& joint : certificate.interfaces)
-        angle = std::max(angle, joint.greatest_angle);
-    figure(frame, "Angle at joints", fmt::format("up to {:.3g}\u00b0", angle * 180 / std::numbers::pi));
+    figure(frame, "Angle at joints",
+           fmt::format("up to {:.3g}\u00b0", figures.greatest_angle * 180 / std::numbers::pi));
     tooltip("Angle between the normals of two patches at their common side; 0 where they join smoothly");
 }
 
@@ -203,27 +201,26 @@ void patches_editor(Frame& frame)
         muted(frame, "To add a cut, pick two vertices of the border with the tool Vertex.");
 }
 
-void surface_figures(Frame& frame, const SurfaceStage& surface)
+void surface_rows(Frame& frame, const SurfaceStage& surface)
 {
+    const SurfaceFigures& figures = surface_figures(frame);
     if (const auto& patches = surface.patches) {
-        figure(frame, "Patches", fmt::format("{}", patches->patches.patch.size()));
+        figure(frame, "Patches", fmt::format("{}", figures.patches));
         if (patches->layout.edges > 0)
             figure(frame, "Sharp edges", fmt::format("{}", patches->layout.edges));
-        figure(frame, "Control points", fmt::format("{}", shared_controls(patches->patches).count));
+        figure(frame, "Control points", fmt::format("{}", figures.control_points));
         tooltip("Control points shared by patches count once");
     } else {
         figure(frame, "Control points",
                fmt::format("{} x {}", surface.result.surface.count_u, surface.result.surface.count_v));
     }
     const auto length = [&](double mm) { return length_text(mm, frame.lengths(), 3); };
-    figure(frame, "Deviation, greatest", length(surface.deviation.max()));
-    figure(frame, "Deviation, rms",
-           length(std::max(surface.deviation.surface_to_mesh.rms, surface.deviation.mesh_to_surface.rms)));
-    figure(frame, "On 95 % of the area within",
-           length(std::max(surface.deviation.surface_to_mesh.p95, surface.deviation.mesh_to_surface.p95)));
+    figure(frame, "Deviation, greatest", length(figures.deviation_max));
+    figure(frame, "Deviation, rms", length(figures.deviation_rms));
+    figure(frame, "On 95 % of the area within", length(figures.deviation_p95));
     fit_figures(frame, surface);
     if (!frame.state.shape_dragged)
-        certificate_figures(frame, surface_certificate(frame.state.document.session));
+        certificate_rows(frame, surface_certificate(frame.state.document.session));
 }
 
 } // namespace spia::viewer

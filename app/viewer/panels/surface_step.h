@@ -14,6 +14,6 @@ bool surface_look_combo(SurfaceLook& look);
 void shape_editor(Frame& frame);
 
 /// Control points, deviation, and how fit the surface is for analysis.
-void surface_figures(Frame& frame, const SurfaceStage& surface);
+void surface_rows(Frame& frame, const SurfaceStage& surface);
 
 } // namespace spia::viewer

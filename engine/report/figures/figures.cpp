@@ -1,21 +1,29 @@
 #include "engine/report/figures/figures.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/coons/cell_quality.h"
+#include "engine/mesh/fill_holes.h"
+#include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/report/figures/face_values.h"
 
 namespace spia {
 namespace {
 
-/// As face_values() says them, in shares.
-std::array<double, 2> range(const Eigen::VectorXd& value)
+double flat_area(const TriMesh& part, const Eigen::Matrix2Xd& X)
 {
-    const double floor = noise(Field::strain_major, 0);
-    const auto said = [&](double v) { return std::abs(v) < floor ? 0 : v; };
-    return {said(value.minCoeff()), said(value.maxCoeff())};
+    double sum = 0;
+    for (int f = 0; f < part.triangles(); ++f) {
+        const auto x = corners(X, part.triangle.col(f));
+        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
+        sum += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    return sum;
 }
+
+std::array<double, 2> range(const Eigen::VectorXd& value) { return {value.minCoeff(), value.maxCoeff()}; }
 
 } // namespace
 
@@ -27,11 +35,38 @@ PartFigures part_figures(const PartFile& part)
     return {position.rowwise().maxCoeff() - position.rowwise().minCoeff(), bounding_diagonal(part.mesh)};
 }
 
-SheetFigures sheet_figures(const FlattenResult& flat)
+SurfaceOfPart surface_of_part(const TriMesh& part) { return {int(boundary_loops(part).size()), area(part)}; }
+
+BlankSize blank_size(const TriMesh& part, const Blank& blank)
 {
-    const Eigen::Matrix2Xd& plane = flat.blank.position;
-    return {plane.rowwise().maxCoeff() - plane.rowwise().minCoeff(), range(flat.face.thinning),
-            range(flat.face.strain_major), range(flat.face.strain_minor), range(flat.face.strain_equivalent)[1]};
+    const Eigen::Matrix2Xd& X = blank.position;
+    const auto loops = boundary_loops(part);
+    return {X.rowwise().minCoeff(), X.rowwise().maxCoeff(), flat_area(part, X),
+            length(loops[size_t(outer_loop(loops, X))], X)};
+}
+
+SheetFigures sheet_figures(const SheetFields& face)
+{
+    return {range(face.thinning), range(face.strain_major), range(face.strain_minor), range(face.thickness),
+            face.strain_equivalent.maxCoeff()};
+}
+
+SheetFigures sheet_figures(const SheetFields& face, const std::vector<int>& faces)
+{
+    if (faces.empty())
+        return {};
+    return {range(face.thinning(faces)), range(face.strain_major(faces)), range(face.strain_minor(faces)),
+            range(face.thickness(faces)), face.strain_equivalent(faces).maxCoeff()};
+}
+
+SheetFigures without_noise(SheetFigures figures)
+{
+    const double floor = noise(Field::strain_major, 0);
+    const auto clear = [&](double& value) { value = std::abs(value) < floor ? 0 : value; };
+    for (auto* range : {&figures.thinning, &figures.strain_major, &figures.strain_minor})
+        std::for_each(range->begin(), range->end(), clear);
+    clear(figures.strain_equivalent);
+    return figures;
 }
 
 GridFigures grid_figures(const GridStage& grid, const Blank& blank)
@@ -46,6 +81,52 @@ GridFigures grid_figures(const GridStage& grid, const Blank& blank)
     figures.scaled_jacobian = scaled_jacobians(planar).minCoeff(&figures.worst_cell);
     figures.column = figures.worst_cell % planar.columns;
     figures.row = figures.worst_cell / planar.columns;
+    return figures;
+}
+
+SurfaceFigures surface_figures(const SurfaceStage& surface)
+{
+    const Deviation& d = surface.deviation;
+    SurfaceFigures figures;
+    if (const auto& patches = surface.patches) {
+        figures.patches = int(patches->patches.patch.size());
+        figures.joints = int(patches->patches.interfaces.size());
+        figures.control_points = shared_controls(patches->patches).count;
+    } else
+        figures.control_points = surface.result.surface.count_u * surface.result.surface.count_v;
+    figures.deviation_max = d.max();
+    figures.deviation_rms = std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms);
+    figures.deviation_p95 = std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95);
+    return figures;
+}
+
+CertificateFigures certificate_figures(const Certificate& certificate)
+{
+    CertificateFigures figures;
+    for (size_t p = 0; p < certificate.patch.size(); ++p)
+        if (certificate.patch[p].least_scaled < figures.least_scaled) {
+            figures.least_scaled = certificate.patch[p].least_scaled;
+            figures.patch = p;
+        }
+    for (const InterfaceCertificate& joint : certificate.interfaces)
+        figures.greatest_angle = std::max(figures.greatest_angle, joint.greatest_angle);
+    return figures;
+}
+
+ResultFigures result_figures(const Session& session)
+{
+    const TriMesh& part = session.part->mesh;
+    const Blank& blank = session.blank->blank;
+    ResultFigures figures{surface_of_part(part),
+                          blank_size(part, blank),
+                          sheet_figures(session.blank->face),
+                          distortion(part, blank.position),
+                          {},
+                          {}};
+    if (session.surface) {
+        figures.surface = surface_figures(*session.surface);
+        figures.certificate = certificate_figures(surface_certificate(session));
+    }
     return figures;
 }
 

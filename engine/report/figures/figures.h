@@ -1,25 +1,50 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
+#include <vector>
 
+#include "engine/mesh/distortion.h"
 #include "engine/pipeline/session.h"
 
-/// What panels say about results as a whole: made once per result, for looking at all vertices or faces takes time.
+/// The figures of a result as a whole, each computed here and nowhere else: JSON, terminal, reports and panels render
+/// them. Looking at all vertices or faces takes time, so they are made once per result.
 namespace spia {
 
+/// Of any part, also of one that is refused.
 struct PartFigures {
     Eigen::Vector3d size{0, 0, 0}; ///< mm, along the axes
     double diagonal = 0;           ///< mm
 };
 PartFigures part_figures(const PartFile& part);
 
-/// Least and greatest values over the faces; what is noise() is 0.
-struct SheetFigures {
-    Eigen::Vector2d size{0, 0}; ///< mm, of the blank
-    std::array<double, 2> thinning{}, strain_major{}, strain_minor{};
-    double strain_equivalent = 0; ///< greatest
+/// Of a part that can be unfolded.
+struct SurfaceOfPart {
+    int boundary_loops = 0; ///< the outline and the holes
+    double area = 0;        ///< mm2
 };
-SheetFigures sheet_figures(const FlattenResult& flat);
+SurfaceOfPart surface_of_part(const TriMesh& part);
+
+struct BlankSize {
+    Eigen::Vector2d low{0, 0}, high{0, 0}; ///< mm, the box around it
+    double area = 0;                       ///< mm2; flipped faces count below 0
+    double perimeter = 0;                  ///< mm, of the outer loop
+
+    Eigen::Vector2d sides() const { return high - low; } ///< mm
+};
+BlankSize blank_size(const TriMesh& part, const Blank& blank);
+
+/// Least and greatest values over the faces.
+struct SheetFigures {
+    std::array<double, 2> thinning{}, strain_major{}, strain_minor{};
+    std::array<double, 2> thickness{}; ///< mm
+    double strain_equivalent = 0;      ///< greatest
+};
+SheetFigures sheet_figures(const SheetFields& face);
+/// Of some faces, say those that a step has moved; none: all is 0.
+SheetFigures sheet_figures(const SheetFields& face, const std::vector<int>& faces);
+/// For people: thinning and strains that are noise() are 0.
+SheetFigures without_noise(SheetFigures figures);
 
 struct GridFigures {
     std::array<double, 4> side{}; ///< mm, on the blank
@@ -28,5 +53,33 @@ struct GridFigures {
     double scaled_jacobian = 1;   ///< its value
 };
 GridFigures grid_figures(const GridStage& grid, const Blank& blank);
+
+/// Of one surface, or of all patches together.
+struct SurfaceFigures {
+    int patches = 1, joints = 0;
+    int control_points = 0; ///< those that patches share count once
+    /// mm, of both ways the greater: from the surface to the part, from the part to the surface.
+    double deviation_max = 0, deviation_rms = 0, deviation_p95 = 0;
+};
+SurfaceFigures surface_figures(const SurfaceStage& surface);
+
+/// How fit the surface is for analysis.
+struct CertificateFigures {
+    double least_scaled = 1;   ///< scaled Jacobian over all patches
+    size_t patch = 0;          ///< the one with it, from 0
+    double greatest_angle = 0; ///< radians, between the normals of patches where they meet
+};
+CertificateFigures certificate_figures(const Certificate& certificate);
+
+/// All that is told of a session that is solved at least; nothing of what it has not.
+struct ResultFigures {
+    SurfaceOfPart part;
+    BlankSize blank;
+    SheetFigures sheet;
+    Distortion distortion;
+    std::optional<SurfaceFigures> surface;
+    std::optional<CertificateFigures> certificate; ///< of the deformed surface, where it is deformed
+};
+ResultFigures result_figures(const Session& session);
 
 } // namespace spia

@@ -6,7 +6,6 @@
 #include "engine/core/error.h"
 #include "engine/exchange/provenance.h"
 #include "engine/exchange/text/text_encoding.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/report/figures/crack_verdict.h"
 #include "engine/report/html/html_text.h"
@@ -71,7 +70,7 @@ void write_html_report(const std::filesystem::path& file, const Session& session
 {
     if (!session.part || !session.blank)
         throw InputError("a report needs a solved part; unfold the part first");
-    const Json figures = parse_json(report_json(session, {}, 0), "figures");
+    const ResultFigures figures = result_figures(session);
     const std::string name = session.file.filename().string();
     const ReportTables& wanted = options.tables;
     const LengthUnit lengths = options.reader.lengths;

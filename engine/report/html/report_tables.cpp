@@ -16,11 +16,6 @@
 namespace spia {
 namespace {
 
-Eigen::Vector2d blank_size(const FlattenResult& flat)
-{
-    return flat.blank.position.rowwise().maxCoeff() - flat.blank.position.rowwise().minCoeff();
-}
-
 /// Numbers of lengths, areas and thicknesses in the unit that the reader wants.
 struct InUnit {
     LengthUnit unit;
@@ -145,71 +140,103 @@ std::string residual_chart(const SolveReport& report)
 
 } // namespace
 
-std::string tiles(const Session& session, const Json& figures, LengthUnit lengths)
+std::string tiles(const Session& session, const ResultFigures& figures, LengthUnit lengths)
 {
-    const FlattenResult& flat = *session.blank;
-    const Eigen::Vector2d size = blank_size(flat);
+    const Eigen::Vector2d size = figures.blank.sides();
+    const SheetFigures& sheet = figures.sheet;
     const InUnit in{lengths};
     const std::string unit(in.word);
     std::string text = "<section class=\"tiles\">\n";
     text += tile("Blank", fmt::format("{} \u00d7 {}", in.round(size[0], 1), in.round(size[1], 1)), unit,
-                 "area " + in.area(figures["blank"]["area_mm2"].get<double>()));
-    text += tile("Maximum thinning", fixed(100 * flat.face.thinning.maxCoeff(), 1), "%",
-                 fmt::format("least {} %", fixed(100 * flat.face.thinning.minCoeff(), 1)));
-    text += tile("Thickness",
-                 fmt::format("{} \u2013 {}", in.fine(flat.face.thickness.minCoeff(), 2),
-                             in.fine(flat.face.thickness.maxCoeff(), 2)),
-                 unit, "sheet " + in.text(session.options.flatten.thickness));
-    text += session.surface ? tile("Maximum deviation", in.figure(session.surface->deviation.max()), unit,
-                                   "RMS " + in.text(figures["surface"]["deviation_rms_mm"].get<double>()))
+                 "area " + in.area(figures.blank.area));
+    text += tile("Maximum thinning", fixed(100 * sheet.thinning[1], 1), "%",
+                 fmt::format("least {} %", fixed(100 * sheet.thinning[0], 1)));
+    text +=
+        tile("Thickness", fmt::format("{} \u2013 {}", in.fine(sheet.thickness[0], 2), in.fine(sheet.thickness[1], 2)),
+             unit, "sheet " + in.text(session.options.flatten.thickness));
+    text += figures.surface ? tile("Maximum deviation", in.figure(figures.surface->deviation_max), unit,
+                                   "RMS " + in.text(figures.surface->deviation_rms))
                             : tile("Maximum deviation", "\u2013", "", "no surface was made");
     return text + "</section>\n";
 }
 
 /// Of many patches in one line, by the worst of them.
-std::string fitness(const Certificate& certificate)
+static std::string fitness(const Certificate& certificate, const CertificateFigures& figures)
 {
-    double least = 1, angle = 0;
-    size_t at = 0;
-    for (size_t p = 0; p < certificate.patch.size(); ++p)
-        if (certificate.patch[p].least_scaled < least) {
-            least = certificate.patch[p].least_scaled;
-            at = p;
-        }
-    for (const InterfaceCertificate& joint : certificate.interfaces)
-        angle = std::max(angle, joint.greatest_angle);
     const auto why_not = unsuited(certificate);
     return fmt::format("{}; scaled Jacobian at least {} (patch {}); angle at joints up to {}\u00b0",
-                       why_not ? "not proved: " + *why_not : "no folds and no gaps (proved)", significant(least),
-                       at + 1, significant(angle * 180 / std::numbers::pi));
+                       why_not ? "not proved: " + *why_not : "no folds and no gaps (proved)",
+                       significant(figures.least_scaled), figures.patch + 1,
+                       significant(figures.greatest_angle * 180 / std::numbers::pi));
 }
 
-std::string key_figures(const Session& session, const Json& figures, LengthUnit lengths)
+/// Of the one patch.
+static std::string fitness(const PatchCertificate& patch)
 {
-    const FlattenResult& flat = *session.blank;
-    const Json& blank = figures["blank"];
-    const Eigen::Vector2d size = blank_size(flat);
+    return fmt::format("{}; scaled Jacobian at least {}, mean {}",
+                       patch.refusal ? "not proved: " + describe(*patch.refusal) : "no folds (proved)",
+                       significant(patch.least_scaled), significant(patch.mean_scaled));
+}
+
+static std::string surface_rows(const Session& session, const ResultFigures& figures, const InUnit& in)
+{
+    const SurfaceFigures& surface = *figures.surface;
+    const Deviation& deviation = session.surface->deviation;
+    const bool patches = session.surface->patches != nullptr;
+    const NurbsSurface& one = session.surface->result.surface;
+    std::string rows =
+        row("NURBS surface",
+            patches ? fmt::format("{} patches, {} joints without a gap, {} control points, shared ones counted once",
+                                  surface.patches, surface.joints, surface.control_points)
+                    : fmt::format("{} \u00d7 {} control points", one.count_u, one.count_v));
+    rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(surface.deviation_max),
+                                                 in.text(surface.deviation_p95), in.text(surface.deviation_rms)));
+    const Certificate& certificate = surface_certificate(session);
+    if (patches)
+        rows += row("Fitness for analysis", fitness(certificate, *figures.certificate));
+    else
+        for (const PatchCertificate& patch : certificate.patch)
+            rows += row("Fitness for analysis", fitness(patch));
+    if (const auto& fit = session.surface->fit)
+        rows +=
+            row("Tolerance of the surface",
+                fmt::format("{}, {} in {} rounds; {} % of the area within it", in.text(fit->tolerance),
+                            !fit->reached                            ? "not met"
+                            : surface.deviation_max > fit->tolerance ? "met on the remeshed part, not on the file's,"
+                                                                     : "met",
+                            fit->rounds, fixed(100 * deviation.within(), 2)));
+    constexpr double degrees = 180 / std::numbers::pi;
+    if (!patches)
+        rows += row("Normals of the surface",
+                    fmt::format("mean {}\u00b0, 95 % below {}\u00b0, away from sharp edges at most {}\u00b0",
+                                fixed(degrees * deviation.normal.mean, 2), fixed(degrees * deviation.normal.p95, 2),
+                                fixed(degrees * deviation.normal.max_smooth, 1)));
+    return rows;
+}
+
+std::string key_figures(const Session& session, const ResultFigures& figures, LengthUnit lengths)
+{
+    const BlankSize& blank = figures.blank;
+    const SheetFigures& sheet = figures.sheet;
+    const Eigen::Vector2d size = blank.sides();
     const InUnit in{lengths};
-    const int loops = figures["part"]["boundary_loops"].get<int>();
-    std::string rows = row("Part", fmt::format("{}, {}", in.area(figures["part"]["area_mm2"].get<double>()),
+    const int loops = figures.part.boundary_loops;
+    std::string rows = row("Part", fmt::format("{}, {}", in.area(figures.part.area),
                                                loops == 1   ? "no holes"
                                                : loops == 2 ? "one hole"
                                                             : fmt::format("{} holes", loops - 1)));
     rows += row("Blank", fmt::format("{0} \u00d7 {1} {2}, area {3}, outline {4} {2} long", in.round(size[0], 2),
-                                     in.round(size[1], 2), in.word, in.area(blank["area_mm2"].get<double>()),
-                                     in.round(blank["perimeter_mm"].get<double>(), 1)));
+                                     in.round(size[1], 2), in.word, in.area(blank.area), in.round(blank.perimeter, 1)));
     if (session.bends)
         rows += row("Lengths of the blank", "those of the " + session.bends->surface);
-    rows += row("Thickness", fmt::format("{} to {} {}, from a sheet of {}", in.fine(flat.face.thickness.minCoeff(), 3),
-                                         in.fine(flat.face.thickness.maxCoeff(), 3), in.word,
-                                         in.text(session.options.flatten.thickness)));
-    rows +=
-        row("Thinning", fmt::format("{} % to {} % (negative: thicker)", fixed(100 * flat.face.thinning.minCoeff(), 1),
-                                    fixed(100 * flat.face.thinning.maxCoeff(), 1)));
-    rows += row("Equivalent strain", fmt::format("up to {}", fixed(flat.face.strain_equivalent.maxCoeff(), 3)));
-    rows += row("Distortion",
-                fmt::format("area {}, angles {} (RMS)", significant(figures["distortion"]["area_rms"].get<double>()),
-                            significant(figures["distortion"]["angular_rms"].get<double>())));
+    rows += row("Thickness",
+                fmt::format("{} to {} {}, from a sheet of {}", in.fine(sheet.thickness[0], 3),
+                            in.fine(sheet.thickness[1], 3), in.word, in.text(session.options.flatten.thickness)));
+    rows += row("Thinning", fmt::format("{} % to {} % (negative: thicker)", fixed(100 * sheet.thinning[0], 1),
+                                        fixed(100 * sheet.thinning[1], 1)));
+    rows += row("Equivalent strain", fmt::format("up to {}", fixed(sheet.strain_equivalent, 3)));
+    rows += row("Distortion", fmt::format("area {}, angles {} (RMS)", significant(figures.distortion.area_rms),
+                                          significant(figures.distortion.angular_rms)));
     if (session.grid) {
         const GridResult& grid = session.grid->result;
         rows += row("Quad grid", fmt::format("{} \u00d7 {} cells, {} folded, least scaled Jacobian {}",
@@ -218,49 +245,8 @@ std::string key_figures(const Session& session, const Json& figures, LengthUnit 
     } else {
         rows += row("Quad grid", session.options.patches ? "none: patches have grids of their own" : "not made");
     }
-    if (session.surface) {
-        const Json& surface = figures["surface"];
-        const Deviation& deviation = session.surface->deviation;
-        const auto& patches = session.surface->patches;
-        rows += row(
-            "NURBS surface",
-            patches ? fmt::format("{} patches, {} joints without a gap, {} control points, shared ones counted once",
-                                  patches->patches.patch.size(), patches->patches.interfaces.size(),
-                                  shared_controls(patches->patches).count)
-                    : fmt::format("{} \u00d7 {} control points", surface["control_points_u"].get<int>(),
-                                  surface["control_points_v"].get<int>()));
-        rows += row("Surface deviation", fmt::format("at most {}, 95 % below {}, RMS {}", in.text(deviation.max()),
-                                                     in.text(surface["deviation_p95_mm"].get<double>()),
-                                                     in.text(surface["deviation_rms_mm"].get<double>())));
-        const Json& certificate = figures["certificate"];
-        if (patches)
-            rows += row("Fitness for analysis", fitness(session.surface->certificate));
-        else
-            for (const Json& patch : certificate["patches"])
-                rows += row("Fitness for analysis",
-                            fmt::format("{}; scaled Jacobian at least {}, mean {}",
-                                        patch["refused"].is_null()
-                                            ? "no folds (proved)"
-                                            : "not proved: " + patch["refused"]["why"].get<std::string>(),
-                                        significant(patch["scaled_jacobian_min"].get<double>()),
-                                        significant(patch["scaled_jacobian_mean"].get<double>())));
-        if (const auto& fit = session.surface->fit)
-            rows += row("Tolerance of the surface",
-                        fmt::format("{}, {} in {} rounds; {} % of the area within it", in.text(fit->tolerance),
-                                    !fit->reached                      ? "not met"
-                                    : deviation.max() > fit->tolerance ? "met on the remeshed part, not on the file's,"
-                                                                       : "met",
-                                    fit->rounds, fixed(100 * deviation.within(), 2)));
-        constexpr double degrees = 180 / std::numbers::pi;
-        if (!patches)
-            rows += row("Normals of the surface",
-                        fmt::format("mean {}\u00b0, 95 % below {}\u00b0, away from sharp edges at most {}\u00b0",
-                                    fixed(degrees * deviation.normal.mean, 2), fixed(degrees * deviation.normal.p95, 2),
-                                    fixed(degrees * deviation.normal.max_smooth, 1)));
-    } else {
-        rows += row("NURBS surface", "not made");
-    }
-    return facts("Key figures", rows);
+    return facts("Key figures",
+                 rows + (session.surface ? surface_rows(session, figures, in) : row("NURBS surface", "not made")));
 }
 
 std::string thinnest_places(const Session& session, LengthUnit lengths)

@@ -1,17 +1,17 @@
 #pragma once
 #include <string>
 
-#include "engine/core/json_file.h"
 #include "engine/pipeline/session.h"
+#include "engine/report/figures/figures.h"
 #include "engine/report/html/report_options.h"
 
 /// The tables of a report on a part that is unfolded at least, as HTML; empty if there is nothing to say.
 /// `lengths`: mm or inch.
 namespace spia {
 
-/// The four great figures. @param figures report_json()
-std::string tiles(const Session& session, const Json& figures, LengthUnit lengths = LengthUnit::mm);
-std::string key_figures(const Session& session, const Json& figures, LengthUnit lengths = LengthUnit::mm);
+/// The four great figures. @param figures  result_figures() of the session
+std::string tiles(const Session& session, const ResultFigures& figures, LengthUnit lengths = LengthUnit::mm);
+std::string key_figures(const Session& session, const ResultFigures& figures, LengthUnit lengths = LengthUnit::mm);
 /// Where the sheet thins most: the first five of worst_spots().
 std::string thinnest_places(const Session& session, LengthUnit lengths = LengthUnit::mm);
 /// What the lengths of the blank are lengths of, and all bends.

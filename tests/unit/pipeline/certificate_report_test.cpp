@@ -4,8 +4,8 @@
 
 #include "engine/forming/material/material_library.h"
 #include "engine/pipeline/iga_outputs.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/run_chain.h"
+#include "engine/report/json/report_json.h"
 #include "tests/support/joined_patches.h"
 
 namespace spia {

@@ -8,11 +8,11 @@
 #include "engine/mesh/closest_point.h"
 #include "engine/mesh/topology.h"
 #include "engine/nurbs/evaluate.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia {
 namespace {

@@ -8,13 +8,13 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/outputs.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
 #include "engine/pipeline/session.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/surface_shortcomings.h"
 #include "engine/pipeline/usual_tolerance.h"
+#include "engine/report/json/report_json.h"
 #include "tests/unit/exchange/scratch_folder.h"
 
 namespace spia {

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "engine/forming/material/material_library.h"
-#include "engine/pipeline/report.h"
 #include "engine/pipeline/run_stage.h"
+#include "engine/report/json/report_json.h"
 #include "engine/unfold/automatic_unfolding.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/coons/cell_quality.h"
+#include "engine/core/json_file.h"
+#include "engine/report/json/report_json.h"
+#include "tests/support/shapes.h"
 #include "tests/unit/report/report_samples.h"
 
 namespace spia {
@@ -21,7 +24,7 @@ TEST(Figures, AreTheLeastAndGreatestOfAllVerticesFacesAndCells)
     EXPECT_EQ(part.size, high - low);
     EXPECT_NEAR(part.diagonal, (high - low).norm(), 1e-9);
 
-    const SheetFigures sheet = sheet_figures(*session.blank);
+    const SheetFigures sheet = sheet_figures(session.blank->face);
     double least = 1e300, greatest = -1e300, strain = 0, minor = 1e300, major = -1e300;
     for (int f = 0; f < mesh.triangles(); ++f) {
         least = std::min(least, session.blank->face.thinning[f]);
@@ -51,6 +54,83 @@ TEST(Figures, AreTheLeastAndGreatestOfAllVerticesFacesAndCells)
                 std::hypot(session.blank->blank.position(0, side[k]) - session.blank->blank.position(0, side[k + 1]),
                            session.blank->blank.position(1, side[k]) - session.blank->blank.position(1, side[k + 1]));
     EXPECT_NEAR(border, around, 1e-9);
+}
+
+TEST(Figures, OfARectangleWithAHoleAreThoseOfTheClosedForm)
+{
+    // 400 x 200 mm in cells of 10 mm, without 8 x 4 of them, laid 3 % longer along x.
+    const TriMesh whole = shapes::rectangle(400, 200, 40, 20);
+    TriMesh part = whole;
+    int kept = 0;
+    for (int f = 0; f < whole.triangles(); ++f) {
+        const Eigen::Vector3d middle = whole.position(Eigen::all, whole.triangle.col(f)).rowwise().mean();
+        const Eigen::Vector2d from = middle.head<2>() - whole.position.col(0).head<2>();
+        if (from[0] < 100 || from[0] > 180 || from[1] < 80 || from[1] > 120)
+            part.triangle.col(kept++) = whole.triangle.col(f);
+    }
+    part.triangle.conservativeResize(3, kept);
+    const double area = 400 * 200 - 80 * 40;
+    const SurfaceOfPart sheet = surface_of_part(part);
+    EXPECT_EQ(sheet.boundary_loops, 2);
+    EXPECT_NEAR(sheet.area, area, 1e-9 * area);
+    Blank blank{part.position.topRows(2)};
+    blank.position.row(0) *= 1.03;
+    const BlankSize size = blank_size(part, blank);
+    EXPECT_NEAR(size.sides()[0], 412, 1e-9);
+    EXPECT_NEAR(size.sides()[1], 200, 1e-9);
+    EXPECT_NEAR(size.area, 1.03 * area, 1e-9 * area);
+    EXPECT_NEAR(size.perimeter, 2 * (412 + 200), 1e-9) << "of the outer loop alone";
+}
+
+TEST(Figures, NoiseIsNothingOnlyForPeople)
+{
+    SheetFields face;
+    face.thinning = Eigen::Vector3d(-3e-6, 0, 0.2);
+    face.thickness = 1 - face.thinning.array();
+    face.strain_major = face.strain_minor = face.strain_equivalent = Eigen::Vector3d(1e-6, 2e-6, 3e-6);
+    const SheetFigures sheet = sheet_figures(face), shown = without_noise(sheet);
+    EXPECT_EQ(sheet.thinning, (std::array{-3e-6, 0.2})) << "what JSON says";
+    EXPECT_EQ(sheet.strain_equivalent, 3e-6);
+    EXPECT_EQ(shown.thinning, (std::array{0., 0.2}));
+    EXPECT_EQ(shown.strain_equivalent, 0);
+    EXPECT_EQ(shown.thickness, sheet.thickness);
+    const SheetFigures some = sheet_figures(face, {1, 0});
+    EXPECT_EQ(some.thinning, (std::array{-3e-6, 0.}));
+    EXPECT_EQ(some.strain_equivalent, 2e-6);
+    EXPECT_EQ(sheet_figures(face, {}).thinning, (std::array{0., 0.}));
+}
+
+TEST(Figures, OfPatchesAreThoseOfTheWorstOfThem)
+{
+    Certificate certificate;
+    certificate.patch.resize(3);
+    certificate.patch[0].least_scaled = 0.7;
+    certificate.patch[1].least_scaled = 0.2;
+    certificate.patch[2].least_scaled = 0.9;
+    certificate.interfaces.resize(2);
+    certificate.interfaces[0].greatest_angle = 0.3;
+    certificate.interfaces[1].greatest_angle = 0.1;
+    const CertificateFigures figures = certificate_figures(certificate);
+    EXPECT_EQ(figures.least_scaled, 0.2);
+    EXPECT_EQ(figures.patch, 1);
+    EXPECT_EQ(figures.greatest_angle, 0.3);
+}
+
+TEST(Figures, AreTheSameInJson)
+{
+    const Session session = session_of(dome, Stage::fit);
+    const ResultFigures figures = result_figures(session);
+    const Json json = parse_json(report_json(session, {}, 0), "report");
+    EXPECT_EQ(json["part"]["area_mm2"].get<double>(), figures.part.area);
+    EXPECT_EQ(json["blank"]["area_mm2"].get<double>(), figures.blank.area);
+    EXPECT_EQ(json["blank"]["bounding_box_mm"][2].get<double>(), figures.blank.high[0]);
+    EXPECT_EQ(json["result"]["thinning_max"].get<double>(), figures.sheet.thinning[1]);
+    EXPECT_EQ(json["distortion"]["area_rms"].get<double>(), figures.distortion.area_rms);
+    EXPECT_EQ(json["surface"]["deviation_rms_mm"].get<double>(), figures.surface->deviation_rms);
+    EXPECT_EQ(json["surface"]["control_points_u"].get<int>() * json["surface"]["control_points_v"].get<int>(),
+              figures.surface->control_points);
+    EXPECT_EQ(json["certificate"]["patches"][0]["scaled_jacobian_min"].get<double>(),
+              figures.certificate->least_scaled);
 }
 
 } // namespace spia

@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/mesh/topology.h"
 #include "engine/pipeline/part_bends.h"
+#include "engine/report/figures/figures.h"
 #include "engine/unfold/automatic_unfolding.h"
 
 namespace spia::viewer {
@@ -39,16 +40,8 @@ std::optional<StepFigures::Hinge> hinge_of(const UnfoldState& state, const Plann
 
 StepFigures figures_of(const UnfoldState& state, const PlannedStep& step, const TriMesh& part)
 {
-    StepFigures figures{{0, 0}, 0, hinge_of(state, step, part)};
-    bool first = true;
-    for (const int f : step.pick.freed) {
-        const double thinning = state.face.thinning[f];
-        figures.thinning[0] = first ? thinning : std::min(figures.thinning[0], thinning);
-        figures.thinning[1] = first ? thinning : std::max(figures.thinning[1], thinning);
-        figures.strain_equivalent = std::max(figures.strain_equivalent, state.face.strain_equivalent[f]);
-        first = false;
-    }
-    return figures;
+    const SheetFigures sheet = sheet_figures(state.face, step.pick.freed);
+    return {sheet.thinning, sheet.strain_equivalent, hinge_of(state, step, part)};
 }
 
 std::shared_ptr<const StepsRun> with_figures(std::shared_ptr<StepsRun> run)

@@ -10,7 +10,6 @@
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/jobs/viewer_model.h"
 #include "engine/core/error.h"
-#include "engine/forming/flat_mesh.h"
 #include "engine/mesh/topology.h"
 #include "engine/report/figures/figures.h"
 #include "engine/report/text/lengths.h"
@@ -63,11 +62,6 @@ double greatest_distance(const std::vector<std::vector<int>>& loops, const Eigen
             greatest = std::max(greatest, nearest);
         }
     return greatest;
-}
-
-double flat_area(const PartFile& part, const FlattenResult& flat)
-{
-    return area_vectors(flat_mesh(part.mesh, flat.blank)).colwise().norm().sum();
 }
 
 std::optional<double> at_risk(const std::shared_ptr<const LimitsResult>& limits)
@@ -146,11 +140,13 @@ std::string label_of_field(const ViewerState& state)
 
 std::vector<ComparedFigure> compared_figures(const Reference& reference, const Session& now)
 {
-    const SheetFigures a = sheet_figures(*reference.blank), b = sheet_figures(*now.blank);
-    return {{"Blank, longer side", "mm", a.size.maxCoeff(), b.size.maxCoeff(), 2},
-            {"Blank, shorter side", "mm", a.size.minCoeff(), b.size.minCoeff(), 2},
-            {"Area of the blank", "mm\u00b2", flat_area(*reference.part, *reference.blank),
-             flat_area(*now.part, *now.blank), 0},
+    const SheetFigures a = without_noise(sheet_figures(reference.blank->face)),
+                       b = without_noise(sheet_figures(now.blank->face));
+    const BlankSize before = blank_size(reference.part->mesh, reference.blank->blank),
+                    after = blank_size(now.part->mesh, now.blank->blank);
+    return {{"Blank, longer side", "mm", before.sides().maxCoeff(), after.sides().maxCoeff(), 2},
+            {"Blank, shorter side", "mm", before.sides().minCoeff(), after.sides().minCoeff(), 2},
+            {"Area of the blank", "mm\u00b2", before.area, after.area, 0},
             {"Maximum thinning", "%", 100 * a.thinning[1], 100 * b.thinning[1], 2},
             {"Minimum thinning (negative: thicker)", "%", 100 * a.thinning[0], 100 * b.thinning[0], 2},
             {"Maximum equivalent strain", "", a.strain_equivalent, b.strain_equivalent, 4},

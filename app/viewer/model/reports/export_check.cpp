@@ -6,6 +6,7 @@
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/state.h"
 #include "app/viewer/model/reports/lights.h"
+#include "engine/report/figures/figures.h"
 #include "engine/report/text/lengths.h"
 
 namespace spia::viewer {
@@ -16,14 +17,14 @@ FitVerdict fit_verdict(const Session& session)
     if (!session.surface || !session.part)
         return verdict;
     constexpr double far = 10; // tolerances
-    const Deviation& deviation = session.surface->deviation;
+    const SurfaceFigures figures = surface_figures(*session.surface);
     verdict.tolerance = session.surface->fit ? session.surface->fit->tolerance : usual_tolerance;
-    verdict.greatest = deviation.max();
-    verdict.p95 = std::max(deviation.surface_to_mesh.p95, deviation.mesh_to_surface.p95);
+    verdict.greatest = figures.deviation_max;
+    verdict.p95 = figures.deviation_p95;
     verdict.fit = verdict.greatest > far * verdict.tolerance ? Fit::far_off
                   : verdict.greatest > verdict.tolerance     ? Fit::beyond
                                                              : Fit::within;
-    verdict.beyond = verdict.fit == Fit::within ? 0 : 1 - deviation.within();
+    verdict.beyond = verdict.fit == Fit::within ? 0 : 1 - session.surface->deviation.within();
     return verdict;
 }
 

@@ -15,6 +15,7 @@
 #include "engine/nurbs/smooth_joins.h"
 #include "engine/pipeline/shortcomings.h"
 #include "engine/pipeline/surface_shortcomings.h"
+#include "engine/report/figures/figures.h"
 #include "engine/report/text/lengths.h"
 #include "engine/report/text/number_text.h"
 #include "engine/report/text/shown_lengths.h"
@@ -219,7 +220,7 @@ void judge_control_points(const Document& document, std::vector<Doubt>& doubts)
     const SurfaceStage& surface = *document.session.surface;
     if (!surface.fit && !surface.patches) // as many as the grid has nodes, which was the user's choice
         return;
-    const int count = shared_controls(fitted_patches(surface)).count, vertices = document.session.part->mesh.vertices();
+    const int count = surface_figures(surface).control_points, vertices = document.session.part->mesh.vertices();
     if (count > vertices)
         doubts.push_back(
             {ChainStep::surface,
@@ -246,10 +247,7 @@ double greatest_turn(const TriMesh& part)
 /// Patches that meet at a greater angle than there is anywhere in the part.
 void judge_joints(const Document& document, std::vector<Doubt>& doubts)
 {
-    const auto& joints = document.session.surface->certificate.interfaces;
-    double angle = 0;
-    for (const InterfaceCertificate& joint : joints)
-        angle = std::max(angle, joint.greatest_angle);
+    const double angle = certificate_figures(document.session.surface->certificate).greatest_angle;
     if (angle <= SmoothJoinsOptions{}.sharp)
         return;
     const double turn = greatest_turn(document.session.part->mesh);

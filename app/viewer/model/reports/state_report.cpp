@@ -10,8 +10,8 @@
 #include "app/viewer/model/picking/vertex_picking.h"
 #include "app/viewer/model/reports/comparison.h"
 #include "app/viewer/model/reports/lights.h"
-#include "engine/pipeline/report.h"
 #include "engine/report/figures/face_values.h"
+#include "engine/report/json/report_json.h"
 
 namespace spia::viewer {
 namespace {

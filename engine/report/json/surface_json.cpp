@@ -1,7 +1,8 @@
-#include "engine/pipeline/surface_report.h"
+#include "engine/report/json/surface_json.h"
 
-#include <algorithm>
 #include <numbers>
+
+#include "engine/report/figures/figures.h"
 
 namespace spia {
 namespace {
@@ -74,11 +75,9 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
                         {"degree_v", patch.degree_v},
                         {"deviation_max_mm", fit.patch_deviation[p]}});
     }
-    double greatest = 0, sum = 0;
-    for (const InterfaceCertificate& joint : certificate.interfaces) {
-        greatest = std::max(greatest, joint.greatest_angle);
+    double sum = 0;
+    for (const InterfaceCertificate& joint : certificate.interfaces)
         sum += joint.mean_angle;
-    }
     const size_t joints = certificate.interfaces.size();
     Json smoothed = nullptr;
     if (const auto& j = fit.joins)
@@ -91,7 +90,7 @@ Json patches_json(const PatchesFit& fit, const Certificate& certificate)
             {"faces_divided", fit.layout.split},
             {"edges", fit.layout.edges},
             {"interfaces", joints},
-            {"interface_angle_max_deg", degrees(greatest)},
+            {"interface_angle_max_deg", degrees(certificate_figures(certificate).greatest_angle)},
             {"interface_angle_mean_deg", joints > 0 ? degrees(sum) / double(joints) : 0},
             {"joins_smoothed", std::move(smoothed)},
             {"control_points", controls},
@@ -127,9 +126,10 @@ nlohmann::ordered_json surface_json(const SurfaceStage& stage, const PartFile& p
                 {"control_points_v", surface.count_v},
                 {"degree_u", surface.degree_u},
                 {"degree_v", surface.degree_v}};
-    json["deviation_max_mm"] = d.max();
-    json["deviation_rms_mm"] = std::max(d.surface_to_mesh.rms, d.mesh_to_surface.rms);
-    json["deviation_p95_mm"] = std::max(d.surface_to_mesh.p95, d.mesh_to_surface.p95);
+    const SurfaceFigures figures = surface_figures(stage);
+    json["deviation_max_mm"] = figures.deviation_max;
+    json["deviation_rms_mm"] = figures.deviation_rms;
+    json["deviation_p95_mm"] = figures.deviation_p95;
     json["surface_to_mesh"] = statistics_json(d.surface_to_mesh, with_tolerance);
     json["mesh_to_surface"] = statistics_json(d.mesh_to_surface, with_tolerance);
     if (!stage.patches) {

@@ -1,4 +1,4 @@
-#include "engine/pipeline/report.h"
+#include "engine/report/json/report_json.h"
 
 #include <sys/resource.h>
 
@@ -9,8 +9,6 @@
 
 #include "engine/forming/material/material_text.h"
 #include "engine/mesh/distortion.h"
-#include "engine/mesh/fill_holes.h"
-#include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
 #include "engine/part/vertex_numbers.h"
 #include "engine/pipeline/applied_process.h"
@@ -18,8 +16,9 @@
 #include "engine/pipeline/certificate_report.h"
 #include "engine/pipeline/iga_outputs.h"
 #include "engine/pipeline/shortcomings.h"
-#include "engine/pipeline/surface_report.h"
 #include "engine/pipeline/worst_cell.h"
+#include "engine/report/figures/figures.h"
+#include "engine/report/json/surface_json.h"
 
 namespace spia {
 namespace {
@@ -31,17 +30,6 @@ double peak_memory_mb()
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return double(usage.ru_maxrss) / 1024; // Linux counts in kB
-}
-
-double flat_area(const TriMesh& part, const Eigen::Matrix2Xd& X)
-{
-    double sum = 0;
-    for (int f = 0; f < part.triangles(); ++f) {
-        const auto x = corners(X, part.triangle.col(f));
-        const Eigen::Vector2d p = x.col(1) - x.col(0), q = x.col(2) - x.col(0);
-        sum += 0.5 * (p[0] * q[1] - p[1] * q[0]);
-    }
-    return sum;
 }
 
 Json steps_json(const std::vector<NewtonStep>& steps)
@@ -128,10 +116,11 @@ Json remeshed_json(const PartFile& part)
 
 Json part_json(const PartFile& part)
 {
+    const SurfaceOfPart sheet = surface_of_part(part.mesh);
     Json json = {{"vertices", part.mesh.vertices()},
                  {"triangles", part.mesh.triangles()},
-                 {"boundary_loops", boundary_loops(part.mesh).size()},
-                 {"area_mm2", area(part.mesh)},
+                 {"boundary_loops", sheet.boundary_loops},
+                 {"area_mm2", sheet.area},
                  {"format", part.format},
                  {"unit", name(part.unit)},
                  {"seam", seam_json(part)},
@@ -193,13 +182,10 @@ Json overlap_json(const Overlap& overlap, const PartFile& file)
 
 Json blank_json(const PartFile& file, const FlattenResult& flat)
 {
-    const TriMesh& part = file.mesh;
-    const Eigen::Matrix2Xd& X = flat.blank.position;
-    const auto loops = boundary_loops(part);
-    const Eigen::Vector2d low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff();
-    return {{"area_mm2", flat_area(part, X)},
-            {"perimeter_mm", length(loops[size_t(outer_loop(loops, X))], X)},
-            {"bounding_box_mm", {low[0], low[1], high[0], high[1]}},
+    const BlankSize blank = blank_size(file.mesh, flat.blank);
+    return {{"area_mm2", blank.area},
+            {"perimeter_mm", blank.perimeter},
+            {"bounding_box_mm", {blank.low[0], blank.low[1], blank.high[0], blank.high[1]}},
             {"flipped_triangles", flat.flipped_triangles},
             {"outline_self_intersections", flat.overlap.crossings.size()},
             {"overlap", overlap_json(flat.overlap, file)}};
@@ -221,11 +207,12 @@ Json skins_json(const SkinStrains& skins)
 
 Json result_json(const FlattenResult& flat)
 {
-    return {{"thinning_max", flat.face.thinning.maxCoeff()},
-            {"thinning_min", flat.face.thinning.minCoeff()},
-            {"equivalent_strain_max", flat.face.strain_equivalent.maxCoeff()},
-            {"thickness_min_mm", flat.face.thickness.minCoeff()},
-            {"thickness_max_mm", flat.face.thickness.maxCoeff()},
+    const SheetFigures sheet = sheet_figures(flat.face);
+    return {{"thinning_max", sheet.thinning[1]},
+            {"thinning_min", sheet.thinning[0]},
+            {"equivalent_strain_max", sheet.strain_equivalent},
+            {"thickness_min_mm", sheet.thickness[0]},
+            {"thickness_max_mm", sheet.thickness[1]},
             {"necking_triangles", flat.necking_triangles},
             {"volume_error", flat.volume_error}};
 }
