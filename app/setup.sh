@@ -32,6 +32,25 @@ apt-get install ${missing[*]}"
         fail "apt-get could not install ${missing[*]}; SPIA is made for Debian 12"
 }
 
+# Copies a build's output to the log and shows how far it is: on a terminal in one line, else in a
+# line for every tenth of the steps, or every 30 seconds where these take longer.
+show_progress() {
+    local line done_steps all_steps share shown=-1 shown_at=$SECONDS
+    while IFS= read -r line || [ -n "$line" ]; do
+        printf '%s\n' "$line"
+        [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\  && $line != *'] Re-'* ]] || continue # Re-running CMake is no step
+        done_steps=${BASH_REMATCH[1]} all_steps=${BASH_REMATCH[2]}
+        share=$((100 * done_steps / all_steps))
+        if [ -t 2 ]; then
+            printf '\r\033[KSPIA set-up: building (%s) [%d/%d] %d %%' "$preset" "$done_steps" "$all_steps" $share >&2
+        elif [ $((share / 10)) -gt $((shown / 10)) ] || [ $((SECONDS - shown_at)) -ge 30 ]; then
+            printf 'SPIA set-up: [%d/%d] %d %%\n' "$done_steps" "$all_steps" $share >&2
+            shown=$share shown_at=$SECONDS
+        fi
+    done >"$log"
+    if [ -t 2 ]; then printf '\n' >&2; fi
+}
+
 install_missing
 log=build/$preset/configure.log
 mkdir -p "build/$preset"
@@ -44,8 +63,9 @@ fi
 targets=()
 [ $# -gt 0 ] && targets=(--target "$@")
 log=build/$preset/build.log
-printf 'SPIA set-up: building (%s) ...\n' "$preset" >&2
-cmake --build --preset "$preset" "${targets[@]}" >"$log" 2>&1 || {
+printf 'SPIA set-up: building (%s) ...' "$preset" >&2
+[ -t 2 ] || printf '\n' >&2
+NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" "${targets[@]}" 2>&1 | show_progress || {
     grep -m 5 -A 8 -E 'error|FAILED' "$log" >&2 || tail -20 "$log" >&2
     fail "building failed (see $log)"
 }
