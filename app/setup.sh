@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the packages of app/packages.txt that are missing, configures and builds a preset.
-# Usage: bash app/setup.sh PRESET [TARGET...]; a second call does only what has changed. SPIA_PACKAGES names one more list of packages.
+# Usage: bash app/setup.sh PRESET [TARGET...]; a second call does only what has changed.
+#        bash app/setup.sh packages: only installs. SPIA_PACKAGES names one more list of packages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=$1
@@ -52,6 +53,7 @@ show_progress() {
 }
 
 install_missing
+[ "$preset" != packages ] || exit 0
 log=build/$preset/configure.log
 mkdir -p "build/$preset"
 if [ ! -f "build/$preset/build.ninja" ]; then
