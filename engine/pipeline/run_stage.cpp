@@ -115,7 +115,7 @@ void lay_straight(const TriMesh& part, const std::optional<Eigen::Vector2d>& rol
 std::optional<Eigen::Vector2d> rolling_on(const TriMesh& part, const ProcessConditions& process,
                                           const FlattenResult& flat)
 {
-    const auto seen = rolling_in(process, blank_plane(flat.stamping.direction));
+    auto seen = rolling_in(process, blank_plane(flat.stamping.direction));
     if (!seen || flat.face.strain_equivalent.maxCoeff() > most_relaid_strain)
         return seen;
     return carried_to_blank(part, flat.blank.position, *process.rolling, *seen);
