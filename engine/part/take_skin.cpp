@@ -12,10 +12,12 @@
 #include "engine/mesh/mark_outlines.h"
 #include "engine/mesh/measured_cylinders.h"
 #include "engine/mesh/onto_surfaces.h"
+#include "engine/mesh/open_sinks.h"
 #include "engine/mesh/round_border.h"
 #include "engine/mesh/sheet_or_hollow.h"
 #include "engine/mesh/sunk_holes.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/uneven_bends.h"
 #include "engine/mesh/without_marks.h"
 #include "engine/part/mark_findings.h"
 
@@ -315,6 +317,42 @@ Surfaces of_file_faces(const PartFile& part, const Surfaces& surface)
     return result;
 }
 
+void doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& surface)
+{
+    const std::vector<UnevenBend> bends = uneven_bends(sheet, surface);
+    if (bends.empty())
+        return;
+    const UnevenBend& first = bends.front();
+    const Eigen::Vector3d place = part.mesh.position.col(part.mesh.triangle(0, first.face));
+    doubt(part, fmt::format(
+                    "{} arcs of radius {:.4g} and {:.4g} mm on both skins of a sheet of {:.4g} mm, at {:.6g}, {:.6g}, "
+                    "{:.6g}{}: it is not as thick there, and inner radius and length are told and laid by the arc "
+                    "of the outer skin and the thickness elsewhere",
+                    counted(int(bends.size()), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
+                    place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : ""));
+}
+
+/// Of countersinks that are no holes all around.
+void tell_open_sinks(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes)
+{
+    const std::vector<OpenSink> sinks = open_sinks(part.mesh, sheet, holes);
+    for (const bool land : {false, true}) {
+        const auto first = std::ranges::find(sinks, land, &OpenSink::land);
+        if (first == sinks.end())
+            continue;
+        const int count = int(std::ranges::count(sinks, land, &OpenSink::land));
+        const std::string text =
+            fmt::format("{} open at a border or at another hole, {}at {:.6g}, {:.6g}, {:.6g}",
+                        counted(count, "countersink is", "countersinks are"), count > 1 ? "the first " : "",
+                        first->place.x(), first->place.y(), first->place.z());
+        if (land)
+            part.notes.push_back(text + ": the hole below is laid flat, marks do not show where to sink");
+        else
+            doubt(part, text + ": no straight wall is below, and the edge that is laid flat lies where the wall "
+                               "crosses the middle of the sheet, unevenly; draw it at its least diameter");
+    }
+}
+
 void note_skin(PartFile& part)
 {
     const SolidOrigin& solid = *part.solid;
@@ -375,7 +413,10 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             sheet.thickness = stated_thickness(part.mesh, sheet, surface);
         const ThinSolidOptions units = faces_of(part, normals, surface);
         Skin wanted = options.skin.value_or(Skin::middle);
+        if (!measured)
+            doubt_uneven_bends(part, sheet, surface);
         const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
+        tell_open_sinks(part, sheet, holes);
         SkinMesh skin = wanted_skin(part, sheet, holes, wanted, options.skin.has_value(), units);
         const auto on = [&](SheetSide side) { return [&, side](size_t f) { return sheet.side[f] == side; }; };
         part.solid = {wanted,

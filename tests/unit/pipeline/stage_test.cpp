@@ -379,7 +379,7 @@ TEST(Outputs, OptionsSayWhatIsWrittenUnderWhichName)
     for (const auto& file : std::filesystem::directory_iterator(folder / "out"))
         names.insert(file.path().filename().string());
     EXPECT_EQ(names, (std::set<std::string>{"door v2.iges", "door v2.step", "door v2.glb", "door v2-fields.csv"}));
-    EXPECT_THROW(require_place(session, folder / "new", {"iges"}, folder / "new" / "door v2.iges", options),
+    EXPECT_THROW(require_place(session, folder / "new", {"iges"}, {folder / "new" / "door v2.iges"}, options),
                  ExchangeError);
 
     options.csv.fields = false;

@@ -369,6 +369,37 @@ TEST(SunkHoles, InABendAreToldAndDoubted)
     }
 }
 
+TEST(SunkHoles, OpenAtABorderAreToldAndWithoutAStraightWallDoubted)
+{
+    const ScratchFolder folder;
+    for (const double y : {0., 1., 3.}) // both circles are open at the border, from more than half on
+        for (const bool land : {false, true})
+            for (const CadForm form : {CadForm::step, CadForm::stl}) {
+                SCOPED_TRACE(fmt::format("at y {}, {}, {}", y, land ? "land" : "no land",
+                                         form == CadForm::step ? "STEP" : "STL"));
+                BentSolid solid;
+                solid.thickness = 3;
+                solid.width = 50;
+                solid.leg = {80};
+                Sink sink;
+                sink.centre = {40, y};
+                sink.hole = 5;
+                sink.wide = 8;
+                sink.depth = land ? 1.5 : solid.thickness;
+                solid.sink = {sink};
+                const auto file = folder / (form == CadForm::step ? "part.step" : "part.stl");
+                shapes::write_bent_solid(file, solid, form);
+                const PartFile part = read_part(file);
+                ASSERT_TRUE(part.solid);
+                const auto told = [](const std::vector<std::string>& texts) {
+                    return std::ranges::any_of(
+                        texts, [](const std::string& text) { return text.starts_with("1 countersink is open"); });
+                };
+                EXPECT_TRUE(told(part.notes));
+                EXPECT_EQ(told(part.doubts), !land);
+            }
+}
+
 TEST(SunkHoles, OfNinetyDegreesAreNoSkinWhereverTheyAre)
 {
     // Their walls are askew by 45 degrees: no skin, but by some of their chords nearly one.
