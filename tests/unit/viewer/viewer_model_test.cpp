@@ -351,6 +351,26 @@ TEST_F(ViewerModelTest, ExportsInTheBackground)
     EXPECT_TRUE(says(Severity::done, "dome.iges"));
 }
 
+TEST_F(ViewerModelTest, AProjectWhosePartHasGoneTellsWhereItWas)
+{
+    const ScratchFolder folder;
+    const auto gone = folder / "gone.obj";
+    std::filesystem::copy_file(assets / "parts" / "dome.obj", gone);
+    model.apply(OpenPart{gone, ""});
+    wait();
+    model.apply(SaveProject{folder / "gone.spia"});
+    std::filesystem::remove(gone);
+    for (const bool beside_another : {false, true}) {
+        if (beside_another)
+            open("square-cup.obj");
+        model.apply(OpenProject{folder / "gone.spia"});
+        wait();
+        EXPECT_TRUE(says(Severity::error, gone.string() + " is not there any more"));
+        EXPECT_TRUE(says(Severity::error, beside_another ? "square-cup.obj is still open" : "stays as it is"));
+        EXPECT_NE(document.session.part, nullptr);
+    }
+}
+
 TEST_F(ViewerModelTest, AFileThatIsNotThereDoesNotDisturbARun)
 {
     open("square-cup.obj");

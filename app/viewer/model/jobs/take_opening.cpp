@@ -41,7 +41,7 @@ void ViewerModel::report_not_opened(const Opening& opening, const ChainResult& r
     std::string why = result.message;
     const std::string path = opening.document.session.file.string();
     std::error_code problem;
-    if (project_ && !std::filesystem::exists(opening.document.session.file, problem))
+    if (opening.project && !std::filesystem::exists(opening.document.session.file, problem))
         why = fmt::format("the project's part {} is not there any more: put it back, or open the part from where it "
                           "is now",
                           path);
@@ -49,7 +49,8 @@ void ViewerModel::report_not_opened(const Opening& opening, const ChainResult& r
         why.replace(at, path.size(), name);
     if (why.find(name) == std::string::npos)
         why = name + " cannot be opened: " + why;
-    say(Severity::error, fmt::format("{} {} is still open.", sentence(why), open));
+    say(Severity::error,
+        fmt::format("{} {}", sentence(why), open == name ? "What is shown stays as it is." : open + " is still open."));
 }
 
 void ViewerModel::forget_waiting()
