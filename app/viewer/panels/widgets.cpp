@@ -65,7 +65,8 @@ static int with_step_buttons(const char* label, double& number, const char* form
     ImGui::BeginGroup();
     ImGui::PushID(label);
     ImGui::SetNextItemWidth(std::max(1.f, width));
-    ImGui::InputScalar("##number", ImGuiDataType_Double, &number, nullptr, nullptr, format);
+    ImGui::InputScalar("##number", ImGuiDataType_Double, &number, nullptr, nullptr, format,
+                       ImGuiInputTextFlags_CharsScientific);
     active = ImGui::IsItemActive();
     int steps = 0;
     ImGui::PushButtonRepeat(true);
@@ -93,7 +94,8 @@ bool typed_numbers(Frame& frame, const char* label, double* value, int count, co
     if (step > 0)
         shown[0] += step * with_step_buttons(label, shown[0], format, active);
     else {
-        ImGui::InputScalarN(label, ImGuiDataType_Double, shown.data(), count, nullptr, nullptr, format);
+        ImGui::InputScalarN(label, ImGuiDataType_Double, shown.data(), count, nullptr, nullptr, format,
+                            ImGuiInputTextFlags_CharsScientific); // else the e of 1e-7 is dropped without a word
         active = ImGui::IsItemActive();
     }
     if (active && !leaves_typing(frame)) {
