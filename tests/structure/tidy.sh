@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The checks of .clang-tidy on the C++ files that have changed: since the branch left its upstream
 # or origin/main, else since the commit before; with what is not committed yet.
-# Usage: tidy.sh [FILE...]. SPIA_TIDY_FILES=N looks at more than the 20 files that changed most, which
-# take two minutes on two cores.
+# Usage: tidy.sh [FILE...]. SPIA_TIDY_FILES=N looks at more than the 16 files that changed most, which
+# take two to three minutes on two cores.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 clang-tidy --version 2>/dev/null | grep -q 'version 14\.' || {
@@ -28,7 +28,7 @@ changed_files() { # those with most new lines first
     } | awk -F '\t' '$1 > 0' | sort -k 1,1rn -k 3 | cut -f 3
 }
 
-most=${SPIA_TIDY_FILES:-20}
+most=${SPIA_TIDY_FILES:-16}
 if [ $# -gt 0 ]; then
     files=("$@")
 else
