@@ -68,7 +68,8 @@ public:
             const bool was_moving = moving();
             // What the last frame has left to be drawn or done is no event: nobody would wake the window for it.
             const bool unfinished = GlWindow::news() || images_.any_late() || !ui_.keys_later.empty();
-            const bool moves = unfinished || !script_.ended() || !queue_.empty() || files_.drawing() || settle > 0 || finishing();
+            const bool moves =
+                unfinished || !script_.ended() || !queue_.empty() || files_.drawing() || settle > 0 || finishing();
             if (options_.follow && !moves && (ui_.busy || !was_moving))
                 write_atomically(options_.report, report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
             if (moves)

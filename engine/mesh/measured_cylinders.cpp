@@ -225,9 +225,8 @@ private:
                 is_bend(region))
                 best = region;
             region.cylinder = agreed(region);
-            if (best && region.cylinder.off <= finer * within && std::ranges::any_of(from, [&](int f) {
-                    return !lies_on(solid_, region.cylinder, f, finer * within);
-                }))
+            if (best && region.cylinder.off <= finer * within &&
+                std::ranges::any_of(from, [&](int f) { return !lies_on(solid_, region.cylinder, f, finer * within); }))
                 return std::nullopt; // a narrow triangle beside the bend, which is found from others
         }
         // Where the finest has too few only corners beside the bend made them enough: its turn is later.

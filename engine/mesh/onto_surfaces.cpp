@@ -65,7 +65,7 @@ private:
     const ThinSolid& sheet_;
     const ThinSolidOptions& options_;
     std::vector<Around> around_;
-    TriMesh outer_; ///< the outer skin, with the vertices and triangles of the middle one
+    TriMesh outer_;                        ///< the outer skin, with the vertices and triangles of the middle one
     std::vector<std::vector<int>> beside_; ///< per vertex: those next to it along the border; empty: not asked for yet
     Eigen::Matrix3Xd
         wall_; ///< per vertex of the solid: area vectors of the faces across the thickness there, outwards; 0 without

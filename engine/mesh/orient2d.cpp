@@ -45,10 +45,7 @@ public:
         add(x.rest);
         add(x.value);
     }
-    int sign() const
-    {
-        return size_ == 0 ? 0 : component_[size_t(size_ - 1)] > 0 ? 1 : -1;
-    }
+    int sign() const { return size_ == 0 ? 0 : component_[size_t(size_ - 1)] > 0 ? 1 : -1; }
 
 private:
     std::array<double, 16> component_; // six products of two components each, and room to grow

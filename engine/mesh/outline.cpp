@@ -25,9 +25,8 @@ std::vector<int> places(const std::vector<std::vector<int>>& loops, const Eigen:
     const auto key = [&](int v) { return std::tuple(position(0, v), position(1, v), v); };
     std::sort(vertex.begin(), vertex.end(), [&](int v, int w) { return key(v) < key(w); });
     for (size_t i = 0; i < vertex.size(); ++i)
-        place[size_t(vertex[i])] = i > 0 && position.col(vertex[i]) == position.col(vertex[i - 1])
-                                       ? place[size_t(vertex[i - 1])]
-                                       : vertex[i];
+        place[size_t(vertex[i])] =
+            i > 0 && position.col(vertex[i]) == position.col(vertex[i - 1]) ? place[size_t(vertex[i - 1])] : vertex[i];
     return place;
 }
 
@@ -76,8 +75,7 @@ bool meet(const Edge& e, const Edge& f, const Eigen::Matrix2Xd& x)
         if (folded_back(e.place_b == f.place_a ? a : b, c, d))
             return true;
         const bool both_begin = e.place_a == f.place_a;
-        return both_begin && e.a != f.a &&
-               Passage{x.col(e.before), a, b}.crossed_by({x.col(f.before), c, d});
+        return both_begin && e.a != f.a && Passage{x.col(e.before), a, b}.crossed_by({x.col(f.before), c, d});
     }
     if (e.place_a == f.place_b || e.place_b == f.place_b)
         return folded_back(e.place_a == f.place_b ? b : a, d, c);

@@ -27,7 +27,8 @@ std::optional<std::array<int, 4>> touching_edge(std::span<const EdgeUse> uses, c
     constexpr double apart = 1e-3; // radians: faces on each other are no touching edge
     for (size_t i = 0; i < 4; ++i) {
         const size_t next = (i + 1) % 4;
-        const double turn = angle[size_t(around[next])] - angle[size_t(around[i])] + (next == 0 ? 2 * std::numbers::pi : 0);
+        const double turn =
+            angle[size_t(around[next])] - angle[size_t(around[i])] + (next == 0 ? 2 * std::numbers::pi : 0);
         if (turn < apart || uses[size_t(around[i])].forward == uses[size_t(around[next])].forward)
             return std::nullopt;
     }

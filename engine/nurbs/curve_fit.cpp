@@ -57,7 +57,8 @@ CurveFit::CurveFit(std::vector<double> knots, int degree, CurveEnds ends, const 
     if (ends_ == CurveEnds::natural && degree_ < 3)
         throw InputError("natural ends need a second derivative that changes: choose degree 3 or more");
     if (n < std::max(degree_ + 1, ends_ == CurveEnds::natural ? 6 : 2 * held_each))
-        throw InputError(fmt::format("{} control points are too few for {} ends of degree {}", n, name(ends_), degree_));
+        throw InputError(
+            fmt::format("{} control points are too few for {} ends of degree {}", n, name(ends_), degree_));
 
     held_.assign(size_t(n), 0);
     held_.front() = held_.back() = 1;
@@ -70,8 +71,7 @@ CurveFit::CurveFit(std::vector<double> knots, int degree, CurveEnds ends, const 
         held_[1] = held_[size_t(n) - 2] = 1;
         const size_t p = size_t(degree_), m = knots_.size() - 1;
         const int stencil = std::min(degree_ + 1, points);
-        tangent_start_ =
-            (knots_[p + 1] - knots_[1]) / degree_ * end_derivative_weights(parameters_, stencil, true);
+        tangent_start_ = (knots_[p + 1] - knots_[1]) / degree_ * end_derivative_weights(parameters_, stencil, true);
         tangent_end_ =
             (knots_[m - 1] - knots_[m - p - 1]) / degree_ * end_derivative_weights(parameters_, stencil, false);
     }
@@ -134,9 +134,10 @@ void CurveFit::factorize()
             }
             constexpr double least = 1e-12; // of what would be left were the points plentiful
             if (!(sum > least * matrix(i, band_)))
-                throw InputError(fmt::format("the data are too few for {} control points of degree {} (at knot {:.6g}): "
-                                             "give finer data or allow fewer knots",
-                                             n, degree_, knots_[size_t(i)]));
+                throw InputError(
+                    fmt::format("the data are too few for {} control points of degree {} (at knot {:.6g}): "
+                                "give finer data or allow fewer knots",
+                                n, degree_, knots_[size_t(i)]));
             factor_(i, band_) = std::sqrt(sum);
         }
     }

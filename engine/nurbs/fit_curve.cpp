@@ -16,9 +16,10 @@ Eigen::Matrix3Xd points_of(const CurveSource& source, const std::vector<double>&
 {
     Eigen::Matrix3Xd points = source(parameters);
     if (points.cols() != Eigen::Index(parameters.size()) || !points.allFinite())
-        throw InputError(fmt::format("a curve that is to be fitted gave {} points for {} parameters, or coordinates that are "
-                                     "not numbers; lift the grid again",
-                                     points.cols(), parameters.size()));
+        throw InputError(
+            fmt::format("a curve that is to be fitted gave {} points for {} parameters, or coordinates that are "
+                        "not numbers; lift the grid again",
+                        points.cols(), parameters.size()));
     return points;
 }
 
@@ -70,9 +71,10 @@ CurveFitResult curve_over(const std::vector<double>& borders, const CurveSource&
 CurveFitResult fit_curve(const CurveSource& source, const CurveFitOptions& options)
 {
     if (!(options.tolerance > 0) || options.degree < 2 || options.degree > 5)
-        throw InputError(fmt::format("a curve of degree {} within {} mm cannot be fitted; choose a degree from 2 to 5 and a "
-                                     "positive tolerance",
-                                     options.degree, options.tolerance));
+        throw InputError(
+            fmt::format("a curve of degree {} within {} mm cannot be fitted; choose a degree from 2 to 5 and a "
+                        "positive tolerance",
+                        options.degree, options.tolerance));
     CurveFitResult best;
     std::vector<double> borders = first_borders(options.ends);
     for (int round = 1;; ++round) {

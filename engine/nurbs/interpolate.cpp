@@ -204,9 +204,10 @@ void require_possible(const InterpolateOptions& options)
         if (degree < 2 || degree > 5)
             throw InputError(fmt::format("degree {} is not offered; choose one from 2 to 5", degree));
         if (options.ends == CurveEnds::natural && degree != 3)
-            throw InputError(fmt::format("natural ends, as in the paper, are those of cubic curves; degree {} needs averaged "
-                                         "knots or clamped ends",
-                                         degree));
+            throw InputError(
+                fmt::format("natural ends, as in the paper, are those of cubic curves; degree {} needs averaged "
+                            "knots or clamped ends",
+                            degree));
     }
 }
 

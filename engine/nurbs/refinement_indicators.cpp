@@ -11,7 +11,8 @@ namespace spia {
 namespace {
 
 /// Of each span the first and the last parameter that lies in it or on its borders.
-std::vector<std::pair<int, int>> parameters_in(const std::vector<double>& borders, const std::vector<double>& parameters)
+std::vector<std::pair<int, int>> parameters_in(const std::vector<double>& borders,
+                                               const std::vector<double>& parameters)
 {
     std::vector<std::pair<int, int>> range;
     for (size_t s = 0; s + 1 < borders.size(); ++s) {
@@ -33,7 +34,8 @@ RefinementIndicators refinement_indicators(const NurbsSurface& surface, const st
     const int spans_u = int(borders_u.size()) - 1, spans_v = int(borders_v.size()) - 1;
     std::vector<double> worst(size_t(spans_u) * size_t(spans_v), 0); // per cell of the knots
     for (const BeyondTolerance& sample : beyond) {
-        double& here = worst[size_t(span_of(borders_u, sample.u)) + size_t(span_of(borders_v, sample.v)) * size_t(spans_u)];
+        double& here =
+            worst[size_t(span_of(borders_u, sample.u)) + size_t(span_of(borders_v, sample.v)) * size_t(spans_u)];
         here = std::max(here, sample.distance);
     }
 

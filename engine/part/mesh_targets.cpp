@@ -32,8 +32,7 @@ void require_sense(const MeshTargets& targets)
     if (targets.least_angle && !(*targets.least_angle > 0 && *targets.least_angle < 60 / degrees))
         throw InputError("the least angle of the triangles must be between 0 and 60 degrees");
     if (targets.edge_ratio && !(*targets.edge_ratio > 1 && std::isfinite(*targets.edge_ratio)))
-        throw InputError(
-            "the ratio of the longest to the shortest edge of a triangle must be above 1");
+        throw InputError("the ratio of the longest to the shortest edge of a triangle must be above 1");
 }
 
 } // namespace

@@ -41,10 +41,11 @@ bool same_side(const Eigen::Vector3d& before, const Eigen::Vector3d& after)
 EvolvingMesh::EvolvingMesh(const TriMesh& original, const KeptLines& lines, const Eigen::VectorXd& size,
                            const ClosestPointSearch& search, double sagitta, const Eigen::VectorXd& gap,
                            const Progress& progress)
-    : original_(original), lines_(lines), original_normal_(area_vectors(original)), original_size_(size), search_(search),
-      sagitta_(sagitta), mesh_(halfedges(original)), on_line_(lines.on_line.begin(), lines.on_line.end()),
-      drop_(size_t(original.vertices()), 0), size_(size.begin(), size.end()), share_(size_.size(), 1),
-      face_(size_.size(), 0), changed_(size_.size(), 0), open_(size_.size(), 1)
+    : original_(original), lines_(lines), original_normal_(area_vectors(original)), original_size_(size),
+      search_(search), sagitta_(sagitta), mesh_(halfedges(original)),
+      on_line_(lines.on_line.begin(), lines.on_line.end()), drop_(size_t(original.vertices()), 0),
+      size_(size.begin(), size.end()), share_(size_.size(), 1), face_(size_.size(), 0), changed_(size_.size(), 0),
+      open_(size_.size(), 1)
 {
     for (int f = 0; f < original.triangles(); ++f)
         for (const int v : original.triangle.col(f))
@@ -350,8 +351,7 @@ bool EvolvingMesh::flip_if_sound(Edge edge, const Quad& v, double thin)
     if (std::max(thinness(p), thinness(q)) >= thin * (1 - rounding))
         return false;
     const Vector side = area_of(triangle(v[0], v[1], v[2])) + area_of(triangle(v[1], v[0], v[3]));
-    if (!same_side(side, area_of(p)) || !same_side(side, area_of(q)) || !mesh_.is_flip_ok(edge) ||
-        !near(v[2], v[3]))
+    if (!same_side(side, area_of(p)) || !same_side(side, area_of(q)) || !mesh_.is_flip_ok(edge) || !near(v[2], v[3]))
         return false;
     mesh_.flip(edge);
     for (const Vertex corner : v)
@@ -371,8 +371,7 @@ bool EvolvingMesh::move(Vertex v, const Vector& place_of_it, const Vector& norma
         return false;
     double thinnest = good_enough;
     const auto others = [&](Halfedge out) { // of its face
-        return std::pair(at(mesh_.to_vertex_handle(out)),
-                         at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out))));
+        return std::pair(at(mesh_.to_vertex_handle(out)), at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out))));
     };
     const auto with = [&](const Vector& place, const std::pair<Vector, Vector>& two) {
         Corners t;

@@ -175,7 +175,8 @@ void smooth(Work& work, const Progress& progress)
         for (const EvolvingMesh::Halfedge out : around.voh_range(v)) {
             if (around.is_boundary(out))
                 continue;
-            const Vertex a = around.to_vertex_handle(out), b = around.to_vertex_handle(around.next_halfedge_handle(out));
+            const Vertex a = around.to_vertex_handle(out),
+                         b = around.to_vertex_handle(around.next_halfedge_handle(out));
             const EvolvingMesh::Corners t = mesh.triangle(v, a, b);
             const Vector area = EvolvingMesh::area_of(t);
             const double mean_size = (mesh.size(v) + mesh.size(a) + mesh.size(b)) / 3;
@@ -282,9 +283,8 @@ void split_long_lines(Work& work)
 {
     EvolvingMesh& mesh = work.mesh;
     for (int e = 0, edges = int(mesh.mesh().n_edges()); e < edges; ++e)
-        if (const Edge edge(e); !mesh.mesh().status(edge).deleted() && mesh.on_line(edge) &&
-                                mesh.open(edge) && mesh.changed(edge) > work.since &&
-                                relative_length(mesh, edge) > EvolvingMesh::too_long)
+        if (const Edge edge(e); !mesh.mesh().status(edge).deleted() && mesh.on_line(edge) && mesh.open(edge) &&
+                                mesh.changed(edge) > work.since && relative_length(mesh, edge) > EvolvingMesh::too_long)
             mesh.split_line(edge);
 }
 

@@ -242,9 +242,9 @@ void measure_again(MeshDistance& distance, const std::vector<char>& again, const
         progress.checkpoint(0.4 + 0.6 * double(first) / double(face.size()), step);
         parallel_for(std::min(at_a_time, int(face.size()) - first), [&](int i) {
             const int f = face[size_t(first + i)];
-            const FaceDistance::Found found =
-                measured.of(from.position(Eigen::all, from.triangle.col(f)),
-                            {0, distance.seen_of_face[f], distance.place.col(f)}, distance.nearest[size_t(f)], good_enough);
+            const FaceDistance::Found found = measured.of(from.position(Eigen::all, from.triangle.col(f)),
+                                                          {0, distance.seen_of_face[f], distance.place.col(f)},
+                                                          distance.nearest[size_t(f)], good_enough);
             distance.of_face[f] = found.bound;
             distance.seen_of_face[f] = found.seen;
             distance.place.col(f) = found.where;

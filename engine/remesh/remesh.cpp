@@ -223,9 +223,9 @@ struct Given {
 Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& size, const SizeLimits& limits,
               const IncrementalOptions& options, const Progress& progress)
 {
-    constexpr int most_repairs = 8;         // two or three are usual
-    constexpr int most_in_vain = 2;         // in a row: faces that are turned over may stay so however small they are
-    constexpr double most_at_fault = 0.1;   // of the vertices; where most are the sizes are wrong
+    constexpr int most_repairs = 8;       // two or three are usual
+    constexpr int most_in_vain = 2;       // in a row: faces that are turned over may stay so however small they are
+    constexpr double most_at_fault = 0.1; // of the vertices; where most are the sizes are wrong
     constexpr double all_rounds = 0.7, share_of_making = 0.7;
     const SurfaceType type = surface_type(given.part);
     IncrementalRemesh remesh(given.even, given.lines, size, given.on_even, options, progress.part(0, 0));
@@ -236,7 +236,8 @@ Fault attempt(RemeshResult& result, const Given& given, const Eigen::VectorXd& s
     remesh.run(progress.part(0, share_of_making * all_rounds));
     for (int repair = 0;; ++repair) {
         const auto from = [&](double within) {
-            return repair == 0 ? within * all_rounds : all_rounds + (1 - all_rounds) * (repair - 1 + within) / most_repairs;
+            return repair == 0 ? within * all_rounds
+                               : all_rounds + (1 - all_rounds) * (repair - 1 + within) / most_repairs;
         };
         IncrementalRemesh::Snapshot snapshot = remesh.snapshot();
         result.mesh = std::move(snapshot.mesh);

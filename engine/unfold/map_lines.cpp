@@ -48,7 +48,8 @@ public:
             std::vector<double> at = crossings(p, q - p);
             for (size_t i = 0; i < at.size(); ++i) {
                 points.push_back(on_part(line, p + at[i] * (q - p)));
-                const double next = i + 1 < at.size() ? at[i + 1] : 1; // between edges it is in one face, or off the sheet
+                const double next =
+                    i + 1 < at.size() ? at[i + 1] : 1; // between edges it is in one face, or off the sheet
                 on_part(line, p + (at[i] + next) / 2 * (q - p));
             }
         }

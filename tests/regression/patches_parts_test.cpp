@@ -42,7 +42,8 @@ TEST_P(PerforatedParts, BecomePatchesWithoutAFoldWithinTheTolerance)
             used[size_t(v)] = 1;
     const int vertices = int(std::count(used.begin(), used.end(), 1));
     EXPECT_EQ(vertices - (4 * patches - joints) + patches, 2 - int(*session.part->doctor.boundary_loops));
-    const auto file = std::filesystem::temp_directory_path() / ("spia-perforated-" + std::to_string(getpid()) + ".step");
+    const auto file =
+        std::filesystem::temp_directory_path() / ("spia-perforated-" + std::to_string(getpid()) + ".step");
     write_step(file, fit.patches.patch);
     EXPECT_EQ(read_step_surfaces(file).size(), fit.patches.patch.size());
     std::filesystem::remove(file);

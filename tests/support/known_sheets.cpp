@@ -44,21 +44,17 @@ std::vector<KnownSheet> known_sheets()
                           return Vector3d(x, y, -(normal.x() * x + normal.y() * y) / normal.z());
                       },
                       [=](const Vector3d& p) { return std::abs(p.dot(normal)); }, 0});
-    sheets.push_back({"cylinder",
-                      [=](double s, double t) {
-                          return Vector3d(60 * std::cos(quarter * s), 60 * std::sin(quarter * s), 100 * t);
-                      },
-                      [](const Vector3d& p) { return std::abs(p.head<2>().norm() - 60); }, 0});
+    sheets.push_back(
+        {"cylinder",
+         [=](double s, double t) { return Vector3d(60 * std::cos(quarter * s), 60 * std::sin(quarter * s), 100 * t); },
+         [](const Vector3d& p) { return std::abs(p.head<2>().norm() - 60); }, 0});
     sheets.push_back({"torus piece",
                       [=](double s, double t) {
                           const double a = quarter * s, b = 1.5 * quarter * (t - 0.5);
                           const double r = 60 + 25 * std::cos(b);
                           return Vector3d(r * std::cos(a), r * std::sin(a), 25 * std::sin(b));
                       },
-                      [](const Vector3d& p) {
-                          return std::abs(std::hypot(p.head<2>().norm() - 60, p.z()) - 25);
-                      },
-                      0});
+                      [](const Vector3d& p) { return std::abs(std::hypot(p.head<2>().norm() - 60, p.z()) - 25); }, 0});
     sheets.push_back(height_field("saddle", 100, [](double x, double y) { return (x * x - y * y) / 120; }));
     sheets.push_back(
         height_field("bump", 100, [](double x, double y) { return 5 / (1 + (x * x + (y - 7) * (y - 7)) / 36); }));
@@ -100,8 +96,8 @@ double chord_error(const KnownSheet& sheet, const TriMesh& mesh)
     for (int f = 0; f < mesh.triangles(); ++f) {
         const Vector3d a = mesh.position.col(mesh.triangle(0, f)), b = mesh.position.col(mesh.triangle(1, f)),
                        c = mesh.position.col(mesh.triangle(2, f));
-        for (const Vector3d& p : {Vector3d((a + b + c) / 3), Vector3d((a + b) / 2), Vector3d((b + c) / 2),
-                                  Vector3d((c + a) / 2)})
+        for (const Vector3d& p :
+             {Vector3d((a + b + c) / 3), Vector3d((a + b) / 2), Vector3d((b + c) / 2), Vector3d((c + a) / 2)})
             largest = std::max(largest, sheet.distance(p));
     }
     return largest;

@@ -26,8 +26,7 @@ TEST(Relaxation, EndsInTheStrictSolutionWhereThereIsOne)
     const Eigen::Matrix2Xd start = part.position.topRows<2>();
     BlockMatrix matrix(part.triangle, part.vertices());
     Cholesky cholesky(matrix);
-    const Eigen::Matrix2Xd X =
-        minimise_energy(part.triangle, element, sheet, start, matrix, cholesky, {}, {}).position;
+    const Eigen::Matrix2Xd X = minimise_energy(part.triangle, element, sheet, start, matrix, cholesky, {}, {}).position;
 
     VirtualWork work(part, element, sheet, none);
     const EquilibriumResult strict = solve_equilibrium(part, element, work, X, matrix, cholesky, {}, {});

@@ -48,10 +48,7 @@ std::optional<std::array<ImVec2, 2>> marked_item()
                                  ImVec2(from.x + item.Max.x, from.y + item.Max.y)};
 }
 
-bool is_at(const char* label)
-{
-    return ImGui::GetCurrentContext()->NavId == ImGui::GetID(label);
-}
+bool is_at(const char* label) { return ImGui::GetCurrentContext()->NavId == ImGui::GetID(label); }
 
 void go_to_last_item()
 {

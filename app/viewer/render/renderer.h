@@ -16,7 +16,8 @@ struct Look {
     bool ground = true;      ///< else what shows nothing is transparent; `dark` is then of no matter
     float content_scale = 1; ///< of the screen: how many pixels a line of width 1 has
     int samples = 4;         ///< per pixel, against jagged edges; fewer if the graphics card cannot
-    int most_triangles = 0;  ///< of a mesh, about; a finer one is drawn coarse, without its edges: while a view moves. 0: no limit
+    int most_triangles =
+        0; ///< of a mesh, about; a finer one is drawn coarse, without its edges: while a view moves. 0: no limit
 
     friend bool operator==(const Look&, const Look&) = default;
 };

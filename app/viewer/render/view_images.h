@@ -45,7 +45,7 @@ public:
     };
     /// As Renderer::draw(), but the texture may show the view as it was some frames ago; then any_late() is true.
     Drawn draw(size_t view, bool urgent, const Scene& scene, const Camera& camera, int width, int height,
-                  const Look& look);
+               const Look& look);
     /// A small picture, by number; one in a frame is drawn. 0: it is not there yet.
     unsigned draw_small(size_t number, const Scene& scene, const Camera& camera, int width, int height,
                         const Look& look);

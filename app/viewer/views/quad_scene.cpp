@@ -60,8 +60,7 @@ Scene quad_scene(const ViewerState& state, SceneCache& cache)
         return result;
     }
     if (!session.part || !made.lifted) {
-        result.empty =
-            session.blank && state.job.running ? "The grid is being made." : what_is_missing(session);
+        result.empty = session.blank && state.job.running ? "The grid is being made." : what_is_missing(session);
         return result;
     }
     const QuadGrid& lifted = made.lifted->lifted;

@@ -80,7 +80,7 @@ Scene surface_scene(const ViewerState& state, SceneCache& cache, double pixels)
     const Session& session = state.document.session;
     const LaterResults made = surface_shown(state);
     if (!session.part || !made.surface) {
-        result.empty = !session.part ? "The NURBS surface appears here once it is fitted."
+        result.empty = !session.part                        ? "The NURBS surface appears here once it is fitted."
                        : session.blank && state.job.running ? "The surface is being made."
                        : session.lifted || session.options.patches
                            ? "Fit the surface to see it with its control net."

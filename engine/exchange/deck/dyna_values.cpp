@@ -16,7 +16,8 @@ std::string_view DynaValues::meant(std::string_view field)
         return field;
     std::optional<std::string> value = parameters.find(field);
     if (!value)
-        lines_.fail(fmt::format("the parameter {} is not defined before, or its expression is not understood", field.substr(0, 40)));
+        lines_.fail(fmt::format("the parameter {} is not defined before, or its expression is not understood",
+                                field.substr(0, 40)));
     meant_ = std::move(*value);
     return meant_;
 }

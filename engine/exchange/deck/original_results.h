@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/part/part_file.h"
 #include "engine/forming/blank.h"
+#include "engine/part/part_file.h"
 
 namespace spia {
 

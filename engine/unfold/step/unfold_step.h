@@ -17,8 +17,8 @@ struct UnfoldedPiece {
 };
 
 struct UnfoldStepResult {
-    Eigen::Matrix3Xd position; ///< 3 by #V, mm: all vertices after the step
-    TargetFit target;          ///< the target and how well it goes on from the fixed faces: see hinge_quality()
+    Eigen::Matrix3Xd position;        ///< 3 by #V, mm: all vertices after the step
+    TargetFit target;                 ///< the target and how well it goes on from the fixed faces: see hinge_quality()
     std::vector<int> freed;           ///< ascending
     SheetFields face;                 ///< of forming the step's sheet into the part: one entry per freed face
     std::vector<UnfoldedPiece> piece; ///< in the order of their first faces

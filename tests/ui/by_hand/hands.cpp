@@ -185,7 +185,7 @@ void Hands::menu_by_keys(const std::string& title, const std::string& entry, con
     // One step at a time: the mark has moved before the next key; at an end of the row it turns round.
     const auto go_to = [&](const std::string& line, const char* on, const char* back) {
         const auto until = Clock::now() + std::chrono::seconds(60); // pressing keys is no waiting
-        const auto stays_at = [&] { // a key that came late would move it on
+        const auto stays_at = [&] {                                 // a key that came late would move it on
             if (!sees_marked(line))
                 return false;
             viewer_.rest();

@@ -30,7 +30,7 @@ public:
 
     void click(const std::string& line, double x = 0.5,
                double y = 0.5);               ///< where it stands still; by shares of its size
-    void rest_on(const std::string& line);     ///< with the mouse, where it stands still
+    void rest_on(const std::string& line);    ///< with the mouse, where it stands still
     void click_part(const std::string& part); ///< on a line that has this as its part
     void double_click(const std::string& line);
     /// Turns the wheel over a place of the window until the line shows. @returns the report then

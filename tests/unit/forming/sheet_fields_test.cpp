@@ -61,7 +61,8 @@ TEST(SheetFields, NodesTakeTheMeanByArea)
 {
     const TriMesh part = shapes::rectangle(4, 1, 1, 1); // two triangles
     const std::vector<Element> element = elements(part);
-    SheetFields face = face_fields(part, element, {part.position.topRows<2>()},
+    SheetFields face =
+        face_fields(part, element, {part.position.topRows<2>()},
                     uniform_sheet(MembraneLaw({"m", 206000, 0.3, 7850, Swift{565, 0.007, 0.26}, 1, 1, 1, ""}), 1,
                                   part.triangles()));
     face.thickness << 1, 3;

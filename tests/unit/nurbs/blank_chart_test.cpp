@@ -88,7 +88,8 @@ TEST(BlankChart, LinesNextToTheBorderFollowTheOutlineBetweenTheNodes)
     v.insert(v.begin() + 1, 1e-4);
     const GridResult fine = chart.refined(lines(128), v);
     for (int i = 0; i <= 128; ++i)
-        EXPECT_LT((fine.planar.position.col(fine.planar.node(i, 1)) - fine.planar.position.col(fine.planar.node(i, 0))).norm(),
+        EXPECT_LT((fine.planar.position.col(fine.planar.node(i, 1)) - fine.planar.position.col(fine.planar.node(i, 0)))
+                      .norm(),
                   0.05)
             << i;
 }

@@ -67,7 +67,8 @@ TEST_F(SteppedBlank, LiesTheSameWayRoundAsThatOfOneStepHoweverThePartLies)
         run = run_unfolding(part, propose_sequence(part, find_bends(part)).steps, options);
         const Eigen::Matrix2Xd one = flatten(part, options).blank.position;
         const Eigen::Matrix2Xd stepped = stepped_blank(part, run, options).blank.position;
-        const Eigen::Matrix2Xd a = one.colwise() - one.rowwise().mean(), b = stepped.colwise() - stepped.rowwise().mean();
+        const Eigen::Matrix2Xd a = one.colwise() - one.rowwise().mean(),
+                               b = stepped.colwise() - stepped.rowwise().mean();
         EXPECT_GT(a.cwiseProduct(b).sum(), 0) << "turned by 45 degrees " << k << " times";
     }
 }

@@ -59,7 +59,8 @@ TEST(ClearSight, TurnsToWhereNothingStandsBeforeThePlace)
 TEST(ClearSight, DoesNotLookAlongTheSheet)
 {
     const TriMesh box = open_box();
-    const Eigen::Vector3d way = towards(clear_sight(box, {50, 3, 4}, from_above)); // the top lies over that wall's plane
+    const Eigen::Vector3d way =
+        towards(clear_sight(box, {50, 3, 4}, from_above)); // the top lies over that wall's plane
     EXPECT_GT(std::abs(way.x()), 0.4);
 }
 

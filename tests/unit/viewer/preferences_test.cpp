@@ -117,8 +117,7 @@ TEST_F(Preferring, OneOfBothLeavesTheOtherADoubt)
     some.lengths = LengthUnit::inch;
     model.apply(SetPreferences{some});
     open();
-    EXPECT_THAT(sheet_doubts(), HasSubstr("0.0472 in is that of the previous part"))
-        << "in the unit that is shown";
+    EXPECT_THAT(sheet_doubts(), HasSubstr("0.0472 in is that of the previous part")) << "in the unit that is shown";
 }
 
 TEST_F(Preferring, AThemeThatIsChosenStaysOne)

@@ -49,7 +49,8 @@ TEST(ViewerModelMemory, WhatARunHasMadeGoesWithTheModel)
     std::weak_ptr<const FlattenResult> blank;
     {
         ViewerModel model{SPIA_SOURCE_DIR "/assets"};
-        for (const Action& action : {Action{OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""}}, Action{RunTo{Stage::fit}}}) {
+        for (const Action& action :
+             {Action{OpenPart{SPIA_SOURCE_DIR "/assets/parts/dome.obj", ""}}, Action{RunTo{Stage::fit}}}) {
             model.apply(action);
             while (model.busy())
                 model.poll();

@@ -142,8 +142,9 @@ size_t ViewerModel::Apply::region(int number) const
 void ViewerModel::Apply::require_some_free(RegionKind kind, const std::vector<int>& faces) const
 {
     if (kind == RegionKind::fixed && int(faces.size()) == part().mesh.triangles())
-        throw InputError("That is the whole part: nothing would be left to be unfolded. Select one flat side of it, with "
-                         "the tool Smooth (N).");
+        throw InputError(
+            "That is the whole part: nothing would be left to be unfolded. Select one flat side of it, with "
+            "the tool Smooth (N).");
 }
 
 void ViewerModel::Apply::operator()(const MakeRegion& action)

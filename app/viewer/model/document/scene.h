@@ -123,7 +123,8 @@ struct Scene {
     std::vector<std::shared_ptr<const ScenePoints>> points;
     std::vector<SceneLabel> labels;
     std::vector<SceneRing> rings;
-    std::optional<std::array<Eigen::Vector3d, 3>> hovered; ///< corners of the face under the mouse, mm; the panels draw it
+    std::optional<std::array<Eigen::Vector3d, 3>>
+        hovered; ///< corners of the face under the mouse, mm; the panels draw it
     std::shared_ptr<const std::vector<Isoline>> isolines; ///< null: none are shown
     std::optional<SceneLegend> legend;                    ///< of the field that is shown
     std::vector<Colour> region_colours;                   ///< by number of region

@@ -138,16 +138,16 @@ private:
     std::vector<std::unique_ptr<Job<StepsOutcome>>> ending_steps_; ///< as ending_
     bool steps_next_ = false;                                      ///< run them when the running job has ended
     std::optional<BlankNext> blank_next_;
-    bool keep_step_ = false;             ///< the one shown is that of a project
-    bool keep_cameras_ = false;          ///< those of a project
-    size_t depth_at_start_ = 0;          ///< of the history, when the running job began
-    bool dragging_ = false;              ///< a corner: the grid is coarse
-    std::optional<bool> unsaved_before_; ///< the running job, if it is a change of its own
-    std::optional<Stage> next_;          ///< run this far when the running job has ended
-    bool next_in_one_step_ = false;      ///< and not from the blank of the steps
+    bool keep_step_ = false;                     ///< the one shown is that of a project
+    bool keep_cameras_ = false;                  ///< those of a project
+    size_t depth_at_start_ = 0;                  ///< of the history, when the running job began
+    bool dragging_ = false;                      ///< a corner: the grid is coarse
+    std::optional<bool> unsaved_before_;         ///< the running job, if it is a change of its own
+    std::optional<Stage> next_;                  ///< run this far when the running job has ended
+    bool next_in_one_step_ = false;              ///< and not from the blank of the steps
     double progress_from_ = 0, progress_to_ = 1; ///< of what was asked for, that of the running job
     int messages_posted_ = 0;                    ///< messages so far
-    DoubtsOf doubts_of_;                 ///< what the doubts of the state were found in
+    DoubtsOf doubts_of_;                         ///< what the doubts of the state were found in
     int openings_ = 0, documents_ = 0;
     std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job
     bool opening_ = false;                                              ///< the running job reads a new part
