@@ -1,16 +1,9 @@
 #pragma once
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <vector>
 
 #include "engine/mesh/tri_mesh.h"
 
 namespace spia {
-
-/// Who is whose neighbour. Vertex and face handles have the indices of the TriMesh it was built from.
-using HalfedgeMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
-
-/// @throws InputError if three faces share an edge or orientations clash; names the first offending face
-HalfedgeMesh halfedges(const TriMesh& mesh);
 
 /// Closed rows of boundary vertices with the mesh on their left (outer loop counter-clockwise, holes clockwise, seen
 /// from the outer side); the longest one by length comes first. Each starts at its smallest vertex index.

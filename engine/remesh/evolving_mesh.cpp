@@ -7,6 +7,7 @@
 #include <numbers>
 #include <queue>
 
+#include "engine/mesh/topology.h"
 #include "engine/remesh/divide_line.h"
 
 namespace spia {

@@ -9,7 +9,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/mesh/closest_point.h"
-#include "engine/mesh/topology.h"
+#include "engine/mesh/halfedges.h"
 #include "engine/remesh/kept_lines.h"
 
 namespace spia {

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/mesh/halfedges.h"
 #include "engine/mesh/topology.h"
 
 namespace spia {

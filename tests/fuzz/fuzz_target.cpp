@@ -13,7 +13,7 @@
 #include "engine/exchange/mesh/read_gltf.h"
 #include "engine/exchange/mesh/read_openmesh.h"
 #include "engine/forming/material/two_columns.h"
-#include "engine/mesh/topology.h"
+#include "engine/mesh/halfedges.h"
 #include "engine/part/part_file.h"
 #include "engine/part/prepare_part.h"
 #include "engine/pipeline/deform_file.h"

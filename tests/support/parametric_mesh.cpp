@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/mesh/topology.h"
+#include "engine/mesh/halfedges.h"
 
 namespace spia::shapes {
 namespace {

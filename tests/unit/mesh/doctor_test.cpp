@@ -9,6 +9,7 @@
 #include <random>
 
 #include "engine/core/error.h"
+#include "engine/mesh/halfedges.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"

@@ -1,3 +1,4 @@
+#include "engine/mesh/halfedges.h"
 #include "engine/mesh/topology.h"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/mesh/halfedges.h"
 #include "engine/mesh/topology.h"
 #include "tests/support/mesh_tools.h"
 
