@@ -39,15 +39,15 @@ Vector3d long_axis(const Matrix3Xd& points, const Vector3d& up)
     return axis[largest] < 0 ? Vector3d(-axis) : axis;
 }
 
-/// Rows right, up and towards the viewer: slightly from above and from one side, or straight down if flat.
-Matrix3d view_of(const TriMesh& mesh, bool flat)
+/// Rows right, up and towards the viewer: slightly from above and from one side.
+Matrix3d view_of(const TriMesh& mesh)
 {
     const Vector3d sum = area_vectors(mesh).rowwise().sum();
     Vector3d up = sum.norm() > 0.2 * area(mesh) ? Vector3d(sum.normalized()) : Vector3d::UnitZ();
     if (up.z() < -0.1)
         up = -up;
     const Vector3d along = long_axis(mesh.position, up), across = up.cross(along);
-    const double turn = flat ? 0 : 0.5, rise = flat ? EIGEN_PI / 2 : 0.75; // radians
+    constexpr double turn = 0.5, rise = 0.75; // radians
     const Vector3d right = std::cos(turn) * along + std::sin(turn) * across;
     const Vector3d back = right.cross(up);
     const Vector3d viewer = std::cos(rise) * back + std::sin(rise) * up;
@@ -210,16 +210,24 @@ private:
     double slope_ = 0; ///< per pixel
 };
 
+/// Rounding errors of strain (see noise() of the report) are worth no colour and no contour.
+constexpr double least_half_width = 1e-4;
+
 /// From the first to the last of a hundred equal shares: single extreme vertices must not take the colours from the
-/// rest. Never narrower than 0.02 %: rounding errors are not worth a colour.
+/// rest.
 ColourRange central_range(const Eigen::VectorXd& values)
 {
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
     const size_t cut = sorted.size() / 100;
-    constexpr double least_half_width = 1e-4;
     const double least = sorted[cut], greatest = sorted[sorted.size() - 1 - cut], middle = 0.5 * (least + greatest);
     return {std::min(least, middle - least_half_width), std::max(greatest, middle + least_half_width)};
+}
+
+/// None where all values are one but for rounding.
+std::vector<double> contour_levels(const Eigen::VectorXd& values, const ColourRange& range)
+{
+    return values.maxCoeff() - values.minCoeff() > 2 * least_half_width ? round_values(range) : std::vector<double>{};
 }
 
 class Picture {
@@ -227,8 +235,8 @@ public:
     Picture(const ExportScene& scene, Panels panels, LengthUnit lengths)
         : scene_(scene), sheet_(panels != Panels::shape), quads_(panels != Panels::sheet && scene.quad_mesh),
           surface_(panels != Panels::sheet && (scene.surface || !scene.control_nets.empty())), lengths_(lengths),
-          range_(central_range(scene.fields->thinning)), levels_(round_values(range_)),
-          view_(view_of(*scene.part, false)), lift_(0.004 * bounding_diagonal(*scene.part)),
+          range_(central_range(scene.fields->thinning)), levels_(contour_levels(scene.fields->thinning, range_)),
+          view_(view_of(*scene.part)), lift_(0.004 * bounding_diagonal(*scene.part)),
           canvas_((2 * sheet_ + quads_ + surface_) * panel_width, panel_height + sheet_ * legend_height)
     {
     }
@@ -275,7 +283,7 @@ private:
     {
         TriMesh flat{Matrix3Xd::Zero(3, scene_.part->vertices()), scene_.part->triangle};
         flat.position.topRows(2) = scene_.blank->position;
-        const Panel panel(canvas_, panels_++, view_of(flat, true), flat.position);
+        const Panel panel(canvas_, panels_++, Matrix3d::Identity(), flat.position); // as it lies in the DXF
         const Matrix3Xd corner = panel.on_canvas(flat.position);
         for (int f = 0; f < flat.triangles(); ++f) {
             const Eigen::Vector3i t = flat.triangle.col(f);

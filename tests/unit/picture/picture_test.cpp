@@ -61,6 +61,23 @@ Eigen::Matrix3d corners(const Eigen::Vector3d& a, const Eigen::Vector3d& b, cons
     return corner;
 }
 
+struct PixelBox {
+    int left, right, top, bottom;
+};
+
+/// Of what is drawn in the second panel, below the titles and above the legend.
+PixelBox box_of_blank(const Image& image)
+{
+    PixelBox box{image.width, 0, image.height, 0};
+    for (int y = 80; y < 440; ++y)
+        for (int x = 510; x < 990; ++x)
+            if (!image.white(x, y)) {
+                box.left = std::min(box.left, x), box.right = std::max(box.right, x + 1);
+                box.top = std::min(box.top, y), box.bottom = std::max(box.bottom, y + 1);
+            }
+    return box;
+}
+
 const auto red = [](const Eigen::Vector3d&) { return Eigen::Vector3d(1, 0, 0); };
 const auto blue = [](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, 1); };
 
@@ -143,14 +160,7 @@ TEST(Picture, BlankHasItsAreaAndTheColoursOfItsThinning)
     const Image image = decoded(content_of(folder / "x.png"));
 
     ASSERT_EQ(image.width, 2 * 500);
-    int left = image.width, right = 0, top = image.height,
-        bottom = 0; // of the blank, below the titles, above the legend
-    for (int y = 80; y < 440; ++y)
-        for (int x = 510; x < 990; ++x)
-            if (!image.white(x, y)) {
-                left = std::min(left, x), right = std::max(right, x + 1);
-                top = std::min(top, y), bottom = std::max(bottom, y + 1);
-            }
+    const auto [left, right, top, bottom] = box_of_blank(image);
     EXPECT_NEAR(right - left, 452, 3); // panel less margins, and half a boundary line
     EXPECT_NEAR(bottom - top, 226, 3);
     EXPECT_EQ(image.drawn(510, 80, 990, 440), (right - left) * (bottom - top));
@@ -167,6 +177,32 @@ TEST(Picture, BlankHasItsAreaAndTheColoursOfItsThinning)
         darker += sum < image.colour(x - 3, top + 60).sum() - 0.1 && sum < image.colour(x + 3, top + 60).sum() - 0.1;
     }
     EXPECT_GE(darker, 9);
+}
+
+TEST(Picture, BlankLiesAsItsCoordinatesSay)
+{
+    // An L, whose points spread widest along a slanting line.
+    TriMesh part;
+    part.position.resize(3, 6);
+    part.position << 0, 400, 400, 80, 80, 0, 0, 0, 80, 80, 200, 200, 0, 0, 0, 0, 0, 0;
+    part.triangle.resize(3, 4);
+    part.triangle << 0, 0, 0, 0, 1, 2, 3, 4, 2, 3, 4, 5;
+    const Blank blank{part.position.topRows(2)};
+    const SheetFields fields = samples::smooth_fields(part.vertices());
+    const auto [left, right, top, bottom] = box_of_blank(decoded(picture_png({"L", &part, &blank, &fields})));
+    EXPECT_NEAR(right - left, 452, 3);
+    EXPECT_NEAR(bottom - top, 226, 3);
+}
+
+TEST(Picture, RoundingErrorsHaveNoContours)
+{
+    const TriMesh part = shapes::rectangle(400, 200, 40, 20);
+    const Blank blank{part.position.topRows(2)};
+    SheetFields fields = samples::smooth_fields(part.vertices());
+    fields.thinning.setZero();
+    const std::string even = picture_png({"rectangle", &part, &blank, &fields});
+    fields.thinning = 1e-12 * part.position.row(0).array().sin();
+    EXPECT_EQ(picture_png({"rectangle", &part, &blank, &fields}), even);
 }
 
 TEST(Picture, HasAPanelForEachShapeAndTheSameBytesTwice)
