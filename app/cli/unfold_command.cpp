@@ -443,8 +443,12 @@ int unfold(const UnfoldArguments& arguments)
         write_atomically(arguments.json, unfold_report_json(arguments.part, part, map, steps, run, findings, files,
                                                             both, run.blank ? &fibre.table : nullptr));
     print_states(run, bounding_diagonal(part.mesh));
-    if (run.blank)
+    if (run.blank) {
         print_bends(fibre.table);
+        const auto laid = [](const SheetBend& bend) { return bend.laid; };
+        if (!arguments.folder.empty() && std::any_of(fibre.table.bends.begin(), fibre.table.bends.end(), laid))
+            say("bends     only the blank is laid so: the states of the steps keep the lengths of the part's mesh\n");
+    }
     if (polished)
         print_polish(*polished);
     if (surface && surface->session.blank)
