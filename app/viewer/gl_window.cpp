@@ -27,7 +27,7 @@ int in_layout(int key, int scan_code)
     return name[0] == '+' ? GLFW_KEY_EQUAL : name[0] == '-' ? GLFW_KEY_MINUS : key;
 }
 
-constexpr int usual_width = 1440, usual_height = 900;
+constexpr int first_width = 1440, first_height = 900;
 
 /// Of the first screen, without what the desktop keeps for itself and the frame of a window; in pixels at content scale 1,
 /// as sizes of new windows are told.
@@ -35,7 +35,7 @@ std::pair<int, int> room_on_screen()
 {
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     if (!monitor)
-        return {usual_width, usual_height};
+        return {first_width, first_height};
     int x = 0, y = 0, width = 0, height = 0;
     float scale_x = 1, scale_y = 1;
     glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
@@ -66,8 +66,8 @@ GlWindow::GlWindow(int width, int height, bool visible)
     glfwWindowHint(GLFW_VISIBLE, visible);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     const auto [room_x, room_y] = room_on_screen();
-    window_ = glfwCreateWindow(width > 0 ? width : std::min(usual_width, room_x),
-                               height > 0 ? height : std::min(usual_height, room_y), "SPIA", nullptr, nullptr);
+    window_ = glfwCreateWindow(width > 0 ? width : std::min(first_width, room_x),
+                               height > 0 ? height : std::min(first_height, room_y), "SPIA", nullptr, nullptr);
     if (!window_) {
         glfwTerminate();
         throw Error(

@@ -14,7 +14,7 @@ namespace spia {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Places in a loop, rising.
 using Places = std::vector<int>;

@@ -15,7 +15,7 @@ namespace spia {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Both halves of a curve, at half its length. The second one's number follows the first one's.
 int halve(const PlaneGraph& old, int curve, PlaneGraph& graph)

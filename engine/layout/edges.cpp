@@ -11,7 +11,7 @@ namespace spia {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double shortest = 0.02; ///< over the diagonal: loose ends below it are no edges but noise of the mesh
 constexpr size_t most_lines =
     200; ///< more of them: only sharper ones count, or it is a rough surface, not a part with edges

@@ -13,7 +13,7 @@ namespace spia {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// How good a face of four sides is: the sine of its worst corner; 0 if one is not convex.
 double quality(const PlaneGraph& graph, const Face& face)

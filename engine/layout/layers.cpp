@@ -18,7 +18,7 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double bulge = 0.02;               ///< over its chord: an arc that is so far from straight gets a layer
 constexpr double most_turn = 100 * pi / 180; ///< of an arc
 constexpr double sharp = 40 * pi / 180;      ///< a place at which an arc is divided first

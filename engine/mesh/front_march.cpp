@@ -3,16 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <utility>
+
+#include "engine/core/infinity.h"
 
 namespace spia {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// When a front that passed a at time t_a and b at t_b arrives at c: as a straight front across the triangle where it comes
 /// from between them, else along an edge.

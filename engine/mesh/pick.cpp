@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/infinity.h"
 #include "engine/mesh/box_tree.h"
 
 namespace spia {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A ray, prepared for many tests [Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, 2013].
 class PreparedRay {

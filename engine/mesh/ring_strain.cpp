@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "engine/core/infinity.h"
 
 namespace spia {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int levels = 24;
 

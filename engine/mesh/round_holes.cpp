@@ -16,7 +16,7 @@ constexpr double same = 1e-3; // of the thickness: single precision of STL files
 constexpr double through = 0.9,
                  beyond = 1.1; // of the thickness: planes lie as far apart as it says, but for chords of bends
 
-constexpr double parallel = 1 - 1e-5; // 0.3 degrees
+constexpr double along_axis = 1 - 1e-5; // 0.3 degrees
 
 /// A circular hole in a plane.
 struct Mouth {
@@ -106,7 +106,7 @@ private:
     /// The plane of the other skin, seen from a mouth.
     bool on_other_skin(int f, const RoundEdge& mouth) const
     {
-        if (planes_.direction.col(plane(f)).dot(mouth.axis) > -parallel)
+        if (planes_.direction.col(plane(f)).dot(mouth.axis) > -along_axis)
             return false;
         return std::ranges::all_of(solid_.triangle.col(f), [&](int v) {
             const double h = mouth.height(place(v));
@@ -178,7 +178,7 @@ private:
     {
         double most = 0;
         for (Eigen::Index p = 0; p < planes_.level.size(); ++p)
-            if (planes_.direction.col(p).dot(mouth.axis) < -parallel)
+            if (planes_.direction.col(p).dot(mouth.axis) < -along_axis)
                 if (const double depth = mouth.axis.dot(mouth.centre) + planes_.level[p]; depth < beyond * thickness_)
                     most = std::max(most, depth);
         return most;

@@ -22,7 +22,7 @@ namespace {
 using Point = Eigen::Vector2d;
 using Points = std::vector<Point>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int pieces_of_outline = 260; // about
 
 Point polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }

@@ -38,13 +38,6 @@ TriMesh two_pieces()
     return both;
 }
 
-std::string content(const fs::path& file)
-{
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
-
 /// Width and height of a PNG file; 0 by 0 if it is none.
 std::pair<int, int> png_size(const fs::path& file)
 {

@@ -25,13 +25,6 @@ constexpr const char *report_file = "report.json", *errors_file = "errors.txt";
 
 void breathe() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
-std::string content(const fs::path& file)
-{
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
-
 int start(const fs::path& folder, std::vector<std::string> arguments)
 {
     fs::remove(folder / report_file); // of a run before
@@ -79,6 +72,13 @@ std::string answer_of(const std::string& command)
 }
 
 } // namespace
+
+std::string content(const fs::path& file)
+{
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
 
 fs::path scratch_folder(const std::string& name)
 {

@@ -13,6 +13,8 @@ namespace spia::viewer {
 /// An empty folder for this test, with a link to the assets, so that scripts find "assets/parts/..." from there.
 std::filesystem::path scratch_folder(const std::string& name);
 
+std::string content(const std::filesystem::path& file); ///< its bytes; none if there is no such file
+
 struct Ended {
     int exit_code = -1;
     Json report;        ///< null if none was written

@@ -36,13 +36,6 @@ std::string bend_words(const Frame& frame, const SheetBend& bend)
     return words + "\nClick to look at it.";
 }
 
-void right_aligned(const std::string& text)
-{
-    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, free));
-    ImGui::TextUnformatted(text.c_str());
-}
-
 void headings(Frame& frame)
 {
     const std::string unit = std::string(length_word(frame.lengths()));

@@ -9,13 +9,6 @@
 namespace spia::viewer {
 namespace {
 
-void right_aligned(const std::string& text)
-{
-    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, free));
-    ImGui::TextUnformatted(text.c_str());
-}
-
 std::string number(const std::optional<double>& value, int decimals, bool sign = false)
 {
     if (!value)

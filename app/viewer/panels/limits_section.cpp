@@ -111,17 +111,6 @@ void zone_rows(Frame& frame, const LimitsResult& limits)
     }
 }
 
-/// Against the right border of the cell.
-void right_aligned(const std::string& text, bool heading = false)
-{
-    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, free));
-    if (heading)
-        ImGui::TextDisabled("%s", text.c_str());
-    else
-        ImGui::TextUnformatted(text.c_str());
-}
-
 /// What is left up to the curve and what the sheet became thinner by are two things: a column each.
 void spots(Frame& frame, const LimitsResult& limits)
 {

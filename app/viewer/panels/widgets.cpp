@@ -256,6 +256,16 @@ void coloured(const ImVec4& colour, const std::string& text)
     ImGui::PopStyleColor();
 }
 
+void right_aligned(const std::string& text, bool heading)
+{
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, free));
+    if (heading)
+        ImGui::TextDisabled("%s", text.c_str());
+    else
+        ImGui::TextUnformatted(text.c_str());
+}
+
 void figure(const Frame& frame, const char* name, const std::string& value)
 {
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;

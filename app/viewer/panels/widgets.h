@@ -42,6 +42,9 @@ void keep_in_place(Frame& frame);
 void muted(const Frame& frame, const std::string& text);
 void coloured(const ImVec4& colour, const std::string& text);
 
+/// A text against the right border of its cell; a heading is grey.
+void right_aligned(const std::string& text, bool heading = false);
+
 /// A row "name   value" in two columns.
 void figure(const Frame& frame, const char* name, const std::string& value);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/viewer/render/graphics_card.h"
 #include "engine/core/error.h"
 
 namespace spia::viewer {
@@ -19,12 +20,6 @@ const char* words(GLenum error)
     return "unknown error";
 }
 
-std::string text_of(GLenum name)
-{
-    const GLubyte* text = glGetString(name);
-    return text ? reinterpret_cast<const char*>(text) : "unknown";
-}
-
 } // namespace
 
 void check_gl(const char* doing)
@@ -36,7 +31,7 @@ void check_gl(const char* doing)
     for (int i = 0; i < most && glGetError() != GL_NO_ERROR; ++i) {
     }
     throw Error(fmt::format(
-        "OpenGL failed while {}: {} (0x{:04x}) on {}; {}", doing, words(error), error, text_of(GL_RENDERER),
+        "OpenGL failed while {}: {} (0x{:04x}) on {}; {}", doing, words(error), error, graphics_card().renderer,
         error == GL_OUT_OF_MEMORY ? "close other programs or show a smaller part" : "update the graphics driver"));
 }
 
@@ -46,10 +41,10 @@ void require_gl_3_3()
     const int version = epoxy_gl_version();
     if (version >= least && epoxy_is_desktop_gl())
         return;
-    throw Error(
-        fmt::format("the viewer needs OpenGL 3.3; here there is {} {}.{} on {}. Update the graphics driver, or draw "
-                    "without it: set LIBGL_ALWAYS_SOFTWARE=1. The command line program spia needs no OpenGL.",
-                    epoxy_is_desktop_gl() ? "OpenGL" : "OpenGL ES", version / 10, version % 10, text_of(GL_RENDERER)));
+    throw Error(fmt::format(
+        "the viewer needs OpenGL 3.3; here there is {} {}.{} on {}. Update the graphics driver, or draw "
+        "without it: set LIBGL_ALWAYS_SOFTWARE=1. The command line program spia needs no OpenGL.",
+        epoxy_is_desktop_gl() ? "OpenGL" : "OpenGL ES", version / 10, version % 10, graphics_card().renderer));
 }
 
 } // namespace spia::viewer

@@ -11,7 +11,7 @@
 namespace spia::viewer {
 namespace {
 
-constexpr int cells = 64;              ///< of the coarse picture along its longer side
+constexpr int cells_along = 64;        ///< of the coarse picture along its longer side
 constexpr int most_triangles = 30'000; ///< that are looked at: of a finer sheet every so many
 
 struct Candidate {
@@ -45,7 +45,7 @@ std::vector<Candidate> candidates()
 class Picture {
 public:
     explicit Picture(const Eigen::AlignedBox2d& box)
-        : cell_(box.sizes().maxCoeff() / cells), corner_(box.min()),
+        : cell_(box.sizes().maxCoeff() / cells_along), corner_(box.min()),
           columns_(std::max(1, int(std::ceil(box.sizes().x() / cell_)))),
           rows_(std::max(1, int(std::ceil(box.sizes().y() / cell_)))),
           depth_(size_t(columns_ * rows_), -std::numeric_limits<double>::infinity()), marked_(depth_.size(), 0)

@@ -10,7 +10,8 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+using std::numbers::pi;
+constexpr double degree = pi / 180;
 
 /// What counts as an arc.
 struct ArcLimits {

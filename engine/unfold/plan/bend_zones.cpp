@@ -19,7 +19,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double nearest_turn(double angle, double to) { return angle - 2 * pi * std::round((angle - to) / (2 * pi)); }
 

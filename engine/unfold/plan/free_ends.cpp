@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "engine/core/infinity.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/segment_distance.h"
 #include "engine/mesh/topology.h"
@@ -82,7 +83,6 @@ FreeEnds::FreeEnds(const TriMesh& part) : part_(part), normal_(area_vectors(part
 /// Both ends on each of the lines.
 std::array<std::vector<FreeEnds::End>, 2> FreeEnds::ends(const Strip& strip) const
 {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::map<Edge, int> times;
     for (const int f : strip.face)
         for (int k = 0; k < 3; ++k)

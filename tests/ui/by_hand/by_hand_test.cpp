@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 NurbsSurface moved(NurbsSurface surface, const Vector3d& by)
 {

@@ -11,7 +11,7 @@
 namespace spia::viewer {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A web and a flange of 40 x 60 mm with a bend of 90 degrees and 6 mm radius between them, as an OBJ file.
 struct Angle {

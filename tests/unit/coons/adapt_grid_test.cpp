@@ -16,7 +16,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double length = 100, width = 40, radius = 2, bend_at = 60; // mm
 
 /// The strip bent by a right angle: of its middle line at the arc length s.

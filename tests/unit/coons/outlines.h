@@ -15,7 +15,7 @@
 namespace spia::outlines {
 
 using Points = std::vector<Eigen::Vector2d>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 inline Eigen::Vector2d polar(double radius, double angle)
 {

@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 using surfaces::bilinear;
 
 const fs::path cad_folder = fs::path(SPIA_SOURCE_DIR) / "../shared/data/cad";
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 NurbsSurface rectangle(double x0, double x1, double y0, double y1)
 {

@@ -24,7 +24,7 @@ namespace {
 using shapes::PlaneLoop;
 using shapes::ProfilePiece;
 using shapes::SeededRandom;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A solid of sheet and what is known of it.
 struct KnownSheet {

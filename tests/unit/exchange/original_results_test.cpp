@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Quads between rows of nodes; closed: the last column is the first one.
 std::string deck(int columns, int rows, const std::function<Vector3d(double, double)>& at, bool closed = false)

@@ -15,7 +15,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A polygon in (u, v), clockwise.
 TrimLoop polygon(int corners, const Eigen::Vector2d& middle, double radius_u, double radius_v)

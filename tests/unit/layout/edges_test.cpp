@@ -20,7 +20,7 @@ namespace spia {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Sheet {
     TriMesh part;

@@ -13,7 +13,7 @@ namespace spia {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Degrees, the least and the greatest inner corner of all patches, as their sides leave it over a tenth of their length.
 std::array<double, 2> corners_of(const Layout& layout)

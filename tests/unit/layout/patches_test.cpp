@@ -22,7 +22,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 shapes::Plate plate_with(int holes)
 {

@@ -13,7 +13,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TriMesh cut_at(const TriMesh& part, const CornerSeam& seam)
 {

@@ -6,13 +6,12 @@
 #include <random>
 
 #include "engine/core/error.h"
+#include "engine/core/infinity.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/shapes.h"
 
 namespace spia {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d random_point(std::mt19937& random, double size)
 {

@@ -17,7 +17,7 @@ namespace {
 
 using shapes::BentSheet;
 using shapes::Profile;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Bends to both sides, so that the outer skin has convex and concave ones.
 Profile hat() // heading along x, outer side up

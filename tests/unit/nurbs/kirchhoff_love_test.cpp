@@ -14,7 +14,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const auto nothing_held = [](int, const Eigen::Vector3d&) { return std::array{false, false, false}; };
 
 /// A rectangle in the plane z = 0 from x0 to x0 + a, 0 to b.

@@ -14,7 +14,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The plane z = 0 from 0 to the sizes, mm.
 NurbsSurface plane(double width, double height)

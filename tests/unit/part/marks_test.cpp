@@ -22,7 +22,8 @@ namespace {
 using shapes::BentSheet;
 using shapes::PlaneLoop;
 using shapes::Profile;
-constexpr double pi = std::numbers::pi, thickness = 2;
+using std::numbers::pi;
+constexpr double thickness = 2;
 
 /// Bends to both sides. Flats to x = 30 and from about x = 72 on.
 BentSheet step_sheet()

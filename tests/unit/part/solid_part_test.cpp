@@ -18,7 +18,8 @@ namespace spia {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double pi = std::numbers::pi, thickness = 0.8;
+using std::numbers::pi;
+constexpr double thickness = 0.8;
 
 class SolidPart : public testing::Test {
 protected:

@@ -9,7 +9,7 @@
 namespace spia {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The grid over [0, 1]^2 put in space.
 template <class Place> TriMesh placed(int columns, int rows, const Place& place)

@@ -5,7 +5,7 @@
 namespace spia::shapes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void expect_exactly_developable(const DevelopablePart& part, int triangles)
 {

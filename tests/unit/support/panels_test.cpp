@@ -6,7 +6,7 @@
 namespace spia::shapes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Step, IsSmoothAndReachesItsDepthAndSlope)
 {

@@ -7,7 +7,7 @@
 namespace spia::viewer {
 namespace {
 
-const glm::dvec2 size(1280, 720);
+const glm::dvec2 screen(1280, 720);
 const Eigen::AlignedBox3d box(Eigen::Vector3d(-30, 10, -5), Eigen::Vector3d(90, 60, 55));
 
 std::vector<Camera> cameras()
@@ -22,7 +22,7 @@ std::vector<Camera> cameras()
             camera.target = {20, 30, 10};
             camera.height = 140;
             result.push_back(look(camera, view));
-            result.push_back(orbit(result.back(), {70, -130}, size));
+            result.push_back(orbit(result.back(), {70, -130}, screen));
         }
     return result;
 }
@@ -44,10 +44,10 @@ Eigen::Vector3d towards_viewer(const Camera& camera)
 glm::dvec3 pixel_by_matrices(const Camera& camera, const Eigen::Vector3d& place)
 {
     const Eigen::Vector3d origin(400, -700, 90), from_origin = place - origin;
-    const glm::dvec4 clip = projection_matrix(camera, size.x / size.y, box) * view_matrix(camera, origin) *
+    const glm::dvec4 clip = projection_matrix(camera, screen.x / screen.y, box) * view_matrix(camera, origin) *
                             glm::dvec4(from_origin.x(), from_origin.y(), from_origin.z(), 1);
     const glm::dvec3 p = glm::dvec3(clip) / clip.w;
-    return {(p.x + 1) / 2 * size.x, (1 - p.y) / 2 * size.y, p.z};
+    return {(p.x + 1) / 2 * screen.x, (1 - p.y) / 2 * screen.y, p.z};
 }
 
 double apart(glm::dvec2 a, glm::dvec2 b) { return glm::length(a - b); }
@@ -60,7 +60,7 @@ TEST(Camera, TheRayThroughThePixelOfAPlaceMeetsThePlace)
     for (const Camera& camera : cameras())
         for (int i = 0; i < 50; ++i) {
             const Eigen::Vector3d place = random_place(random);
-            const Ray ray = ray_through(camera, box, pixel_of(camera, place, size), size);
+            const Ray ray = ray_through(camera, box, pixel_of(camera, place, screen), screen);
             EXPECT_NEAR(ray.direction.norm(), 1, 1e-14);
             EXPECT_LT(ray.direction.cross(place - ray.origin).norm(), 1e-9);
             EXPECT_GT(ray.direction.dot(place - ray.origin), 0); // it starts in front
@@ -73,12 +73,12 @@ TEST(Camera, TheRendererSeesEveryPlaceWherePickingSeesIt)
     for (const Camera& camera : cameras())
         for (int i = 0; i < 50; ++i) {
             const Eigen::Vector3d place = random_place(random);
-            const glm::dvec3 drawn = pixel_by_matrices(camera, place), picked = pixel_of(camera, place, size);
+            const glm::dvec3 drawn = pixel_by_matrices(camera, place), picked = pixel_of(camera, place, screen);
             EXPECT_LT(apart(drawn, picked), 1e-8);
             EXPECT_LT(std::abs(drawn.z), 1); // between near and far
             const Eigen::Vector3d nearer = place + 0.5 * towards_viewer(camera);
             EXPECT_LT(pixel_by_matrices(camera, nearer).z, drawn.z);
-            EXPECT_NEAR(pixel_of(camera, nearer, size).z - picked.z, 0.5, 1e-12);
+            EXPECT_NEAR(pixel_of(camera, nearer, screen).z - picked.z, 0.5, 1e-12);
         }
 }
 
@@ -89,8 +89,8 @@ TEST(Camera, OneMillimetreAtTheTargetHasTheSameSizeWithAndWithoutPerspective)
         const glm::dvec3 up = camera.turn * glm::dvec3(0, 1, 0);
         const Eigen::Vector3d above = target + Eigen::Vector3d(up.x, up.y, up.z);
         for (int i = 0; i < 2; ++i, camera.perspective = !camera.perspective) {
-            EXPECT_LT(apart(pixel_of(camera, target, size), size / 2.), 1e-9);
-            EXPECT_LT(apart(pixel_of(camera, above, size), {640, 360 - 720. / 140}), 1e-9);
+            EXPECT_LT(apart(pixel_of(camera, target, screen), screen / 2.), 1e-9);
+            EXPECT_LT(apart(pixel_of(camera, above, screen), {640, 360 - 720. / 140}), 1e-9);
         }
     }
 }
@@ -99,7 +99,7 @@ TEST(Camera, PerspectiveSpansThirtyDegreesFromBottomToTop)
 {
     Camera camera;
     camera.perspective = true;
-    const Ray top = ray_through(camera, box, {640, 0}, size), bottom = ray_through(camera, box, {640, 720}, size);
+    const Ray top = ray_through(camera, box, {640, 0}, screen), bottom = ray_through(camera, box, {640, 720}, screen);
     EXPECT_NEAR(std::acos(top.direction.dot(bottom.direction)) * 180 / M_PI, 30, 1e-10);
 }
 
@@ -107,9 +107,9 @@ TEST(Camera, APlaceBehindTheEyeHasNoPixel)
 {
     Camera camera;
     camera.perspective = true; // the eye is 187 mm above the target
-    EXPECT_TRUE(std::isnan(pixel_of(camera, {1, 2, 190}, size).x));
+    EXPECT_TRUE(std::isnan(pixel_of(camera, {1, 2, 190}, screen).x));
     camera.perspective = false;
-    EXPECT_NEAR(pixel_of(camera, {0, 0, 190}, size).x, 640, 1e-9);
+    EXPECT_NEAR(pixel_of(camera, {0, 0, 190}, screen).x, 640, 1e-9);
 }
 
 TEST(Camera, FitShowsAllCornersAndLeavesLittleRoom)
@@ -166,7 +166,7 @@ TEST(Camera, FitOfAPointALineOrNothingStaysFinite)
         EXPECT_EQ(fit(camera, {}, 1.5), camera);
         const Camera at_point = fit(camera, Eigen::AlignedBox3d(point, point), 1.5);
         EXPECT_GT(at_point.height, 0);
-        EXPECT_LT(apart(pixel_of(at_point, point, size), size / 2.), 1e-6);
+        EXPECT_LT(apart(pixel_of(at_point, point, screen), screen / 2.), 1e-6);
         for (int axis = 0; axis < 3; ++axis) {
             const Camera at_line =
                 fit(camera, Eigen::AlignedBox3d(point, point + 50 * Eigen::Vector3d::Unit(axis)), 1.5);
@@ -180,11 +180,12 @@ TEST(Camera, ZoomKeepsThePlaceUnderThePixelThereAndScalesTheRest)
     const glm::dvec2 pixel(300, 500);
     for (const Camera& camera : cameras())
         for (const double factor : {0.5, 1.1, 20.}) {
-            const Camera nearer = zoom(camera, factor, pixel, size);
-            const Ray ray = ray_through(camera, box, pixel, size);
+            const Camera nearer = zoom(camera, factor, pixel, screen);
+            const Ray ray = ray_through(camera, box, pixel, screen);
             EXPECT_NEAR(nearer.height, camera.height / factor, 1e-12);
             for (const double along : {20., 60.}) { // wherever on the ray the part is
-                if (const glm::dvec3 p = pixel_of(nearer, ray.origin + along * ray.direction, size); !std::isnan(p.x)) {
+                if (const glm::dvec3 p = pixel_of(nearer, ray.origin + along * ray.direction, screen);
+                    !std::isnan(p.x)) {
                     EXPECT_LT(apart(p, pixel), 1e-7);
                 }
             }
@@ -195,10 +196,10 @@ TEST(Camera, ZoomingWithoutEndStaysFinite)
 {
     Camera camera;
     for (int i = 0; i < 2000; ++i)
-        camera = zoom(camera, 2, {0, 0}, size);
+        camera = zoom(camera, 2, {0, 0}, screen);
     EXPECT_GT(camera.height, 0);
     for (int i = 0; i < 4000; ++i)
-        camera = zoom(camera, 0.5, {0, 0}, size);
+        camera = zoom(camera, 0.5, {0, 0}, screen);
     EXPECT_TRUE(std::isfinite(camera.height) && std::isfinite(glm::length(camera.target)));
 }
 
@@ -206,11 +207,11 @@ TEST(Camera, PanTakesThePlaceUnderTheMouseAlong)
 {
     const glm::dvec2 pixel(300, 500), drag(-120, 45);
     for (const Camera& camera : cameras()) {
-        const Ray ray = ray_through(camera, box, pixel, size);
+        const Ray ray = ray_through(camera, box, pixel, screen);
         const Eigen::Vector3d target(camera.target.x, camera.target.y, camera.target.z);
         const Eigen::Vector3d z = towards_viewer(camera);
         const Eigen::Vector3d place = ray.origin + (target - ray.origin).dot(z) / ray.direction.dot(z) * ray.direction;
-        EXPECT_LT(apart(pixel_of(pan(camera, drag, size), place, size), pixel + drag), 1e-8);
+        EXPECT_LT(apart(pixel_of(pan(camera, drag, screen), place, screen), pixel + drag), 1e-8);
     }
 }
 
@@ -219,13 +220,13 @@ TEST(Camera, OrbitTurnsWhatIsInFrontWithTheMouseAboutTheTarget)
     for (const Camera& camera : cameras()) {
         const Eigen::Vector3d target(camera.target.x, camera.target.y, camera.target.z);
         const Eigen::Vector3d front = target + 10 * towards_viewer(camera);
-        const glm::dvec2 before = pixel_of(camera, front, size);
-        EXPECT_GT(pixel_of(orbit(camera, {30, 0}, size), front, size).x, before.x + 1);
-        EXPECT_NEAR(pixel_of(orbit(camera, {30, 0}, size), front, size).y, before.y, 1e-9);
-        EXPECT_GT(pixel_of(orbit(camera, {0, 30}, size), front, size).y, before.y + 1);
-        EXPECT_NEAR(pixel_of(orbit(camera, {0, 30}, size), front, size).x, before.x, 1e-9);
+        const glm::dvec2 before = pixel_of(camera, front, screen);
+        EXPECT_GT(pixel_of(orbit(camera, {30, 0}, screen), front, screen).x, before.x + 1);
+        EXPECT_NEAR(pixel_of(orbit(camera, {30, 0}, screen), front, screen).y, before.y, 1e-9);
+        EXPECT_GT(pixel_of(orbit(camera, {0, 30}, screen), front, screen).y, before.y + 1);
+        EXPECT_NEAR(pixel_of(orbit(camera, {0, 30}, screen), front, screen).x, before.x, 1e-9);
         // across the shorter side, half a turn: what was in front is behind
-        EXPECT_NEAR(pixel_of(orbit(camera, {0, 720}, size), front, size).z, -10, 1e-9);
+        EXPECT_NEAR(pixel_of(orbit(camera, {0, 720}, screen), front, screen).z, -10, 1e-9);
     }
 }
 
@@ -233,7 +234,7 @@ TEST(Camera, AFlatCameraNeverLeavesItsPlane)
 {
     Camera camera;
     camera.flat = true;
-    EXPECT_EQ(orbit(camera, {40, 25}, size), pan(camera, {40, 25}, size));
+    EXPECT_EQ(orbit(camera, {40, 25}, screen), pan(camera, {40, 25}, screen));
     for (const StandardView view : {StandardView::front, StandardView::isometric, StandardView::bottom})
         EXPECT_EQ(towards_viewer(look(camera, view)), Eigen::Vector3d(0, 0, 1));
 }
@@ -244,9 +245,9 @@ TEST(Camera, StandardViewsStandWhereTheirNamesSayWithUpwardsUp)
     const auto check = [&](StandardView view, const Eigen::Vector3d& viewer, const Eigen::Vector3d& up) {
         const Camera camera = look(Camera{}, view);
         EXPECT_LT((towards_viewer(camera) - viewer).norm(), 1e-15);
-        const glm::dvec3 place = pixel_of(camera, up, size);
-        EXPECT_NEAR(place.x, size.x / 2, 1e-9);
-        EXPECT_LT(place.y, size.y / 2);
+        const glm::dvec3 place = pixel_of(camera, up, screen);
+        EXPECT_NEAR(place.x, screen.x / 2, 1e-9);
+        EXPECT_LT(place.y, screen.y / 2);
     };
     check(StandardView::top, z, y);
     check(StandardView::bottom, -z, -y);

@@ -9,8 +9,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr auto done = StepStatus::done, stale = StepStatus::stale, missing = StepStatus::missing,
-               failed = StepStatus::failed;
+using StepStatus::done;
+using StepStatus::failed;
+using StepStatus::missing;
+using StepStatus::stale;
 
 } // namespace
 

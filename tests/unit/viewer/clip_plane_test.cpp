@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-const glm::dvec2 size(800, 600), middle(400, 300);
+const glm::dvec2 view_size(800, 600), middle(400, 300);
 
 /// Two plates, square to z, at heights 0 (faces 0, 1) and 10 (faces 2, 3); x and y from -20 to 20.
 TriMesh two_plates()
@@ -34,7 +34,7 @@ TriMesh two_plates()
     return mesh;
 }
 
-Camera from_above(bool perspective = false)
+Camera camera_above(bool perspective = false)
 {
     Camera camera;
     camera.height = 60;
@@ -89,9 +89,9 @@ TEST(ClipPlane, AClickGoesThroughWhatIsCutAwayAndOnlyThere)
     const TriMesh mesh = two_plates();
     const RayPicker picker(mesh);
     for (const bool perspective : {false, true}) {
-        const Camera camera = from_above(perspective);
+        const Camera camera = camera_above(perspective);
         const auto face = [&](glm::dvec2 pixel, const std::optional<HalfSpace>& kept) {
-            return hit_at(camera, picker, pixel, size, kept).face;
+            return hit_at(camera, picker, pixel, view_size, kept).face;
         };
         EXPECT_GE(face(middle, {}), 2) << "the upper plate is in front";
         const int below = face(middle, cut(ClipAxis::z, 5));
@@ -112,9 +112,9 @@ TEST(ClipPlane, TheDistanceOfAHitIsFromTheEyeAsEver)
 {
     const TriMesh mesh = two_plates();
     const RayPicker picker(mesh);
-    const Camera camera = from_above();
-    const RayHit lower = hit_at(camera, picker, middle, size, cut(ClipAxis::z, 5));
-    const Ray ray = ray_through(camera, picker.box(), middle, size);
+    const Camera camera = camera_above();
+    const RayHit lower = hit_at(camera, picker, middle, view_size, cut(ClipAxis::z, 5));
+    const Ray ray = ray_through(camera, picker.box(), middle, view_size);
     EXPECT_NEAR((ray.origin + lower.distance * ray.direction).z(), 0, 1e-9);
 }
 
@@ -122,24 +122,24 @@ TEST(ClipPlane, BoxesBrushesAndVerticesTakeWhatIsLeftInSight)
 {
     const TriMesh mesh = two_plates();
     const RayPicker picker(mesh);
-    const Camera camera = from_above();
+    const Camera camera = camera_above();
     const std::vector<glm::dvec2> all = {{0, 0}, {800, 0}, {800, 600}, {0, 600}};
     const auto in_box = [&](const std::optional<HalfSpace>& kept, bool through) {
-        return faces_in({View::part, all, size, PickMode::replace, through}, camera, mesh, picker, kept);
+        return faces_in({View::part, all, view_size, PickMode::replace, through}, camera, mesh, picker, kept);
     };
     EXPECT_EQ(in_box({}, false), (FaceSet{2, 3}));
     EXPECT_EQ(in_box(cut(ClipAxis::z, 5), false), (FaceSet{0, 1}));
     EXPECT_EQ(in_box(cut(ClipAxis::z, 5), true), (FaceSet{0, 1}));
     EXPECT_EQ(in_box({}, true), (FaceSet{0, 1, 2, 3}));
-    const PickBrush brush{View::part, middle, 300, size, PickMode::replace, false};
+    const PickBrush brush{View::part, middle, 300, view_size, PickMode::replace, false};
     EXPECT_EQ(faces_under(brush, camera, mesh, picker, cut(ClipAxis::z, 5)), (FaceSet{0, 1}));
 
-    const glm::dvec2 corner(pixel_of(camera, mesh.position.col(2), size));
-    const PickVertex pick{View::part, corner, size};
+    const glm::dvec2 corner(pixel_of(camera, mesh.position.col(2), view_size));
+    const PickVertex pick{View::part, corner, view_size};
     EXPECT_EQ(vertex_at(pick, camera, mesh, picker), 6);
     EXPECT_EQ(vertex_at(pick, camera, mesh, picker, cut(ClipAxis::z, 5)), 2);
     EXPECT_EQ(vertex_at(pick, camera, mesh, picker, cut(ClipAxis::x, 0)), std::nullopt);
-    const auto probe = probe_at(camera, mesh, picker, corner + glm::dvec2(-4, 4), size, 8, cut(ClipAxis::z, 5));
+    const auto probe = probe_at(camera, mesh, picker, corner + glm::dvec2(-4, 4), view_size, 8, cut(ClipAxis::z, 5));
     ASSERT_TRUE(probe.has_value());
     EXPECT_LT(probe->face, 2);
     EXPECT_NEAR(probe->barycentric.maxCoeff(), 1, 1e-12) << "it takes the corner beside the click";
@@ -153,7 +153,7 @@ TEST_F(ClipModel, ClipsTheViewsInSpaceAndPicksWhatIsLeft)
     model.resized(View::part, {800, 600});
     model.apply(LookFrom{View::part, StandardView::top});
     model.apply(FitView{});
-    const PickArea everything{View::part, {{0, 0}, {800, 0}, {800, 600}, {0, 600}}, size, PickMode::replace, true};
+    const PickArea everything{View::part, {{0, 0}, {800, 0}, {800, 600}, {0, 600}}, view_size, PickMode::replace, true};
     model.apply(everything);
     const size_t all = document.selected.size();
     const TriMesh& mesh = document.session.part->mesh;

@@ -12,7 +12,7 @@
 namespace spia::viewer {
 namespace {
 
-const glm::dvec2 view(800, 600);
+const glm::dvec2 pane(800, 600);
 
 Eigen::VectorXd values_at(const TriMesh& mesh, const std::function<double(const Eigen::Vector3d&)>& of)
 {
@@ -91,7 +91,7 @@ TEST(Isolines, EndWhereAValueIsNoNumber)
         EXPECT_NEAR(length(line), 4, 1e-12);
 }
 
-/// Parallel lines y = 1, 2, ... on a rectangle that fills the view: 800 x 600 pixels, 100 pixels apart.
+/// Parallel lines y = 1, 2, ... on a rectangle that fills the pane: 800 x 600 pixels, 100 pixels apart.
 struct Ruled {
     TriMesh mesh = shapes::rectangle(8, 6, 16, 12);
     std::vector<Isoline> lines = isolines(
@@ -102,7 +102,7 @@ struct Ruled {
         const Hidden& hidden = [](const glm::dvec3&) { return false; }, const std::vector<PixelBox>& taken = {}) const
     {
         const auto text = [](double value) { return std::pair(std::to_string(int(value)), glm::dvec2(30, 14)); };
-        return isoline_labels(lines, camera, view, text, hidden, taken);
+        return isoline_labels(lines, camera, pane, text, hidden, taken);
     }
 };
 
@@ -116,7 +116,7 @@ TEST(IsolineLabels, StandOnTheirLinesAFewOnEachAndApart)
         const int value = std::stoi(labels[i].text);
         ++of_level[size_t(value)];
         EXPECT_NEAR(middle.y, 600 - 100 * value, 1e-6);
-        EXPECT_TRUE(inside(labels[i].box, view));
+        EXPECT_TRUE(inside(labels[i].box, pane));
         for (size_t j = 0; j < i; ++j)
             EXPECT_FALSE(meet(grown(labels[i].box, 7), labels[j].box));
     }

@@ -9,7 +9,7 @@
 namespace spia::viewer {
 namespace {
 
-const glm::dvec2 view(800, 600);
+const glm::dvec2 room(800, 600);
 
 std::vector<LabelWish> crowd(int count)
 {
@@ -25,10 +25,10 @@ TEST(LabelLayout, NoLabelCoversAnotherOrADotOrTheLegendOrLeavesTheView)
 {
     const PixelBox legend{{150, 250}, {300, 500}};
     const auto wishes = crowd(40);
-    const auto placed = place_labels(wishes, view, {legend});
+    const auto placed = place_labels(wishes, room, {legend});
     EXPECT_GT(placed.size(), 30u);
     for (size_t i = 0; i < placed.size(); ++i) {
-        EXPECT_TRUE(inside(placed[i].box, view));
+        EXPECT_TRUE(inside(placed[i].box, room));
         EXPECT_FALSE(meet(placed[i].box, legend));
         EXPECT_LT(glm::length(placed[i].box.greatest - placed[i].box.least - wishes[placed[i].wish].size), 1e-9);
         for (size_t j = 0; j < i; ++j)
@@ -42,7 +42,7 @@ TEST(LabelLayout, NoLabelCoversAnotherOrADotOrTheLegendOrLeavesTheView)
 
 TEST(LabelLayout, TheSameWishesGetTheSamePlaces)
 {
-    const auto once = place_labels(crowd(40), view, {}), again = place_labels(crowd(40), view, {});
+    const auto once = place_labels(crowd(40), room, {}), again = place_labels(crowd(40), room, {});
     ASSERT_EQ(once.size(), again.size());
     for (size_t i = 0; i < once.size(); ++i) {
         EXPECT_EQ(once[i].wish, again[i].wish);
@@ -56,9 +56,9 @@ TEST(LabelLayout, AWatchedPlaceChoosesBeforeACornerAndACornerBeforeARegion)
     const LabelWish region{{445, 292}, size, LabelKind::region}, corner{{400, 288}, size, LabelKind::corner},
         watched{{400, 300}, size, LabelKind::watched}; // any two want the same place
     for (const auto& [later, first] : {std::pair(region, corner), {region, watched}, {corner, watched}}) {
-        const PixelBox wanted = place_labels({first}, view, {}).at(0).box;
-        EXPECT_TRUE(meet(wanted, place_labels({later}, view, {}).at(0).box));
-        const auto placed = place_labels({later, first}, view, {});
+        const PixelBox wanted = place_labels({first}, room, {}).at(0).box;
+        EXPECT_TRUE(meet(wanted, place_labels({later}, room, {}).at(0).box));
+        const auto placed = place_labels({later, first}, room, {});
         ASSERT_EQ(placed.size(), 2u);
         EXPECT_EQ(placed[1].wish, 1u);
         EXPECT_EQ(placed[1].box.least, wanted.least);
@@ -68,9 +68,9 @@ TEST(LabelLayout, AWatchedPlaceChoosesBeforeACornerAndACornerBeforeARegion)
 TEST(LabelLayout, OnlyALabelThatHadToGoFarIsPushed)
 {
     const std::vector<LabelWish> wish{{{400, 300}, {60, 16}, LabelKind::watched}};
-    EXPECT_FALSE(place_labels(wish, view, {}).at(0).pushed);
+    EXPECT_FALSE(place_labels(wish, room, {}).at(0).pushed);
     const PixelBox wall{{320, 270}, {480, 330}};
-    const auto pushed = place_labels(wish, view, {wall});
+    const auto pushed = place_labels(wish, room, {wall});
     ASSERT_EQ(pushed.size(), 1u);
     EXPECT_TRUE(pushed[0].pushed);
     const glm::dvec2 near = glm::clamp(wish[0].place, pushed[0].box.least, pushed[0].box.greatest);
@@ -83,12 +83,12 @@ TEST(LabelLayout, WhatIsOutsideOfTheViewHasNoLabel)
     std::vector<LabelWish> wishes;
     for (const glm::dvec2 place : {glm::dvec2(-1, 300), {801, 300}, {400, -1}, {400, 601}, {nan, nan}})
         wishes.push_back({place, {40, 16}, LabelKind::watched});
-    EXPECT_TRUE(place_labels(wishes, view, {}).empty());
+    EXPECT_TRUE(place_labels(wishes, room, {}).empty());
     wishes.push_back({{799, 1}, {40, 16}, LabelKind::watched}); // in the corner, but it fits in
-    const auto placed = place_labels(wishes, view, {});
+    const auto placed = place_labels(wishes, room, {});
     ASSERT_EQ(placed.size(), 1u);
     EXPECT_EQ(placed[0].wish, 5u);
-    EXPECT_TRUE(inside(placed[0].box, view));
+    EXPECT_TRUE(inside(placed[0].box, room));
 }
 
 } // namespace

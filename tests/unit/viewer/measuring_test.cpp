@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A flange on a web: 40 mm flat, a bend of 90 degrees with a radius of 6 mm, 40 mm flat; 60 mm deep along y.
 struct Bend {

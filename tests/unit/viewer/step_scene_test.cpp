@@ -12,8 +12,8 @@
 namespace spia::viewer {
 namespace {
 
+using StepStatus::done;
 using testing::HasSubstr;
-constexpr auto done = StepStatus::done;
 
 } // namespace
 

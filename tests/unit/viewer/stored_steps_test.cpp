@@ -6,8 +6,8 @@
 namespace spia::viewer {
 namespace {
 
+using StepStatus::done;
 using testing::HasSubstr;
-constexpr auto done = StepStatus::done;
 
 /// The faces with their middle below, or else above, a place along y.
 FaceSet below(const TriMesh& mesh, double y, bool wanted = true)

@@ -7,8 +7,8 @@
 namespace spia::viewer {
 namespace {
 
+using StepStatus::done;
 using testing::HasSubstr;
-constexpr auto done = StepStatus::done;
 
 } // namespace
 
@@ -70,7 +70,7 @@ TEST_F(UnfoldingSteps, SayThatToolsAreLeftOut)
     run();
     EXPECT_EQ(last(Severity::hint), "");
     open_channel();
-    model.apply(SetProcess{.edge_restraint = 0.1});
+    model.apply(SetProcess{.edge_restraint = 0.1, .rolling = {}});
     propose();
     run();
     EXPECT_THAT(last(Severity::hint), HasSubstr("the steps leave them out"));

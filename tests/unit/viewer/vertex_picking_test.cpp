@@ -13,7 +13,7 @@
 namespace spia::viewer {
 namespace {
 
-const glm::dvec2 size(800, 600);
+const glm::dvec2 window(800, 600);
 
 /// Hides parts of itself from most sides.
 const TriMesh& channel()
@@ -52,7 +52,7 @@ std::optional<int> nearest(const TriMesh& mesh, const std::vector<int>& vertices
 {
     std::optional<int> best;
     for (const int v : vertices) {
-        const double away = glm::length(glm::dvec2(pixel_of(camera, mesh.position.col(v), size)) - pixel);
+        const double away = glm::length(glm::dvec2(pixel_of(camera, mesh.position.col(v), window)) - pixel);
         if (away < reach && !covered(mesh, v, backwards(camera))) {
             reach = away;
             best = v;
@@ -79,17 +79,18 @@ TEST(VertexPicking, TakesTheVertexInSightThatIsNearestToThePixel)
     std::uniform_real_distribution<double> x(100, 700), y(50, 550);
     int found = 0, nothing = 0, behind = 0;
     for (const glm::dvec2 drag : {glm::dvec2(0, 0), glm::dvec2(130, -40), glm::dvec2(-20, 260)}) {
-        const Camera camera = fit(orbit(look({}, StandardView::isometric), drag, size), picker.box(), size.x / size.y);
+        const Camera camera =
+            fit(orbit(look({}, StandardView::isometric), drag, window), picker.box(), window.x / window.y);
         for (int i = 0; i < 60; ++i) {
-            const PickVertex pick{.pixel = {x(random), y(random)}, .size = size, .reach = 15};
+            const PickVertex pick{.pixel = {x(random), y(random)}, .size = window, .reach = 15};
             const auto expected = nearest(mesh, all_of(mesh), camera, pick.pixel, pick.reach);
             EXPECT_EQ(vertex_at(pick, camera, mesh, picker), expected);
             ++(expected ? found : nothing);
         }
         for (int v = 0; v < mesh.vertices(); v += 5) // on a hidden one there is another one, or none
             if (covered(mesh, v, backwards(camera))) {
-                const glm::dvec2 pixel(pixel_of(camera, mesh.position.col(v), size));
-                EXPECT_NE(vertex_at({.pixel = pixel, .size = size}, camera, mesh, picker), v);
+                const glm::dvec2 pixel(pixel_of(camera, mesh.position.col(v), window));
+                EXPECT_NE(vertex_at({.pixel = pixel, .size = window}, camera, mesh, picker), v);
                 ++behind;
             }
     }
@@ -104,13 +105,13 @@ TEST(VertexPicking, OfVerticesOnOneLineOfSightTheOneInFrontIsTaken)
     const TriMesh wall{(Eigen::Matrix3Xd(3, 4) << 0, 10, 0, 10, 0, 0, 0, 0, -5, -5, 5, 5).finished(),
                        (Eigen::Matrix3Xi(3, 2) << 0, 1, 1, 3, 2, 2).finished()};
     const RayPicker picker(wall);
-    const Camera camera = fit(look({}, StandardView::top), picker.box(), size.x / size.y);
-    const glm::dvec2 pixel(pixel_of(camera, {10, 0, 0}, size));
-    EXPECT_EQ(vertex_at({.pixel = pixel, .size = size}, camera, wall, picker), 3);
-    EXPECT_EQ(boundary_vertex_at({.pixel = pixel, .size = size}, camera, wall, boundary_vertices(wall), picker), 3);
-    const Camera below = fit(look({}, StandardView::bottom), picker.box(), size.x / size.y);
-    const glm::dvec2 there(pixel_of(below, {10, 0, 0}, size));
-    EXPECT_EQ(vertex_at({.pixel = there, .size = size}, below, wall, picker), 1);
+    const Camera camera = fit(look({}, StandardView::top), picker.box(), window.x / window.y);
+    const glm::dvec2 pixel(pixel_of(camera, {10, 0, 0}, window));
+    EXPECT_EQ(vertex_at({.pixel = pixel, .size = window}, camera, wall, picker), 3);
+    EXPECT_EQ(boundary_vertex_at({.pixel = pixel, .size = window}, camera, wall, boundary_vertices(wall), picker), 3);
+    const Camera below = fit(look({}, StandardView::bottom), picker.box(), window.x / window.y);
+    const glm::dvec2 there(pixel_of(below, {10, 0, 0}, window));
+    EXPECT_EQ(vertex_at({.pixel = there, .size = window}, below, wall, picker), 1);
 }
 
 TEST(VertexPicking, TheBoundaryIsFoundFromBesideTheSheetAndItsSharpTurnsFirst)
@@ -128,7 +129,7 @@ TEST(VertexPicking, TheBoundaryIsFoundFromBesideTheSheetAndItsSharpTurnsFirst)
 
     const Camera camera{.target = {60, 40, 0}, .height = 120}; // 5 pixels per mm
     const auto at = [&](double x, double y, bool only_boundary) -> std::optional<Eigen::Vector3d> {
-        const PickVertex pick{.pixel = pixel_of(camera, {x, y, 0}, size), .size = size, .boundary = only_boundary};
+        const PickVertex pick{.pixel = pixel_of(camera, {x, y, 0}, window), .size = window, .boundary = only_boundary};
         const auto v = only_boundary ? boundary_vertex_at(pick, camera, plate, boundary, picker)
                                      : vertex_at(pick, camera, plate, picker);
         return v ? std::optional<Eigen::Vector3d>(plate.position.col(*v)) : std::nullopt;
@@ -158,10 +159,10 @@ TEST(VertexPicking, TheBoundaryBehindTheSheetIsNotTaken)
     const TriMesh& mesh = channel();
     const RayPicker picker(mesh);
     const BoundaryVertices boundary = boundary_vertices(mesh);
-    const Camera camera = fit(look({}, StandardView::isometric), picker.box(), size.x / size.y);
+    const Camera camera = fit(look({}, StandardView::isometric), picker.box(), window.x / window.y);
     int hidden = 0;
     for (const int v : boundary.vertex) {
-        const PickVertex pick{.pixel = pixel_of(camera, mesh.position.col(v), size), .size = size, .reach = 0.5};
+        const PickVertex pick{.pixel = pixel_of(camera, mesh.position.col(v), window), .size = window, .reach = 0.5};
         const bool behind = covered(mesh, v, backwards(camera));
         EXPECT_EQ(boundary_vertex_at(pick, camera, mesh, boundary, picker) == v, !behind);
         hidden += behind;
@@ -210,19 +211,19 @@ TEST(VertexPicking, AMillionTrianglesAreSearchedWhileTheMouseMoves)
 {
     const TriMesh sheet = shapes::rectangle(1000, 500, 1000, 500);
     const RayPicker picker(sheet);
-    const Camera camera = fit(look({}, StandardView::isometric), picker.box(), size.x / size.y);
+    const Camera camera = fit(look({}, StandardView::isometric), picker.box(), window.x / window.y);
     std::mt19937 random(4);
     std::uniform_real_distribution<double> x(200, 600), y(200, 400);
     const auto start = std::chrono::steady_clock::now();
     constexpr int moves = 200;
     for (int i = 0; i < moves; ++i)
-        vertex_at({.pixel = {x(random), y(random)}, .size = size}, camera, sheet, picker);
+        vertex_at({.pixel = {x(random), y(random)}, .size = window}, camera, sheet, picker);
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     // The yardstick, on the same machine under the same load: where all vertices are in the view, once.
     const auto again = std::chrono::steady_clock::now();
     glm::dvec3 sum(0);
     for (int v = 0; v < sheet.vertices(); ++v)
-        sum += pixel_of(camera, sheet.position.col(v), size);
+        sum += pixel_of(camera, sheet.position.col(v), window);
     const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - again;
     EXPECT_TRUE(std::isfinite(sum.x));
     EXPECT_LT(taken.count() / moves, all.count() / 5);

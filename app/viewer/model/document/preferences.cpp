@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace spia::viewer {
 namespace {
 
-constexpr const char* schema = "spia-preferences/1";
+constexpr const char* preferences_schema = "spia-preferences/1";
 
 fs::path preferences_file() { return config_folder() / "preferences.json"; }
 
@@ -45,8 +45,8 @@ KeptPreferences read_preferences()
             return kept;
         const std::string name = file.filename().string(); // where it lies is no news
         const Json json = read_json(file);
-        if (!json.is_object() || json.value("schema", Json()) != schema)
-            throw InputError(fmt::format("{} does not begin with {{\"schema\": \"{}\"", name, schema));
+        if (!json.is_object() || json.value("schema", Json()) != preferences_schema)
+            throw InputError(fmt::format("{} does not begin with {{\"schema\": \"{}\"", name, preferences_schema));
         for (const auto& [key, value] : json.items()) {
             if (key == "schema")
                 continue;
@@ -72,7 +72,7 @@ void keep_preferences(const Preferences& preferences)
         throw ExchangeError(fmt::format("cannot make the folder {}: {}; check who may write there",
                                         config_folder().string(), error.message()));
     Json json = written(preferences);
-    json["schema"] = schema;
+    json["schema"] = preferences_schema;
     const fs::path file = preferences_file();
     write_atomically(file, lines_of(json, file.string()));
 }

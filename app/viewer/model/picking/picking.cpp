@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "app/viewer/model/picking/sight.h"
+#include "engine/core/infinity.h"
 #include "engine/core/parallel.h"
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/outline.h"
@@ -16,8 +16,6 @@ namespace {
 
 constexpr double edge_on = 1e-4; ///< radians between a face and the line of sight: no pixel shows it
 constexpr double sharp_turn = 20 * std::numbers::pi / 180;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A closed polygon of pixels, with its edges sorted into horizontal bands: a lasso has hundreds of them.
 class PixelPolygon {
