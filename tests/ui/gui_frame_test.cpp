@@ -96,6 +96,18 @@ TEST_F(TypedNumber, CountsWhateverEndsTyping)
         }
 }
 
+TEST_F(TypedNumber, HasAnExponent)
+{
+    for (const double buttons : {0., 0.5}) {
+        step = buttons;
+        value = 1;
+        type("2e-7");
+        EXPECT_TRUE(draw({GLFW_KEY_ENTER}));
+        EXPECT_EQ(value, 2e-7) << "with step " << step;
+        EXPECT_FALSE(draw());
+    }
+}
+
 TEST_F(TypedNumber, IsTakenBackByEscape)
 {
     type("25");
