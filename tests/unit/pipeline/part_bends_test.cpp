@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_file.h"
+#include "engine/exchange/read_part.h"
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
@@ -17,6 +18,7 @@
 #include "engine/pipeline/shortcomings.h"
 #include "engine/report/json/report_json.h"
 #include "tests/support/cad/bent_solid.h"
+#include "tests/support/cad/prism.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/mesh_tools.h"
 #include "tests/support/plane_faces.h"
@@ -137,6 +139,19 @@ TEST_F(PartBends, ASkinThatIsAskedForIsLaidWithItsOwnRadius)
         if (skin != Skin::middle) {
             EXPECT_THROW(solved(file, constant_k(0.4), read), InputError);
         }
+    }
+}
+
+TEST_F(PartBends, ArcsOfBothSkinsThatAreUnlikeAreDoubted)
+{
+    const fs::path file = folder_ / "l.step";
+    for (const double outer : {4.4, 5., 6.2}) {
+        shapes::write_prism(file, {{0, 0}, {60, 0}, {60, 2}, {2, 2}, {2, 50}, {0, 50}}, 30, {outer, 0, 0, 3});
+        const PartFile part = read_part(file);
+        ASSERT_TRUE(part.solid);
+        const auto arcs = fmt::format("1 bend has arcs of radius {} and 3 mm on both skins of a sheet of 2 mm", outer);
+        const auto says = [&](const std::string& doubt) { return doubt.starts_with(arcs); };
+        EXPECT_EQ(std::ranges::count_if(part.doubts, says), outer == 5 ? 0 : 1) << outer;
     }
 }
 
