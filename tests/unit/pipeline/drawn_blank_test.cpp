@@ -107,6 +107,26 @@ TEST(DrawnBlank, WhatTheTableOfBendsHasIsDrawn)
     EXPECT_NEAR(drawing.bends[0].middle[0](0, 1), 33, 1e-12);
 }
 
+TEST(DrawnBlank, BendsThatTheTableHasNotAreNumberedAfterItsRows)
+{
+    const Bent z =
+        bent(shapes::extruded(
+                 shapes::Profile({0, 0}, 0).straight(50).bend(5, 1.2).straight(40).bend(4, -0.9).straight(30), 40, 3000)
+                 .mesh);
+    ASSERT_TRUE(z.run.blank) << z.run.failure;
+    ASSERT_EQ(z.map.bends.size(), 2u);
+    BendTable table{.thickness = 1, .surface = "", .bends = {{}}, .kept = {}, .notes = {}};
+    table.bends[0].line = {{{33, 0}, {33, 40}}};
+    for (int f = 0; f < z.part.mesh.triangles(); ++f)
+        if (z.map.label[f] == z.map.label_of_bend(1))
+            table.bends[0].faces.push_back(f);
+    const BlankDrawing drawing = drawn_blank(z.part, z.map, *z.run.blank, z.run.states.back().face, true, &table);
+    ASSERT_EQ(drawing.bends.size(), 2u);
+    EXPECT_EQ(drawing.bends[0].name, "bend 2");
+    EXPECT_NEAR(drawing.bends[0].angle, std::abs(z.map.bends[0].angle), 1e-12);
+    EXPECT_EQ(drawing.bends[1].name, "bend 1");
+}
+
 TEST(DrawnBlank, HolesThroughABendMakeNoFurtherBends)
 {
     const ScratchFolder folder;
