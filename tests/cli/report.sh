@@ -18,6 +18,10 @@ awk 'BEGIN { for (j = 0; j <= 4; ++j) for (i = 0; i <= 6; ++i) print "v", 10 * i
              for (j = 0; j < 4; ++j) for (i = 1; i <= 6; ++i) if (j < 1 || i < 3 || i > 4) print "f", 7 * j + i, 7 * j + i + 1, 7 * j + i + 8, 7 * j + i + 7 }' > "$out/u.obj"
 run 1 "^wrote     .*u.html" "$out/u.obj" --strict --report "$out/u.html" --json "$out/u.json"
 check "$out/u.html" "$out/u.json" mm "<b>Caution:</b> .*usual tolerance of 0.1 mm"
+# A stage without a result after the blank.
+echo '{"schema": "spia.deformation/1", "moves": [{"at": [999, 0], "by": [0, 0, 1]}]}' > "$out/far.json"
+run 2 "^wrote     .*far.html" "$parts/dome.obj" --deform "$out/far.json" --report "$out/far.html" --json "$out/result.json"
+check "$out/far.html" "$out/result.json" mm "<b>Caution:</b> The stage fit has no result: "
 # No blank, no report.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > "$out/closed.obj"
 run 2 "^report    not written: there is no blank" "$out/closed.obj" --seam none --report "$out/closed.html"

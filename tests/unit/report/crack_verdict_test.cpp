@@ -20,6 +20,7 @@ Session stretched(double first, double second, std::optional<double> limit)
     session.part = part;
     auto blank = std::make_shared<FlattenResult>();
     blank->report.converged = true;
+    blank->report.system = SolvedSystem::strict;
     SheetFields& face = blank->face;
     face.strain_major.resize(2);
     face.strain_major << std::log(1 + first), std::log(1 + second);
@@ -44,6 +45,7 @@ TEST(CrackVerdict, ASafePartSaysHowMuchOfTheLimitItUses)
     EXPECT_NEAR(verdict.share, 0.62, 1e-12);
     EXPECT_EQ(verdict.face, 0);
     EXPECT_THAT(verdict.text, HasSubstr("No cracks expected: the greatest strain is 62 % of the forming limit."));
+    EXPECT_THAT(verdict.text, testing::EndsWith(" Bending over radii is not counted."));
 }
 
 TEST(CrackVerdict, BelowTheLimitByLessThanTheMarginIsAtTheLimit)
@@ -83,6 +85,21 @@ TEST(CrackVerdict, WithoutACurveItSaysThatItCannotTell)
     EXPECT_THAT(verdict.text, HasSubstr("cannot be told"));
     EXPECT_THAT(verdict.text, HasSubstr("5.0 %"));
     EXPECT_EQ(crack_verdict(Session{}).kind, CrackVerdict::Kind::none);
+}
+
+TEST(CrackVerdict, SaysWhatItDoesNotKnow)
+{
+    Session session = stretched(0.1, 0.1, 0.40);
+    EXPECT_THAT(crack_verdict(session).text, testing::Not(HasSubstr("guess")));
+    auto limits = std::make_shared<LimitsResult>(*session.limits);
+    limits->zones.distance[1] = std::nan("");
+    session.limits = limits;
+    auto blank = std::make_shared<FlattenResult>(*session.blank);
+    blank->report.system = SolvedSystem::relaxed;
+    session.blank = blank;
+    EXPECT_THAT(crack_verdict(session).text,
+                HasSubstr("It cannot be told for 1 face, whose sheet has no forming limit curve."));
+    EXPECT_THAT(crack_verdict(session).text, HasSubstr("The result has not converged, so this is a guess."));
 }
 
 } // namespace

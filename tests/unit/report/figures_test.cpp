@@ -56,6 +56,24 @@ TEST(Figures, AreTheLeastAndGreatestOfAllVerticesFacesAndCells)
     EXPECT_NEAR(border, around, 1e-9);
 }
 
+TEST(Figures, OfAGridTellWhereItsWorstCellIs)
+{
+    GridStage grid;
+    QuadGrid& planar = grid.result.planar;
+    planar.columns = 4;
+    planar.rows = 2;
+    planar.position.setZero(3, planar.nodes());
+    for (int j = 0; j <= planar.rows; ++j)
+        for (int i = 0; i <= planar.columns; ++i)
+            planar.position.col(planar.node(i, j)).head<2>() << i, j;
+    planar.position.col(planar.node(4, 2)).head<2>() << 3.6, 1.6;
+    const GridFigures figures = grid_figures(grid, {});
+    EXPECT_NEAR(figures.scaled_jacobian, 5. / 13, 1e-12);
+    EXPECT_EQ(figures.worst_cell, 7);
+    EXPECT_EQ(figures.column, 3);
+    EXPECT_EQ(figures.row, 1);
+}
+
 TEST(Figures, OfARectangleWithAHoleAreThoseOfTheClosedForm)
 {
     // 400 x 200 mm in cells of 10 mm, without 8 x 4 of them, laid 3 % longer along x.
@@ -91,6 +109,7 @@ TEST(Figures, NoiseIsNothingOnlyForPeople)
     const SheetFigures sheet = sheet_figures(face), shown = without_noise(sheet);
     EXPECT_EQ(sheet.thinning, (std::array{-3e-6, 0.2})) << "what JSON says";
     EXPECT_EQ(sheet.strain_equivalent, 3e-6);
+    EXPECT_EQ(sheet.thickness, (std::array{face.thickness[2], face.thickness[0]}));
     EXPECT_EQ(shown.thinning, (std::array{0., 0.2}));
     EXPECT_EQ(shown.strain_equivalent, 0);
     EXPECT_EQ(shown.thickness, sheet.thickness);
@@ -127,6 +146,8 @@ TEST(Figures, AreTheSameInJson)
     EXPECT_EQ(json["result"]["thinning_max"].get<double>(), figures.sheet.thinning[1]);
     EXPECT_EQ(json["distortion"]["area_rms"].get<double>(), figures.distortion.area_rms);
     EXPECT_EQ(json["surface"]["deviation_rms_mm"].get<double>(), figures.surface->deviation_rms);
+    const Deviation& deviation = session.surface->deviation;
+    EXPECT_EQ(figures.surface->deviation_rms, std::max(deviation.surface_to_mesh.rms, deviation.mesh_to_surface.rms));
     EXPECT_EQ(json["surface"]["control_points_u"].get<int>() * json["surface"]["control_points_v"].get<int>(),
               figures.surface->control_points);
     EXPECT_EQ(json["certificate"]["patches"][0]["scaled_jacobian_min"].get<double>(),

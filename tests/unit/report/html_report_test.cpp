@@ -5,8 +5,11 @@
 
 #include "engine/core/error.h"
 #include "engine/pipeline/outputs.h"
+#include "engine/report/figures/crack_verdict.h"
 #include "engine/report/figures/statistics.h"
+#include "engine/report/html/html_text.h"
 #include "engine/report/html/svg_chart.h"
+#include "engine/report/text/zone_look.h"
 #include "tests/unit/exchange/scratch_folder.h"
 #include "tests/unit/report/report_samples.h"
 
@@ -45,7 +48,7 @@ std::string unbalanced(const std::string& html)
     std::vector<std::string> open;
     for (size_t at = 0; (at = html.find('<', at)) != std::string::npos;) {
         const size_t end = html.find('>', at);
-        const std::string tag = html.substr(at + 1, end - at - 1);
+        std::string tag = html.substr(at + 1, end - at - 1);
         at = end;
         const std::string name = tag.substr(0, tag.find_first_of(" \n/", 1));
         if (tag[0] == '!' || name == "meta" || name == "img" || tag.back() == '/')
@@ -72,6 +75,13 @@ TEST(HtmlReport, IsOneWholeFileWithTheFiguresOfTheSession)
     EXPECT_NE(html.find("dome.obj"), std::string::npos);
     EXPECT_NE(html.find(session.options.flatten.material.name.substr(0, 10)), std::string::npos);
     EXPECT_NE(html.find(fmt::format("{:.1f} %", 100 * session.blank->face.thinning.maxCoeff())), std::string::npos);
+    EXPECT_NE(html.find(fmt::format("<span>Maximum thinning</span><b>{:.1f} <small>%",
+                                    100 * session.blank->face.thinning.maxCoeff())),
+              std::string::npos);
+    const Eigen::Matrix2Xd& flat = session.blank->blank.position;
+    const Eigen::Vector2d size = flat.rowwise().maxCoeff() - flat.rowwise().minCoeff();
+    EXPECT_NE(html.find(fmt::format("<span>Blank</span><b>{:.1f} \u00d7 {:.1f} <small>mm", size[0], size[1])),
+              std::string::npos);
     EXPECT_NE(html.find(fmt::format("{} \u00d7 {} cells", session.grid->result.planar.columns,
                                     session.grid->result.planar.rows)),
               std::string::npos);
@@ -86,6 +96,8 @@ TEST(HtmlReport, ShowsTheFormingLimitsWithTheStrainDiagram)
 {
     const ScratchFolder folder;
     Session session = session_of(dome, Stage::solve);
+    session.options.limits.margin = 0.12;
+    session = judge_limits(session);
     ASSERT_TRUE(session.limits);
     std::string html = report(folder / "r.html", session);
     EXPECT_EQ(unbalanced(html), "");
@@ -93,9 +105,21 @@ TEST(HtmlReport, ShowsTheFormingLimitsWithTheStrainDiagram)
     ASSERT_NE(at, std::string::npos);
     EXPECT_NE(html.find("Major strain, logarithmic", at), std::string::npos);
     EXPECT_NE(html.find("stroke-dasharray=\"4 3\"", at), std::string::npos); // the margin
-    EXPECT_NE(html.find("<circle", at), std::string::npos);
+    EXPECT_NE(html.find("</tspan> forming limit<", at), std::string::npos);
+    EXPECT_LT(html.find("<circle", at), html.find("</svg>", at)) << "a dot a face";
     EXPECT_NE(html.find("Keeler-Brazier: FLC0", at), std::string::npos);
     EXPECT_NE(html.find(definition(Zone::risk, session.limits->settings), at), std::string::npos);
+    const Zones& zones = session.limits->zones;
+    const ZoneShare& safe = zones.share[size_t(Zone::safe)];
+    EXPECT_NE(
+        html.find(fmt::format("<td>{}</td><td>{}</td></tr>", grouped(safe.faces), fixed(100 * safe.share, 2)), at),
+        std::string::npos);
+    const WorstSpot& worst = zones.spots.at(0);
+    EXPECT_NE(html.find(fmt::format("<td>{}</td><td>{}</td><td>{}</td>", zone_words(worst.zone),
+                                    fixed(100 * zones.distance[worst.face], 1), fixed(worst.strain_major, 3)),
+                        at),
+              std::string::npos);
+    EXPECT_NE(html.find(crack_verdict(session).text), std::string::npos);
     session.options.limits.source = LimitsOptions::Source::none;
     session = judge_limits(session);
     html = report(folder / "r.html", session);
@@ -137,13 +161,17 @@ TEST(HtmlReport, EscapesWhateverComesFromOutside)
 TEST(HtmlReport, HasTheTablesThatWereChosenAndTheUsersOwnWords)
 {
     const ScratchFolder folder;
-    const Session session = session_of(dome, Stage::fit);
+    Session session = session_of(dome, Stage::fit);
+    auto part = std::make_shared<PartFile>(*session.part);
+    part->notes.emplace_back("it is a dome");
+    session.part = part;
     const auto has = [&](const std::string& html, const char* text) { return html.find(text) != std::string::npos; };
     const std::pair<const char*, bool ReportTables::*> tables[] = {
         {"<h2>Key figures", &ReportTables::key_figures},
         {"<h2>Largest thinning", &ReportTables::worst_spots},
         {"<h2>Assumptions", &ReportTables::assumptions},
-        {"<h2>Convergence of the solver", &ReportTables::solver}};
+        {"<h2>Convergence of the solver", &ReportTables::solver},
+        {"<h2>Input part", &ReportTables::repairs}};
     for (const auto& [only, member] : tables) {
         ReportOptions options;
         options.tables = {false, false, false, false, false};
