@@ -68,7 +68,7 @@ bool lies_as_asked(const Session& session)
 void row(Frame& frame, int number, const SheetBend& made)
 {
     const Session& session = frame.state.document.session;
-    const SheetBend bend = with_wanted_k(session, made);
+    const SheetBend bend = with_wanted_k(frame.state.document, made);
     const auto& spot = frame.state.spot;
     const bool here = spot && std::binary_search(bend.faces.begin(), bend.faces.end(), spot->face);
     const Palette& palette = palette_of(frame.state.view.dark);

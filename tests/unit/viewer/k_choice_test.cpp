@@ -8,7 +8,9 @@
 #include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/k_choice.h"
 #include "app/viewer/model/document/project_file.h"
+#include "engine/pipeline/shortcomings.h"
 #include "tests/support/bent_parts.h"
+#include "tests/support/cad/bent_solid.h"
 #include "tests/support/developable.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/profile.h"
@@ -55,7 +57,7 @@ struct KChoice : ModelFixture {
     void choose(const std::string& k, SheetBend& shown)
     {
         model.apply(SetKFactor{k});
-        shown = with_wanted_k(document.session, document.session.bends->bends[0]);
+        shown = with_wanted_k(document, document.session.bends->bends[0]);
         EXPECT_EQ(first_stale(document), Stage::solve) << k;
         wait();
         ASSERT_EQ(last_error(), "");
@@ -97,6 +99,37 @@ TEST_F(KChoice, FiguresFollowAtOnceAndTheBlankHasThem)
         EXPECT_EQ(k_source(document.session.options.k_factor), KSource::table);
         EXPECT_EQ(k_words(document.session.options.k_factor), "k.csv");
     }
+}
+
+TEST_F(KChoice, ABendThatIsNotLaidIsADoubtAndKeepsTheFiguresOfTheBlank)
+{
+    shapes::BentSolid solid;
+    solid.kind = "bracket";
+    solid.leg = {40, 25};
+    solid.bend = {{0.01, pi / 2}}; // with so small a K next to nothing would be left of the bend
+    shapes::write_bent_solid(folder / "part.step", solid);
+    model.apply(OpenPart{folder / "part.step", ""});
+    wait();
+    model.apply(SetMaterial{"mild_steel"});
+    model.apply(SetKFactor{"0.001"});
+    model.apply(RunTo{Stage::solve});
+    wait();
+    ASSERT_NE(document.session.bends, nullptr) << last_error();
+    ASSERT_EQ(document.session.bends->bends.size(), 1u);
+    const SheetBend &made = document.session.bends->bends[0], shown = with_wanted_k(document, made);
+    ASSERT_FALSE(made.laid);
+    EXPECT_EQ(shown.k, 0.5);
+    EXPECT_NEAR(shown.allowance, pi / 2 * (0.01 + solid.thickness / 2), 1e-6);
+    EXPECT_EQ(shown.deduction, made.deduction);
+    // What --strict counts is what the lights show.
+    const auto poorer = shortcomings(as_made(document));
+    EXPECT_EQ(state.doubts->size(), poorer.size());
+    EXPECT_TRUE(std::ranges::any_of(*state.doubts, [](const Doubt& doubt) {
+        return doubt.step == ChainStep::unfold &&
+               doubt.text.find("is not laid with its allowance") != std::string::npos;
+    }));
+    EXPECT_FALSE(readiness(state).fine);
+    EXPECT_TRUE(readiness(state).lists_doubts);
 }
 
 TEST_F(KChoice, IsUndoneAndKeptInProjects)

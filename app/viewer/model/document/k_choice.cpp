@@ -26,9 +26,15 @@ std::string k_words(const std::optional<KFactor>& k)
 
 std::string k_text(const std::optional<KFactor>& k) { return k ? k->name : ""; }
 
-SheetBend with_wanted_k(const Session& session, const SheetBend& bend)
+SheetBend with_wanted_k(const Document& document, const SheetBend& bend)
 {
+    const Session& session = document.session;
     const BendTable& table = *session.bends;
+    // A mesh without a K factor keeps its triangles; with one it has arcs in their place.
+    const bool arcs_next =
+        !session.part->cad && !session.part->solid && !document.made_with.k_factor && session.options.k_factor;
+    if (!bend.laid && !arcs_next)
+        return bend;
     // Of a skin the fibre lies where the skin lies, of a sharp fold where the legs meet.
     if (!table.of_middle || !(table.thickness > 0) || bend.sharp)
         return bend;

@@ -357,9 +357,11 @@ std::vector<Doubt> find_doubts(const Document& document, LengthUnit lengths)
     const auto stale = first_stale(document);
     const auto holds = [&](Stage stage) { return !stale || *stale > stage; };
     std::vector<std::string> known;
-    Session upto;
-    upto.options = made.options;
-    upto.part = made.part;
+    Session upto = made; // all that the engine's list looks at, but for stages that come later
+    upto.blank = nullptr;
+    upto.grid = nullptr;
+    upto.surface = nullptr;
+    upto.deformed = nullptr;
     add_shortcomings(ChainStep::part, upto, document, known, doubts);
     judge_size(document, lengths, doubts);
     judge_sheet(document, lengths, doubts);
