@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 #include <stdexcept>
 
+#include "app/viewer/model/reports/typed_number.h"
 #include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -51,7 +52,7 @@ protected:
         frame([&] {
             if (std::exchange(focus, false))
                 ImGui::SetKeyboardFocusHere();
-            changed = typed_number(now, "number", value, "%.4g", step);
+            changed = typed_number(now, "number", value, format, step);
             ImGui::InputText("other", other, sizeof other);
         });
         return changed;
@@ -74,6 +75,7 @@ protected:
     SceneCache cache;
     Frame now{model, model.state(), actions, ui, cache, {}, {}, {}};
     double value = 1, step = 0;
+    const char* format = "%.4g";
     bool focus = false;
     char other[8] = "";
 };
@@ -114,6 +116,58 @@ TEST_F(TypedNumber, IsTakenBackByEscape)
     EXPECT_FALSE(draw({GLFW_KEY_ESCAPE}));
     EXPECT_FALSE(draw());
     EXPECT_EQ(value, 1);
+}
+
+TEST_F(TypedNumber, MayHaveACommaBeforeItsDecimals)
+{
+    for (const double buttons : {0., 0.5}) {
+        step = buttons;
+        value = 1;
+        type("0,8");
+        EXPECT_TRUE(draw({GLFW_KEY_ENTER}));
+        EXPECT_EQ(value, 0.8);
+    }
+}
+
+TEST_F(TypedNumber, IsRefusedWithWhatWasTypedWhereItIsNone)
+{
+    for (const double buttons : {0., 0.5})
+        for (const std::string text : {"0,8,1", "0.8x", "1,000.5"}) {
+            step = buttons;
+            type(text.c_str());
+            EXPECT_FALSE(draw({GLFW_KEY_ENTER}));
+            EXPECT_FALSE(draw());
+            EXPECT_EQ(value, 1);
+            EXPECT_TRUE(ui.number_refused);
+            EXPECT_EQ(model.state().messages.back().text, "\"" + text + "\" is no number. number stays 1.");
+        }
+}
+
+TEST_F(GuiFrame, ASliderTakesACommaForAPoint)
+{
+    float value = 0;
+    ImVec2 at;
+    const auto draw = [&] {
+        frame([&] {
+            points_for_commas();
+            ImGui::SliderFloat("share", &value, 0, 1, "%.2f");
+            at = ImGui::GetItemRectMin();
+        });
+    };
+    ImGuiIO& io = ImGui::GetIO();
+    draw();
+    draw();
+    io.MousePos = {at.x + 5, at.y + 5};
+    draw();
+    io.KeyCtrl = io.MouseDown[0] = true;
+    draw();
+    io.KeyCtrl = io.MouseDown[0] = false;
+    draw();
+    for (const char* letter = "0,25"; *letter; ++letter) {
+        io.AddInputCharacter(unsigned(*letter));
+        draw();
+    }
+    EXPECT_FLOAT_EQ(value, 0.25f);
 }
 
 TEST_F(GuiFrame, ItsTextsAreReadOffWhatIsDrawn)

@@ -2,13 +2,13 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/core.h>
 #include <utility>
 
 #include "app/viewer/model/actions/members.h"
 #include "app/viewer/model/picking/picking.h"
+#include "app/viewer/model/reports/typed_number.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/panels/dialog_parts.h"
 #include "app/viewer/panels/text_input.h"
@@ -61,15 +61,12 @@ void begin_choices(const Frame& frame, const std::shared_ptr<const ListedFile>& 
 bool read_length(const std::string& text, LengthUnit unit, const Between& range, std::optional<double>& mm)
 {
     mm.reset();
-    const size_t from = text.find_first_not_of(' ');
-    if (from == text.npos)
+    if (text.find_first_not_of(' ') == text.npos)
         return true;
-    double value = 0;
-    const char *begin = text.data() + from, *end = text.data() + text.find_last_not_of(' ') + 1;
-    const auto [after, fault] = std::from_chars(begin, end, value);
-    if (unit != LengthUnit::mm) // without the rounding of there and back
-        value = std::stod(fmt::format("{:.12g}", kept_length(value, unit)));
-    if (fault != std::errc() || after != end || !(value >= range.least && value <= range.greatest))
+    auto value = typed_number_of(text, {length_word(unit)});
+    if (value && unit != LengthUnit::mm) // without the rounding of there and back
+        value = std::stod(fmt::format("{:.12g}", kept_length(*value, unit)));
+    if (!value || !(*value >= range.least && *value <= range.greatest))
         return false;
     mm = value;
     return true;

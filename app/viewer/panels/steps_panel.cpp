@@ -125,7 +125,8 @@ void sheet_step(Frame& frame)
     const bool changed =
         length_input(frame, "Thickness", thickness, {.mm = "%.3g", .step_mm = 0.05, .step_inch = 0.002});
     // What was assumed and is typed once more was chosen.
-    if (changed || (typing && !frame.ui.typed && enter_pressed(frame) && !is_given(document.thickness_from)))
+    const bool once_more = typing && !frame.ui.typed && enter_pressed(frame) && !frame.ui.number_refused;
+    if (changed || (once_more && !is_given(document.thickness_from)))
         frame.actions.push(SetThickness{thickness});
     tooltip("Of the flat sheet, before forming");
     if (document.material_from == SheetSource::preference || document.thickness_from == SheetSource::preference)

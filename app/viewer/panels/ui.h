@@ -54,8 +54,9 @@ enum class DrawnLine { drawbead, pilot, seam };
 /// What is being typed into a field, until typing ends.
 struct Typed {
     ImGuiID id = 0;
-    std::array<double, 3> number{};
-    std::string text;
+    std::array<std::string, 3> number{}; ///< of a field of numbers
+    std::array<bool, 3> edited{};        ///< which of them were typed
+    std::string text = {};               ///< of a field of text
 };
 
 /// Handles of the surface on their way with the mouse.
@@ -101,6 +102,7 @@ struct Ui {
     std::vector<KeyPress> keys;       ///< pressed since the last frame
     std::vector<KeyPress> keys_later; ///< for the next frame, when what was being typed has been taken
     std::optional<Typed> typed;
+    bool number_refused = false; ///< what was typed last into a field of numbers was none
     Memo<std::string, std::shared_ptr<const PartFile>, std::shared_ptr<const FlattenResult>, std::vector<int>>
         no_cut;            ///< why the picked vertices make no cut; empty: they do
     int listed_place = -1; ///< of the fault that is shown: the list of its places was scrolled to it

@@ -5,8 +5,10 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <imgui_internal.h> // ClearActiveID, NavRectRel
+#include <fmt/core.h>
+#include <imgui_internal.h> // ClearActiveID, NavRectRel, TempInputId
 
+#include "app/viewer/model/reports/typed_number.h"
 #include "app/viewer/model/reports/viewer_words.h"
 #include "app/viewer/model/reports/wrapped_text.h"
 #include "app/viewer/panels/dialog_parts.h"
@@ -56,17 +58,26 @@ static bool leaves_typing(const Frame& frame)
     return true;
 }
 
-/// A number with a button to either side of its label. @param active whether it is being typed
-/// @returns -1 or 1 where a button is pressed, else 0
-static int with_step_buttons(const char* label, double& number, const char* format, bool& active)
+/// What a field shows of a number. @param format  null: all its digits
+static std::string shown_number(double value, const char* format)
+{
+    if (!format)
+        return fmt::format("{}", value);
+    std::array<char, 64> text{};
+    ImFormatString(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+/// A number with buttons between it and its label. @param typed  its text and whether that was typed
+/// @param active whether it is being typed. @returns -1 or 1 where a button is pressed, else 0
+static int with_step_buttons(const char* label, Typed& typed, bool& active)
 {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x, side = ImGui::GetFrameHeight();
     const float width = ImGui::CalcItemWidth() - 2 * (gap + side);
     ImGui::BeginGroup();
     ImGui::PushID(label);
     ImGui::SetNextItemWidth(std::max(1.f, width));
-    ImGui::InputScalar("##number", ImGuiDataType_Double, &number, nullptr, nullptr, format,
-                       ImGuiInputTextFlags_CharsScientific);
+    typed.edited[0] |= text_input("##number", typed.number[0]);
     active = ImGui::IsItemActive();
     int steps = 0;
     ImGui::PushButtonRepeat(true);
@@ -83,33 +94,94 @@ static int with_step_buttons(const char* label, double& number, const char* form
     return steps;
 }
 
+/// Numbers in a row before their label. @returns whether one is being typed
+static bool in_a_row(const char* label, Typed& typed, int count)
+{
+    bool active = false;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::BeginGroup();
+    ImGui::PushID(label);
+    ImGui::PushMultiItemsWidths(count, ImGui::CalcItemWidth());
+    for (int k = 0; k < count; ++k) {
+        if (k > 0)
+            ImGui::SameLine(0, gap);
+        ImGui::PushID(k);
+        typed.edited[size_t(k)] |= text_input("", typed.number[size_t(k)]);
+        active |= ImGui::IsItemActive();
+        ImGui::PopID();
+        ImGui::PopItemWidth();
+    }
+    ImGui::PopID();
+    if (const char* end = ImGui::FindRenderedTextEnd(label); end != label) {
+        ImGui::SameLine(0, gap);
+        ImGui::TextUnformatted(label, end);
+    }
+    ImGui::EndGroup();
+    return active;
+}
+
+/// A number that was typed, if it is one; an empty field is no change. @returns whether `value` has changed
+static bool take_typed(Frame& frame, std::string_view label, const std::string& text, const char* format, double& value)
+{
+    label = label.substr(0, label.find("##"));
+    if (text.find_first_not_of(' ') == text.npos)
+        return false;
+    const bool percent = format && std::string_view(format).ends_with("%%");
+    const auto number = typed_number_of(text, {field_name(label).unit, label, percent ? "%" : ""});
+    if (!number) {
+        frame.ui.number_refused = true;
+        frame.model.say(Severity::error, refused_number(text, label, shown_number(value, format)),
+                        about_refusal(frame.state));
+        return false;
+    }
+    const bool other = *number != value;
+    value = *number;
+    return other;
+}
+
 bool typed_numbers(Frame& frame, const char* label, double* value, int count, const char* format, double step)
 {
-    auto& typed = frame.ui.typed;
+    auto& typing = frame.ui.typed;
     const ImGuiID id = ImGui::GetID(label);
-    const bool typing = typed && typed->id == id;
-    std::array<double, 3> shown{};
-    std::copy_n(typing ? typed->number.data() : value, count, shown.begin());
+    const bool was_typing = typing && typing->id == id;
+    Typed typed{id};
+    if (was_typing)
+        typed = *typing;
+    else
+        for (int k = 0; k < count; ++k)
+            typed.number[size_t(k)] = shown_number(value[k], format);
     bool active = false;
+    int steps = 0;
     if (step > 0)
-        shown[0] += step * with_step_buttons(label, shown[0], format, active);
-    else {
-        ImGui::InputScalarN(label, ImGuiDataType_Double, shown.data(), count, nullptr, nullptr, format,
-                            ImGuiInputTextFlags_CharsScientific); // else the e of 1e-7 is dropped without a word
-        active = ImGui::IsItemActive();
-    }
+        steps = with_step_buttons(label, typed, active);
+    else
+        active = in_a_row(label, typed, count);
     if (active && !leaves_typing(frame)) {
-        typed = Typed{id, shown, {}};
+        frame.ui.number_refused = false;
+        typing = std::move(typed);
         return false;
     }
-    if (typing)
-        typed.reset();
+    if (was_typing)
+        typing.reset();
     if (active && pressed(frame, GLFW_KEY_ESCAPE))
         return false;
-    if (std::equal(shown.begin(), shown.begin() + count, value))
-        return false;
-    std::copy_n(shown.begin(), count, value);
+    bool changed = false;
+    for (int k = 0; k < count; ++k)
+        changed |= typed.edited[size_t(k)] && take_typed(frame, label, typed.number[size_t(k)], format, value[k]);
+    if (steps == 0)
+        return changed;
+    value[0] = std::stod(fmt::format("{:.12g}", value[0] + step * steps)); // 0.42 + 0.01 is 0.43
     return true;
+}
+
+void points_for_commas()
+{
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    if (context.TempInputId == 0 || context.TempInputId != context.ActiveId)
+        return;
+    for (ImWchar& letter : ImGui::GetIO().InputQueueCharacters)
+        if (letter == ',')
+            letter = '.';
 }
 
 bool length_inputs(Frame& frame, const char* label, double* mm, int count, LengthUnit unit, const LengthFormat& format)
@@ -151,7 +223,7 @@ bool typed_text(Frame& frame, const char* label, std::string& text, const char* 
     text_input(label, shown, false, hint);
     const bool active = ImGui::IsItemActive();
     if (active && !leaves_typing(frame)) {
-        typed = Typed{id, {}, std::move(shown)};
+        typed = Typed{id, {}, {}, std::move(shown)};
         return false;
     }
     if (typing)

@@ -57,13 +57,18 @@ bool coloured_button(const Frame& frame, const char* label, ImVec2 size, const I
 
 /// Numbers that are typed, one to three in a row; with a step they have buttons. What is typed counts when typing ends, by
 /// Return, Tab, a shortcut or a click elsewhere; Escape takes it back.
-/// @param value the numbers now. @returns whether they have just been changed, in `value`
+/// What is no number is refused with a message, and the number before stays (Ui::number_refused).
+/// @param value the numbers now. @param format of printf, as they are shown while nobody types; null: with all digits
+/// @returns whether they have just been changed, in `value`
 bool typed_numbers(Frame& frame, const char* label, double* value, int count, const char* format, double step = 0);
 inline bool typed_number(Frame& frame, const char* label, double& value, const char* format, double step = 0)
 {
     return typed_numbers(frame, label, &value, 1, format, step);
 }
 bool typed_integer(Frame& frame, const char* label, int& value, int step = 0);
+/// To be called before a frame is drawn: what is typed into a slider (Ctrl and a click) may have a comma before its decimals, as it
+/// may in the fields above.
+void points_for_commas();
 /// How lengths are typed, by unit; the numbers themselves are mm.
 struct LengthFormat {
     const char* mm = "%.4g";

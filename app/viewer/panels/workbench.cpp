@@ -167,6 +167,7 @@ void workbench(Frame& frame)
 {
     if (pressed(frame, GLFW_KEY_ESCAPE) && close_menus())
         std::erase_if(frame.ui.keys, [](const KeyPress& press) { return press.key == GLFW_KEY_ESCAPE; });
+    points_for_commas();
     frame.ui.items.clear();
     frame.ui.wake_at = 0;
     const ImGuiIO& io = ImGui::GetIO();
