@@ -143,6 +143,23 @@ TEST_F(TypedNumber, IsRefusedWithWhatWasTypedWhereItIsNone)
         }
 }
 
+TEST_F(TypedNumber, KeepsAllDigits)
+{
+    for (const auto& [text, number] : {std::pair{"0.42137", 0.42137}, {"1e-7", 1e-7}, {"0.123456789", 0.123456789}}) {
+        value = 1;
+        format = nullptr;
+        step = 0.01;
+        type(text);
+        EXPECT_TRUE(draw({GLFW_KEY_ENTER}));
+        EXPECT_EQ(value, number);
+        EXPECT_FALSE(draw());
+        bool shown = false;
+        for (const ScreenText& each : texts_on_screen(*ImGui::GetDrawData()))
+            shown |= typed_number_of(each.text) == number;
+        EXPECT_TRUE(shown) << text;
+    }
+}
+
 TEST_F(GuiFrame, ASliderTakesACommaForAPoint)
 {
     float value = 0;

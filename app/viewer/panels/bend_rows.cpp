@@ -1,7 +1,6 @@
 #include "app/viewer/panels/bend_rows.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 #include <numbers>
 
@@ -153,8 +152,8 @@ void k_factor_control(Frame& frame)
         return;
     double value = k->table[0].second;
     ImGui::SetNextItemWidth(170 * frame.ui.scale);
-    if (typed_number(frame, "K", value, "%.4g", 0.01))
-        frame.actions.push(SetKFactor{fmt::format("{}", std::round(value * 1e6) / 1e6)});
+    if (typed_number(frame, "K", value, nullptr, 0.01))
+        frame.actions.push(SetKFactor{fmt::format("{}", value)});
     tooltip("Above 0 and below 1; 0.5 is the middle surface");
 }
 
