@@ -36,6 +36,18 @@ void next_button(Frame& frame)
     tooltip(again ? "Earlier states are kept" : "Runs every step that is missing or out of date");
 }
 
+/// Tools and restraint that the steps know nothing of.
+void left_out_line(Frame& frame)
+{
+    const Document& document = frame.state.document;
+    const std::string text = document.steps.empty() ? "" : left_out_by_steps(document);
+    if (text.empty())
+        return;
+    coloured(palette_of(frame.state.view.dark).warning, text);
+    note_place(frame, "left out by steps");
+    tooltip("The one-step solution has them: \"Unfold\" in the step Unfold  (F6)");
+}
+
 /// Where a proposal was planned anew: what of it, in one line.
 void given_up_line(Frame& frame)
 {
@@ -201,6 +213,7 @@ void unfolding_section(Frame& frame)
     if (!open)
         return;
     next_button(frame);
+    left_out_line(frame);
     given_up_line(frame);
     blank_of_steps(frame);
     slider(frame);

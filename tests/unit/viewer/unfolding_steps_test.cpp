@@ -63,17 +63,31 @@ TEST_F(UnfoldingSteps, TheSizeOfTheirBlankCountsTheBendsByTheKFactor)
     EXPECT_FALSE(size_of_blank(document)) << "it is that of another K factor";
 }
 
-TEST_F(UnfoldingSteps, SayThatToolsAreLeftOut)
+TEST_F(UnfoldingSteps, SayWhatIsLeftOutAsLongAsItIsThere)
 {
     open_channel();
     propose();
     run();
-    EXPECT_EQ(last(Severity::hint), "");
+    EXPECT_EQ(left_out_by_steps(document), "");
+    model.apply(SetProcess{.edge_restraint = 0.49}); // when all is done
+    EXPECT_THAT(left_out_by_steps(document), HasSubstr("as a whole: edge restraint."));
+    model.apply(UseBlankOfSteps{false});
+    wait();
+    EXPECT_THAT(left_out_by_steps(document), HasSubstr("edge restraint"));
+    model.apply(
+        AddLine{{.kind = LineKind::drawbead,
+                 .point = {document.session.part->mesh.position.col(0), document.session.part->mesh.position.col(1)}}});
+    EXPECT_THAT(left_out_by_steps(document), HasSubstr("drawbeads, edge restraint."));
+    model.apply(Undo{});
+    model.apply(SetProcess{});
+    EXPECT_EQ(left_out_by_steps(document), "");
+    // Set before, it is said there alone.
     open_channel();
     model.apply(SetProcess{.edge_restraint = 0.1, .rolling = {}});
     propose();
     run();
-    EXPECT_THAT(last(Severity::hint), HasSubstr("the steps leave them out"));
+    EXPECT_EQ(last(Severity::hint), "");
+    EXPECT_NE(left_out_by_steps(document), "");
 }
 
 TEST_F(UnfoldingSteps, TheRegionOfAFaceStaysWhereItIs)

@@ -85,9 +85,6 @@ void ViewerModel::Apply::operator()(const RunSteps&)
         return;
     }
     model.run_missing_steps();
-    if (has_tools(session.options.flatten.process))
-        model.say(Severity::hint,
-                  "Tools, drawbeads, pilots and edge restraint act on the whole part; the steps ignore them.");
 }
 
 void ViewerModel::Apply::operator()(const UseBlankOfSteps& action)

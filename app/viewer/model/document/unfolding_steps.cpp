@@ -140,6 +140,19 @@ bool still_proposed(const Document& document)
            document.proposal->steps == document.steps;
 }
 
+std::string left_out_by_steps(const Document& document)
+{
+    const ProcessConditions& process = document.session.options.flatten.process;
+    std::string what;
+    for (const auto& [there, name] : {std::pair{!process.contact.empty(), "tools"},
+                                      {!process.drawbeads.empty(), "drawbeads"},
+                                      {!process.pilots.empty(), "pilots"},
+                                      {process.edge_restraint != 0, "edge restraint"}})
+        if (there)
+            what += (what.empty() ? "" : ", ") + std::string(name);
+    return what.empty() ? "" : fmt::format("The steps leave out what acts on the part as a whole: {}.", what);
+}
+
 size_t steps_done(const Document& document)
 {
     if (!run_is_about(document))

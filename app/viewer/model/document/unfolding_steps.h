@@ -71,6 +71,9 @@ struct StepsRun {
 /// The sheet of the steps: material, gauge, tailored pieces, rolling direction. Tools act on the part as a whole and are left out.
 FlattenOptions sheet_of_steps(const FlattenOptions& wanted);
 
+/// What of the document's process that is, in a sentence; empty: nothing.
+std::string left_out_by_steps(const Document& document);
+
 /// How many leading steps of the document's list the states of its last run hold for: the next one was edited, is new, had no
 /// result, or its part or sheet is another one now.
 size_t steps_done(const Document& document);

@@ -217,11 +217,6 @@ void ViewerModel::report_steps_run(const StepsOutcome& outcome)
             end.necking == 1 ? "1 triangle is" : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
     if (end.overlap.places > 0)
         warn(fmt::format("The blank overlaps itself at {}.", counted(size_t(end.overlap.places), "place")));
-    if (has_tools(state_.document.session.options.flatten.process))
-        say(Severity::hint,
-            "Contact, drawbeads, pilots and the held edge act on the part as a whole: the steps leave them out. Take "
-            "them away before you use the blank of the steps, or unfold the part in one step.",
-            about_steps(state_));
     const auto size = size_of_blank(state_.document);
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
         fmt::format("Unfolded in {}{}.", counted(run.states.size(), "step"),
