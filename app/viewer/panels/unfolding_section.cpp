@@ -160,8 +160,14 @@ void blank_of_steps(Frame& frame)
     const UnfoldRun& run = document.unfolding->run;
     if (!run.blank)
         return coloured(p.warning, "The part is not flat yet; add a step.");
-    if (const auto size = size_of_blank(document))
-        figure(frame, "Blank of the steps", size_text((*size)[0], (*size)[1], frame.lengths()));
+    if (const auto blank = size_of_blank(document)) {
+        const std::string other = of_other_k(document, *blank);
+        ImGui::PushStyleColor(ImGuiCol_Text, other.empty() ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : p.muted);
+        figure(frame, "Blank of the steps", size_text(blank->size[0], blank->size[1], frame.lengths()) + other);
+        ImGui::PopStyleColor();
+        if (!other.empty())
+            tooltip("With the K factor of the run. The blank is laid by the one that is set now once it is used.");
+    }
     if (run.flipped > 0)
         return coloured(p.warning, fmt::format("{} triangles of the blank are flipped; unfold in smaller steps there.",
                                                run.flipped));

@@ -50,17 +50,26 @@ TEST_F(UnfoldingSteps, TheSizeOfTheirBlankCountsTheBendsByTheKFactor)
     wait();
     propose();
     run();
-    const auto size = size_of_blank(document);
-    ASSERT_TRUE(size) << last(Severity::error);
-    EXPECT_NEAR(size->maxCoeff(), length(0.4), 1e-4 * length(0.4));
-    EXPECT_THAT(last(Severity::done), HasSubstr(fmt::format("a blank of {:.6g} x {:.6g} mm", (*size)[0], (*size)[1])));
+    auto blank = size_of_blank(document);
+    ASSERT_TRUE(blank) << last(Severity::error);
+    const Eigen::Vector2d size = blank->size;
+    EXPECT_NEAR(size.maxCoeff(), length(0.4), 1e-4 * length(0.4));
+    EXPECT_EQ(of_other_k(document, *blank), "");
+    EXPECT_THAT(last(Severity::done), HasSubstr(fmt::format("a blank of {:.6g} x {:.6g} mm", size[0], size[1])));
+    model.apply(SetKFactor{"0.3"}); // the size is yet that of the run, and says so
+    ASSERT_TRUE(blank = size_of_blank(document));
+    EXPECT_EQ(blank->size, size);
+    EXPECT_EQ(of_other_k(document, *blank), ", K 0.4");
+    model.apply(SetKFactor{"0.4"});
     model.apply(UseBlankOfSteps{false});
     wait();
     const Eigen::Matrix2Xd& used = document.session.blank->blank.position;
-    EXPECT_LT((*size - (used.rowwise().maxCoeff() - used.rowwise().minCoeff())).norm(), 1e-9);
-    model.apply(SetKFactor{"0.3"});
+    EXPECT_LT((size - (used.rowwise().maxCoeff() - used.rowwise().minCoeff())).norm(), 1e-9);
+    model.apply(SetKFactor{"0.3"}); // in use it is laid anew
     wait();
-    EXPECT_FALSE(size_of_blank(document)) << "it is that of another K factor";
+    ASSERT_TRUE(blank = size_of_blank(document));
+    EXPECT_NEAR(blank->size.maxCoeff(), length(0.3), 1e-4 * length(0.3));
+    EXPECT_EQ(of_other_k(document, *blank), "");
 }
 
 TEST_F(UnfoldingSteps, SayWhatIsLeftOutAsLongAsItIsThere)

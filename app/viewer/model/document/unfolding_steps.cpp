@@ -5,7 +5,9 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "app/viewer/model/document/chain.h"
 #include "app/viewer/model/document/document.h"
+#include "app/viewer/model/document/k_choice.h"
 #include "app/viewer/model/document/step_motion.h"
 #include "app/viewer/model/document/step_target.h"
 #include "engine/core/error.h"
@@ -52,6 +54,8 @@ std::shared_ptr<const StepsRun> with_figures(std::shared_ptr<StepsRun> run)
     return run;
 }
 
+Eigen::Vector2d size_of(const Eigen::Matrix2Xd& flat) { return flat.rowwise().maxCoeff() - flat.rowwise().minCoeff(); }
+
 void measure_blank(StepsRun& run, const std::optional<KFactor>& k, const Progress& progress)
 {
     if (!run.run.blank || run.run.flipped > 0)
@@ -68,8 +72,7 @@ void measure_blank(StepsRun& run, const std::optional<KFactor>& k, const Progres
     } catch (const std::exception&) {
         return; // a K factor for a skin, say: using the blank tells it
     }
-    const Eigen::Matrix2Xd& flat = laid.blank->position;
-    run.laid = StepsRun::LaidSize{k, flat.rowwise().maxCoeff() - flat.rowwise().minCoeff()};
+    run.laid = LaidSize{k, size_of(laid.blank->position)};
 }
 
 /// The steps of a plan; those that the list begins with likewise are its own.
@@ -171,12 +174,19 @@ bool all_steps_done(const Document& document)
            document.unfolding->run.states.size() == document.steps.size();
 }
 
-std::optional<Eigen::Vector2d> size_of_blank(const Document& document)
+std::optional<LaidSize> size_of_blank(const Document& document)
 {
     if (!all_steps_done(document))
         return std::nullopt;
-    const auto& laid = document.unfolding->laid;
-    return laid && laid->k == document.session.options.k_factor ? std::optional(laid->size) : std::nullopt;
+    const auto& used = document.made_with.steps;
+    if (document.session.blank && used && !used->polish && holds(document, *used))
+        return LaidSize{document.made_with.k_factor, size_of(document.session.blank->blank.position)};
+    return document.unfolding->laid;
+}
+
+std::string of_other_k(const Document& document, const LaidSize& size)
+{
+    return size.k == document.session.options.k_factor ? "" : ", K " + (size.k ? k_words(size.k) : KFactor{}.name);
 }
 
 std::string_view name(StepStatus status)

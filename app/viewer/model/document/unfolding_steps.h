@@ -52,6 +52,12 @@ struct Proposal {
 /// Whether the list is a proposal for the part, none of it edited.
 bool still_proposed(const Document& document);
 
+/// The size of the blank of steps, mm, with its bends laid by a K factor, as the blank has it that is made of these steps.
+struct LaidSize {
+    std::optional<KFactor> k;
+    Eigen::Vector2d size;
+};
+
 /// What a run gave, and what it was made with.
 struct StepsRun {
     std::shared_ptr<const PartFile> part;
@@ -60,12 +66,7 @@ struct StepsRun {
     UnfoldRun run;
     std::vector<StepFigures> figure;        ///< one per state
     std::vector<std::string> given_up = {}; ///< steps of a proposal that did not work out, and why: it was planned anew
-    /// The blank's size, mm, with its bends laid by the K factor, as the blank has it that is made of these steps.
-    struct LaidSize {
-        std::optional<KFactor> k;
-        Eigen::Vector2d size;
-    };
-    std::optional<LaidSize> laid = {}; ///< not given: there is no blank, or it has flips
+    std::optional<LaidSize> laid = {};      ///< not given: there is no blank, or it has flips
 };
 
 /// The sheet of the steps: material, gauge, tailored pieces, rolling direction. Tools act on the part as a whole and are left out.
@@ -79,8 +80,11 @@ std::string left_out_by_steps(const Document& document);
 size_t steps_done(const Document& document);
 /// Whether all steps are done and the run went no further, so that its blank is that of the list.
 bool all_steps_done(const Document& document);
-/// mm, of the blank of the last run as it will lie; nothing if there is none, or the K factor is another one now.
-std::optional<Eigen::Vector2d> size_of_blank(const Document& document);
+/// Of the blank of the last run; nothing if there is none. By the K factor that is wanted now where the blank is in use, for it is then
+/// laid anew, else by that of the run: the size says which.
+std::optional<LaidSize> size_of_blank(const Document& document);
+/// Behind that size: ", K 0.42" where another K factor is wanted now, else empty.
+std::string of_other_k(const Document& document, const LaidSize& size);
 
 enum class StepStatus { missing, done, poor, stale, failed, needs_pick };
 std::string_view name(StepStatus status);

@@ -217,10 +217,12 @@ void ViewerModel::report_steps_run(const StepsOutcome& outcome)
             end.necking == 1 ? "1 triangle is" : fmt::format("{} are", counted(size_t(end.necking), "triangle"))));
     if (end.overlap.places > 0)
         warn(fmt::format("The blank overlaps itself at {}.", counted(size_t(end.overlap.places), "place")));
-    const auto size = size_of_blank(state_.document);
+    const auto blank = size_of_blank(state_.document);
     say(poor ? Severity::hint : Severity::done, // green only where nothing is poor
         fmt::format("Unfolded in {}{}.", counted(run.states.size(), "step"),
-                    size ? ": a blank of " + size_text((*size)[0], (*size)[1], state_.preferences.lengths) : ""),
+                    blank ? ": a blank of " + size_text(blank->size[0], blank->size[1], state_.preferences.lengths) +
+                                of_other_k(state_.document, *blank)
+                          : ""),
         about_steps(state_));
 }
 
