@@ -372,6 +372,49 @@ TEST_F(ViewerModelTest, AProjectWhosePartHasGoneTellsWhereItWas)
     }
 }
 
+TEST_F(ViewerModelTest, APartThatHasMovedIsOpenedWithTheSettingsOfItsProject)
+{
+    const ScratchFolder folder;
+    const auto old = folder / "old.obj", moved = folder / "elsewhere.obj", project = folder / "a.spia";
+    std::filesystem::copy_file(assets / "parts" / "dome.obj", old);
+    model.apply(OpenPart{old, ""});
+    wait();
+    model.apply(SetThickness{2.5});
+    model.apply(SelectFaces{{3, 5}});
+    model.apply(MakeRegion{"binder", RegionKind::fixed});
+    model.apply(SaveProject{project});
+    std::filesystem::rename(old, moved);
+    for (const bool other : {false, true}) {
+        open("square-cup.obj");
+        model.apply(OpenProject{project});
+        wait();
+        EXPECT_EQ(document.session.file.filename(), "square-cup.obj");
+        EXPECT_TRUE(says(Severity::error, "open it from where it is now"));
+        model.apply(OpenPart{other ? assets / "parts" / "square-cup.obj" : moved, ""});
+        wait();
+        ASSERT_NE(document.session.part, nullptr);
+        if (other) { // is no reason to take the settings for
+            EXPECT_EQ(document.session.file.filename(), "square-cup.obj");
+            EXPECT_EQ(state.project, "");
+            EXPECT_TRUE(document.regions.empty());
+            EXPECT_TRUE(says(Severity::hint, "put the part back at " + old.string()));
+            continue;
+        }
+        EXPECT_EQ(document.session.file, moved);
+        EXPECT_EQ(document.session.options.flatten.thickness, 2.5);
+        ASSERT_EQ(document.regions.size(), 1u);
+        EXPECT_EQ(document.regions[0].faces, (std::vector{3, 5}));
+        EXPECT_EQ(state.project, project);
+        EXPECT_TRUE(state.unsaved) << "the project is to say where its part is";
+        EXPECT_TRUE(says(Severity::hint, "Save the project to keep that"));
+    }
+    // Another part that is opened later has nothing to do with it.
+    model.apply(OpenPart{moved, ""});
+    wait();
+    EXPECT_TRUE(document.regions.empty());
+    EXPECT_EQ(state.project, "");
+}
+
 TEST_F(ViewerModelTest, AFileThatIsNotThereDoesNotDisturbARun)
 {
     open("square-cup.obj");

@@ -42,6 +42,8 @@ struct ViewerModel::Apply {
     void operator()(const ListFile& action);
     void operator()(const CloseList&);
     void operator()(const OpenPart& action);
+    /// By itself, whatever project waits for its part. @param note  see Opening
+    void open_part(const OpenPart& action, std::string note = {});
     /// Reads the part anew with other options, and runs the chain from there up to a stage; undo brings the old ones back.
     template <class Edit> void read_again(std::string name, const Edit& edit, Stage to = Stage::read);
     void operator()(const SetUnit& action);

@@ -31,6 +31,19 @@ void ViewerModel::Apply::operator()(const OpenProject& action)
     const bool left_behind = is_autosave(action.file); // of a part without a project `recovers` is empty
     Opening opening{project.document, {}, left_behind ? project.recovers : action.file, left_behind};
     opening.project = std::move(project);
+    const std::filesystem::path file = opening.document.session.file;
+    std::error_code problem;
+    if (!std::filesystem::exists(file, problem)) {
+        model.without_part_ = std::move(opening);
+        const std::string open = session.part ? session.file.filename().string() : "";
+        throw InputError(fmt::format(
+            "The project's part {} is not there any more: put it back, or open it from where it is now, and the "
+            "project's settings come with it.{}",
+            file.string(),
+            open.empty()              ? ""
+            : open == file.filename() ? " What is shown stays as it is."
+                                      : fmt::format(" {} is still open.", open)));
+    }
     begin_with(std::move(opening));
 }
 

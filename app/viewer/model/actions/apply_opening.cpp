@@ -48,7 +48,7 @@ void ViewerModel::Apply::begin_with(Opening opening)
     model.opening_ = true;
     ++model.openings_;
     const std::string title = "Opening " + opening.document.session.file.filename().string();
-    if (session.part) {
+    if (session.part || opening.otherwise) {
         model.opening_beside_ = std::move(opening);
         model.start(Stage::read, Stage::read, title, model.opening_beside_->document);
         return;
@@ -85,6 +85,22 @@ void ViewerModel::Apply::operator()(const CloseList&)
 void ViewerModel::Apply::operator()(const OpenPart& action)
 {
     require_no_export();
+    if (!std::filesystem::exists(action.file))
+        throw InputError(fmt::format("There is no file {}.", action.file.string()));
+    if (!model.without_part_) {
+        open_part(action);
+        return;
+    }
+    Opening opening = *model.without_part_;
+    opening.document.session.file = action.file;
+    opening.unsaved = true; // it has its part elsewhere now
+    opening.otherwise = action;
+    (*this)(CloseList{});
+    begin_with(std::move(opening));
+}
+
+void ViewerModel::Apply::open_part(const OpenPart& action, std::string note)
+{
     Document fresh;
     fresh.material = document.material;
     fresh.material_from = document.material_from == SheetSource::assumed ? SheetSource::assumed : SheetSource::before;
@@ -98,10 +114,10 @@ void ViewerModel::Apply::operator()(const OpenPart& action)
         fresh.session.options.read.unit = length_unit(action.unit);
     set_reading(fresh.session.options.read, action.reading);
     fresh.session.file = action.file;
-    if (!std::filesystem::exists(action.file))
-        throw InputError(fmt::format("There is no file {}.", action.file.string()));
     (*this)(CloseList{});
-    begin_with({std::move(fresh)});
+    Opening opening{std::move(fresh)};
+    opening.note = std::move(note);
+    begin_with(std::move(opening));
 }
 
 void ViewerModel::Apply::operator()(const ShowRefused&)

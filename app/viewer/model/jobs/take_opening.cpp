@@ -1,3 +1,4 @@
+#include "app/viewer/model/actions/apply.h"
 #include "app/viewer/model/jobs/viewer_model.h"
 
 #include <algorithm>
@@ -22,7 +23,9 @@ void ViewerModel::report_not_opened(const Opening& opening, const ChainResult& r
     const std::string name = opening.document.session.file.filename().string(),
                       open = state_.document.session.file.filename().string();
     if (result.cancelled) {
-        say(Severity::hint, fmt::format("Opening {}: cancelled. {} is still open.", name, open), about_refusal(state_));
+        say(Severity::hint,
+            fmt::format("Opening {}: cancelled.{}", name, open.empty() ? "" : fmt::format(" {} is still open.", open)),
+            about_refusal(state_));
         return;
     }
     if (shows_refused(state_)) // of an earlier file
@@ -40,17 +43,42 @@ void ViewerModel::report_not_opened(const Opening& opening, const ChainResult& r
     }
     std::string why = result.message;
     const std::string path = opening.document.session.file.string();
-    std::error_code problem;
-    if (opening.project && !std::filesystem::exists(opening.document.session.file, problem))
-        why = fmt::format("the project's part {} is not there any more: put it back, or open the part from where it "
-                          "is now",
-                          path);
-    else if (const size_t at = why.find(path); at != std::string::npos)
+    if (const size_t at = why.find(path); at != std::string::npos)
         why.replace(at, path.size(), name);
     if (why.find(name) == std::string::npos)
         why = name + " cannot be opened: " + why;
     say(Severity::error,
         fmt::format("{} {}", sentence(why), open == name ? "What is shown stays as it is." : open + " is still open."));
+}
+
+/// What was read for a project whose part is not where it was: if it is another part, it is opened without the project. @returns whether
+/// it is
+bool ViewerModel::open_by_itself(const ChainResult& result)
+{
+    if (!opening_beside_ || !opening_beside_->otherwise || result.cancelled)
+        return false;
+    Opening& opening = *opening_beside_;
+    const std::filesystem::path file = opening.document.session.file;
+    const std::string project = opening.project_file.empty() ? "the project" : opening.project_file.filename().string();
+    if (result.session.part && fingerprint(*result.session.part) == opening.project->picks.fingerprint) {
+        opening.note = fmt::format("{} has its part at {} now. Save the project to keep that.", project, file.string());
+        return false;
+    }
+    const std::string note = fmt::format("{} is not the part that {} was saved with, and is opened without its "
+                                         "settings. To get these, put the part back at {}.",
+                                         file.filename().string(), project,
+                                         without_part_ ? without_part_->document.session.file.string() : "its place");
+    const OpenPart action = *opening.otherwise;
+    const auto next = next_;
+    opening_beside_.reset();
+    opening_ = false;
+    try {
+        Apply{*this}.open_part(action, note);
+        next_ = next;
+    } catch (const std::exception& error) {
+        say(Severity::error, error.what());
+    }
+    return true;
 }
 
 void ViewerModel::forget_waiting()
@@ -103,7 +131,10 @@ void ViewerModel::replace_document(Opening opening)
     state_.fault.reset();
     state_.spot.reset();
     keep_cameras_ = false;
+    without_part_.reset();
     ++documents_;
+    if (!opening.note.empty())
+        say(Severity::hint, std::move(opening.note));
 }
 
 void ViewerModel::report_failed(const ChainResult& result)

@@ -32,6 +32,8 @@ void ViewerModel::take_chain_result()
         say(Severity::error, error.what());
         return;
     }
+    if (open_by_itself(result))
+        return;
     if (opening_beside_ && result.session.part && asks_ && state_.unsaved) { // first it is read, then the user is asked
         const Opening& opening = *opening_beside_;
         state_.read_and_waits = opening.project_file.empty() ? opening.document.session.file : opening.project_file;

@@ -80,6 +80,9 @@ private:
         std::optional<Project> project = {};     ///< null: it is a part
         std::filesystem::path project_file = {}; ///< to be saved to; empty: none
         bool unsaved = false;
+        std::optional<OpenPart> otherwise =
+            {};                ///< a project whose part may be this file: how it is opened if it is not
+        std::string note = {}; ///< said as soon as it is open; empty: nothing
     };
 
     void start(Stage from, Stage to, std::string title, const Document& document);
@@ -87,6 +90,7 @@ private:
     void take_result(ChainResult result, const std::string& title);
     bool take_opening(const ChainResult& result);
     void forget_waiting(); ///< the file that is read and waits for the user's word
+    bool open_by_itself(const ChainResult& result);
     void report_not_opened(const Opening& opening, const ChainResult& result);
     void run_to(Stage to, const std::string& title);
     void take_chain_result();
@@ -152,6 +156,8 @@ private:
     std::optional<std::chrono::steady_clock::time_point> cancelled_at_; ///< the running job
     bool opening_ = false;                                              ///< the running job reads a new part
     std::optional<Opening> opening_beside_;                             ///< while the part before is still open
+    std::optional<Opening>
+        without_part_; ///< a project whose part is not where it was: the next one that is opened may be it
     std::optional<ChainResult> waiting_; ///< what was read for it, while the user is asked
     bool asks_ = false;                  ///< see ask_before_replacing()
     bool run_of_change_ = false;         ///< the running job makes what the last change of options asks for
