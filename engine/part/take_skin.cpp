@@ -317,11 +317,12 @@ Surfaces of_file_faces(const PartFile& part, const Surfaces& surface)
     return result;
 }
 
-void doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& surface)
+/// @returns whether there are any
+bool doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& surface)
 {
     const std::vector<UnevenBend> bends = uneven_bends(sheet, surface);
     if (bends.empty())
-        return;
+        return false;
     const UnevenBend& first = bends.front();
     const Eigen::Vector3d place = part.mesh.position.col(part.mesh.triangle(0, first.face));
     doubt(part, fmt::format(
@@ -330,6 +331,7 @@ void doubt_uneven_bends(PartFile& part, const ThinSolid& sheet, const Surfaces& 
                     "of the outer skin and the thickness elsewhere",
                     counted(int(bends.size()), "bend has", "bends have"), first.outer, first.inner, sheet.thickness,
                     place.x(), place.y(), place.z(), bends.size() > 1 ? " (the first)" : ""));
+    return true;
 }
 
 /// Of countersinks that are no holes all around.
@@ -353,7 +355,8 @@ void tell_open_sinks(PartFile& part, const ThinSolid& sheet, const std::vector<S
     }
 }
 
-void note_skin(PartFile& part)
+/// @param uneven_told  bends that are not as thick as the sheet have been told with their radii
+void note_skin(PartFile& part, bool uneven_told)
 {
     const SolidOrigin& solid = *part.solid;
     const int taken = solid.skin == Skin::inner ? solid.inner_faces : solid.outer_faces;
@@ -365,7 +368,7 @@ void note_skin(PartFile& part)
                     "surface of it)",
                     solid.faces, solid.open ? ", some of which are missing" : "", what, solid.thickness));
     constexpr double uneven = 1.15; // a bend with one radius on both sides is up to 1.41 times as thick
-    if (part.cad && solid.most > uneven * solid.thickness)
+    if (part.cad && !uneven_told && solid.most > uneven * solid.thickness)
         doubt(part,
               fmt::format(
                   "the sheet is up to {:.4g} mm thick, {:.3g} times {:.4g} mm: where arcs of both skins have not one "
@@ -413,8 +416,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             sheet.thickness = stated_thickness(part.mesh, sheet, surface);
         const ThinSolidOptions units = faces_of(part, normals, surface);
         Skin wanted = options.skin.value_or(Skin::middle);
-        if (!measured)
-            doubt_uneven_bends(part, sheet, surface);
+        const bool uneven = !measured && doubt_uneven_bends(part, sheet, surface);
         const std::vector<SunkHole> holes = sunk_holes(part.mesh, sheet);
         tell_open_sinks(part, sheet, holes);
         SkinMesh skin = wanted_skin(part, sheet, holes, wanted, options.skin.has_value(), units);
@@ -443,7 +445,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             sunk = finding_of(holes, wanted, part.source_face);
         part.thickness_mm = sheet.thickness;
         replace_mesh(part, skin);
-        note_skin(part);
+        note_skin(part, uneven);
         for (std::optional<Finding>* each : {&marks, &sunk})
             if (*each)
                 part.doctor.findings.push_back(std::move(**each));

@@ -410,6 +410,16 @@ TEST_F(PartBends, ABendThatIsNotLaidIsAShortcomingWithItsPlaceAndAWayOut)
     EXPECT_TRUE(shortcomings(solved(write(solid))).empty()) << "K 0.5";
 }
 
+TEST_F(PartBends, OneWhoseArcsHaveNotOneAxisIsDoubtedOnce)
+{
+    // 2 sqrt(2) mm thick in its middle.
+    shapes::write_prism(folder_ / "part.step", {{0, 0}, {40, 0}, {40, 2}, {2, 2}, {2, 40}, {0, 40}}, 30,
+                        {3, 0, 0, 3, 0, 0});
+    const auto said = shortcomings(solved(folder_ / "part.step"));
+    ASSERT_EQ(said.size(), 1u) << said.back();
+    EXPECT_TRUE(said[0].starts_with("1 bend has arcs of radius 3 and 3 mm")) << said[0];
+}
+
 TEST_F(PartBends, CasesOfOneBracket)
 {
     const fs::path folder = fs::path(SPIA_SOURCE_DIR) / "../shared/cases";
