@@ -211,6 +211,32 @@ int sunk_in_bends(const std::vector<SunkHole>& holes)
     return int(std::ranges::count_if(holes, [](const SunkHole& hole) { return hole.diameter == 0; }));
 }
 
+std::set<int> sunk_through(const std::vector<SunkHole>& holes, double thickness)
+{
+    constexpr double all = 1 - 1e-3; // of the thickness
+    std::set<int> result;
+    for (const SunkHole& hole : holes)
+        if (hole.cut_off && hole.depth > all * thickness)
+            result.insert(hole.hole);
+    return result;
+}
+
+SheetSide skin_of_middle(const std::vector<SunkHole>& holes)
+{
+    return cut_off_at(holes, SheetSide::outer) > cut_off_at(holes, SheetSide::inner) ? SheetSide::inner
+                                                                                     : SheetSide::outer;
+}
+
+std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, double thickness)
+{
+    std::set<int> result = sunk_through(holes, thickness);
+    const SheetSide from = skin_of_middle(holes);
+    for (const SunkHole& hole : holes)
+        if (hole.diameter == 0 || (hole.cut_off && hole.skin == from))
+            result.insert(hole.hole);
+    return result;
+}
+
 ThinSolid sides_exchanged(const ThinSolid& sheet)
 {
     ThinSolid result = sheet;

@@ -1,4 +1,5 @@
 #pragma once
+#include <set>
 #include <vector>
 
 #include "engine/mesh/mark_outlines.h"
@@ -35,6 +36,18 @@ int cut_off_at(const std::vector<SunkHole>& holes, SheetSide skin);
 
 /// How many are sunk into a bend, where their circle is on no plane.
 int sunk_in_bends(const std::vector<SunkHole>& holes);
+
+/// Of those that something cuts off, the numbers of the holes that are sunk through all of the
+/// sheet: no straight wall is below.
+std::set<int> sunk_through(const std::vector<SunkHole>& holes, double thickness);
+
+/// At which skin fewer are cut off: a middle surface is made from that one.
+SheetSide skin_of_middle(const std::vector<SunkHole>& holes);
+
+/// The numbers of the holes whose edge in a middle surface is not their least diameter but where the
+/// wall crosses the middle of the sheet: those in bends, without a straight wall, or cut off at the
+/// skin that it is made from.
+std::set<int> wider_in_middle(const std::vector<SunkHole>& holes, double thickness);
 
 /// The same sheet with its outer skin called the inner one.
 ThinSolid sides_exchanged(const ThinSolid& sheet);

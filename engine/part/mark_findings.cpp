@@ -73,6 +73,19 @@ std::vector<std::vector<const SunkHole*>> by_hole(const std::vector<SunkHole>& h
     return result;
 }
 
+/// "the least diameter of each"
+std::string laid_flat(const std::vector<SunkHole>& holes, int count, Skin taken, double thickness)
+{
+    if (taken != Skin::middle)
+        return fmt::format("the diameters at the {} skin", name(taken));
+    const int wider = int(wider_in_middle(holes, thickness).size());
+    if (wider == 0)
+        return "the least diameter of each";
+    const std::string edges = wider == 1 ? "the edge where the wall crosses the middle of the sheet"
+                                         : "the edges where the walls cross the middle of the sheet";
+    return wider == count ? edges : fmt::format("the least diameter of {}, of {} {}", count - wider, wider, edges);
+}
+
 /// "up to 0.2 mm deep and up to 0.1 mm high"
 std::string depths(const std::vector<SheetMark>& marks)
 {
@@ -104,7 +117,8 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
                                deepest_mark, deepest_mark * sheet.thickness));
 }
 
-Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, const std::vector<int>& source_face)
+Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, double thickness,
+                   const std::vector<int>& source_face)
 {
     std::vector<MarkedPlace> marked;
     for (const auto& sunk : by_hole(holes))
@@ -113,9 +127,7 @@ Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, const std::ve
                    fmt::format("{} at a skin than inside (a countersink, a counterbore or a chamfer): what is laid "
                                "flat has {}, and circles of the marks show where to sink; the first is a {}",
                                counted(int(marked.size()), "hole is wider", "holes are wider"),
-                               taken == Skin::middle ? "the least diameter of each"
-                                                     : fmt::format("the diameters at the {} skin", name(taken)),
-                               marked.front().what));
+                               laid_flat(holes, int(marked.size()), taken, thickness), marked.front().what));
 }
 
 } // namespace spia

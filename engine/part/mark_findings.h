@@ -16,7 +16,9 @@ Finding finding_of(const std::vector<SheetMark>& marks, const ThinSolid& sheet, 
 /// The note on holes that are wider at a skin: with place, diameter and depth of each.
 /// @param holes  at least one
 /// @param taken  the surface that is laid flat
+/// @param thickness  mm
 /// @param source_face  as above
-Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, const std::vector<int>& source_face);
+Finding finding_of(const std::vector<SunkHole>& holes, Skin taken, double thickness,
+                   const std::vector<int>& source_face);
 
 } // namespace spia

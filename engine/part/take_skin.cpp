@@ -233,26 +233,29 @@ bool decide(PartFile& part, const ThinSolid& sheet)
 SkinMesh middle_surface(PartFile& part, const ThinSolid& sheet, const std::vector<SunkHole>& holes,
                         const ThinSolidOptions& units)
 {
-    const int outer = cut_off_at(holes, SheetSide::outer), inner = cut_off_at(holes, SheetSide::inner);
-    if (const int most = std::min(outer, inner); most > 0)
-        doubt(part, fmt::format("{} cut off at the skin that the middle surface is made from: laid flat, its edge is "
-                                "where the countersink is in the middle of the sheet, wider than the hole",
-                                counted(most, "sunk hole is", "sunk holes are")));
+    const SheetSide made_from = skin_of_middle(holes);
+    if (const int most = cut_off_at(holes, made_from); most > 0)
+        doubt(part, fmt::format("{} where the countersink is in the middle of the sheet, wider than the hole",
+                                counted(most,
+                                        "sunk hole is cut off at the skin that the middle surface is made from: laid "
+                                        "flat, its edge is",
+                                        "sunk holes are cut off at the skin that the middle surface is made from: laid "
+                                        "flat, their edges are")));
+    const auto not_least = [](int count) {
+        return count == 1
+                   ? "laid flat, its edge is about where the wall crosses the middle of the sheet, not its least "
+                     "diameter"
+                   : "laid flat, their edges are about where the walls cross the middle of the sheet, not their "
+                     "least diameters";
+    };
     if (const int bent = sunk_in_bends(holes); bent > 0)
-        doubt(part, fmt::format("{} in a bend: laid flat, its edge is about where the wall crosses the middle of the "
-                                "sheet, not its least diameter",
-                                counted(bent, "hole is sunk", "holes are sunk")));
-    constexpr double all = 1 - 1e-3; // of the thickness
-    std::set<int> without_land;
-    for (const SunkHole& hole : holes)
-        if (hole.cut_off && hole.depth > all * sheet.thickness)
-            without_land.insert(hole.hole);
-    if (!without_land.empty())
-        doubt(part,
-              fmt::format("{} cut off and has no straight wall below: laid flat, its edge is about where the wall "
-                          "crosses the middle of the sheet, not its least diameter",
-                          counted(int(without_land.size()), "sunk hole is", "sunk holes are")));
-    const bool exchanged = outer > inner;
+        doubt(part, fmt::format("{}: {}", counted(bent, "hole is sunk in a bend", "holes are sunk in bends"),
+                                not_least(bent)));
+    if (const int through = int(sunk_through(holes, sheet.thickness).size()); through > 0)
+        doubt(part, fmt::format("{} no straight wall below: {}",
+                                counted(through, "sunk hole is cut off and has", "sunk holes are cut off and have"),
+                                not_least(through)));
+    const bool exchanged = made_from == SheetSide::inner;
     const ThinSolid from = exchanged ? sides_exchanged(sheet) : sheet;
     const std::vector<SunkHole> sunk = exchanged ? sunk_holes(part.mesh, from) : holes;
     SkinMesh skin = skin_of(part.mesh, from, Skin::middle, units);
@@ -442,7 +445,7 @@ bool take_skin(PartFile& part, const ReadOptions& options, bool solid, const Cor
             part.solid->marks.push_back(std::move(row));
         std::optional<Finding> sunk;
         if (!holes.empty())
-            sunk = finding_of(holes, wanted, part.source_face);
+            sunk = finding_of(holes, wanted, sheet.thickness, part.source_face);
         part.thickness_mm = sheet.thickness;
         replace_mesh(part, skin);
         note_skin(part, uneven);

@@ -214,6 +214,7 @@ void expect_right(const ScratchFolder& folder, const BentSolid& solid, CadForm f
     const Finding* told = part.doctor.find(Fault::mark);
     ASSERT_TRUE(told);
     EXPECT_EQ(told->count, int(solid.sink.size()));
+    EXPECT_NE(told->text.find("has the least diameter of each"), std::string::npos) << told->text;
     for (const Sink& sink : solid.sink)
         EXPECT_TRUE(std::ranges::any_of(told->what, [&](const std::string& what) {
             return what.starts_with(fmt::format("{} {:.4g} mm wide, {:.4g} mm deep, of a hole of {:.4g} mm",
@@ -366,6 +367,7 @@ TEST(SunkHoles, InABendAreToldAndDoubted)
         EXPECT_EQ(part.solid->marks.size(), 1u);
         ASSERT_EQ(part.doubts.size(), 1u);
         EXPECT_NE(part.doubts[0].find("1 hole is sunk in a bend"), std::string::npos) << part.doubts[0];
+        EXPECT_EQ(told->text.find("least diameter"), std::string::npos) << told->text << " but " << part.doubts[0];
     }
 }
 
