@@ -83,7 +83,7 @@ DrawnBend drawn_bend(const SheetBend& bend, std::string name)
     drawn.name = std::move(name);
     drawn.angle = bend.angle;
     drawn.inner_radius = bend.inner_radius;
-    drawn.k = bend.k;
+    drawn.k = bend.sharp ? std::nullopt : std::optional(bend.k);
     drawn.allowance = bend.allowance;
     drawn.deduction = bend.deduction;
     drawn.up = bend.up;
@@ -164,8 +164,11 @@ BlankDrawing drawn_blank(const PartFile& part, const BendMap& map, const Blank& 
             drawn.angle = std::abs(bend.angle);
             const bool bulges = bend.angle > 0; // the outer side, from which the blank is seen: the legs go down
             drawn.up = !bulges;
-            drawn.k = laid_fibre(part, bulges);
-            drawn.inner_radius = bend.faces > 0 ? std::max(bend.radius - drawn.k * thickness_at(map, k, face), 0.) : 0;
+            drawn.k.reset();
+            if (bend.faces > 0) {
+                drawn.k = laid_fibre(part, bulges);
+                drawn.inner_radius = std::max(bend.radius - *drawn.k * thickness_at(map, k, face), 0.);
+            }
             for (const SheetLine& line : lines)
                 if (line.name == name)
                     drawn.middle.push_back(flat_points(line));

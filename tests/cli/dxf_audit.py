@@ -21,9 +21,9 @@ for path in sys.argv[1:]:
             values = {tags[k].value: tags[k + 1].value for k in range(0, len(tags) - 1) if tags[k + 1].code == 1040}
             if tags[0].value != "bend" and tags[1].value != "bend":
                 sys.exit(f"{path}: the extended data of a bend are {tags}")
-            if not (0 < values["angle_deg"] <= 360 and values["inner_radius"] >= 0 and 0 <= values["k"] <= 1):
+            if not (0 < values["angle_deg"] <= 360 and values["inner_radius"] >= 0 and 0 <= values.get("k", 0) <= 1):
                 sys.exit(f"{path}: a bend with {values}")
-            if "allowance" in values:
+            if "allowance" in values and "k" in values: # a sharp fold has no K
                 arc = math.radians(values["angle_deg"]) * (values["inner_radius"] + values["k"] * values["thickness"])
                 if abs(arc - values["allowance"]) > 1e-9 * arc or "deduction" not in values:
                     sys.exit(f"{path}: a bend with {values}, whose arc is {arc} long")

@@ -83,7 +83,8 @@ void row(Frame& frame, int number, const SheetBend& made)
     const int decimals = 3 + more_decimals(lengths);
     for (const std::string& text :
          {bend.sharp ? "sharp" : fmt::format("{:.4g}", shown_length(bend.inner_radius, lengths)),
-          fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi), fmt::format("{:.3g}", bend.k),
+          fmt::format("{:.4g}\u00b0", bend.angle * 180 / std::numbers::pi),
+          bend.sharp ? "" : fmt::format("{:.3g}", bend.k),
           fmt::format("{:.{}f}", shown_length(bend.allowance, lengths), decimals),
           fmt::format("{:.{}f}", shown_length(bend.deduction, lengths), decimals)}) {
         ImGui::TableNextColumn();

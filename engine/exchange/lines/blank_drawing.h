@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,10 @@ struct DrawnBend {
     std::string name;        ///< e.g. "bend 1"
     double angle = 0;        ///< radians, above 0: by how much the sheet turns
     double inner_radius = 0; ///< mm, on the hollow side; 0: sharp
-    double k = 0.5;          ///< which fibre has the length of the blank: K x thickness from the hollow side
-    bool up = false;         ///< seen on the blank as it is drawn the legs come towards the eye
+    /// Which fibre has the length of the blank: K x thickness from the hollow side. None: a sharp
+    /// fold, which has no arc.
+    std::optional<double> k = 0.5;
+    bool up = false;                      ///< seen on the blank as it is drawn the legs come towards the eye
     std::vector<Eigen::Matrix2Xd> middle; ///< along the bend, where it is bent: lines of two points or more
     std::vector<Eigen::Matrix2Xd> zone;   ///< where the bend begins and ends
     double allowance = 0;                 ///< mm, of the blank that the bend takes; 0: not known

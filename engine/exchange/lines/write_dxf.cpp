@@ -126,9 +126,9 @@ public:
     void about(const DrawnBend& bend)
     {
         dxf_(1001, dxf_application)(1000, "bend")(1000, ascii(bend.name));
-        for (const auto& [name, value] :
-             {std::pair{"angle_deg", bend.angle / degree}, {"inner_radius", bend.inner_radius / mm_}, {"k", bend.k}})
-            dxf_(1000, name)(1040, value);
+        dxf_(1000, "angle_deg")(1040, bend.angle / degree)(1000, "inner_radius")(1040, bend.inner_radius / mm_);
+        if (bend.k)
+            dxf_(1000, "k")(1040, *bend.k);
         if (bend.allowance > 0)
             dxf_(1000, "allowance")(1040, bend.allowance / mm_)(1000, "deduction")(1040, bend.deduction / mm_);
         if (thickness_ > 0)
@@ -246,8 +246,8 @@ std::string few_digits(double value, int decimals)
 
 std::string label(const DrawnBend& bend, double mm)
 {
-    return fmt::format("{} {}%%d R{} K{}", bend.up ? "UP" : "DOWN", few_digits(bend.angle / degree, 2),
-                       few_digits(bend.inner_radius / mm, mm > 1 ? 4 : 3), few_digits(bend.k, 3));
+    return fmt::format("{} {}%%d R{}{}", bend.up ? "UP" : "DOWN", few_digits(bend.angle / degree, 2),
+                       few_digits(bend.inner_radius / mm, mm > 1 ? 4 : 3), bend.k ? " K" + few_digits(*bend.k, 3) : "");
 }
 
 bool is_straight(const Eigen::Matrix2Xd& points, double tolerance)
@@ -339,7 +339,7 @@ void require_drawing(const BlankDrawing& drawing, const DxfOptions& options)
     for (const DrawnBend& bend : drawing.bends) {
         require_drawn(bend.middle, bend.name);
         require_drawn(bend.zone, bend.name);
-        if (!std::isfinite(bend.angle) || !std::isfinite(bend.inner_radius) || !std::isfinite(bend.k))
+        if (!std::isfinite(bend.angle) || !std::isfinite(bend.inner_radius) || (bend.k && !std::isfinite(*bend.k)))
             throw InputError(fmt::format("{}: its angle, radius or K factor is no number", bend.name));
     }
     if (options.version == DxfVersion::r12 && options.curves == DxfCurves::splines)

@@ -28,6 +28,16 @@ std::vector<std::string> texts(const std::filesystem::path& dxf)
     return result;
 }
 
+/// Of extended data: of how many lines and texts they tell this.
+long told(const std::filesystem::path& dxf, const std::string& name)
+{
+    const std::string text = content_of(dxf);
+    long count = 0;
+    for (size_t at = text.find(name + "\n"); at != text.npos; at = text.find(name + "\n", at + 1))
+        count += text[at - 1] == '\n';
+    return count;
+}
+
 /// The table has them as sharp: what it deducts from the outer lengths of the legs, up to where their outer sides meet, gives the blank.
 void expect_rows(const Session& session, int flats, double width, double angle, double length)
 {
@@ -80,8 +90,10 @@ TEST(Folds, OfCadFlatsAreDrawnHoweverLittleTheyTurn)
         write_outputs(session, folder / "out", {"dxf"});
         const auto found = texts(folder / "out/part.dxf");
         EXPECT_EQ(found.size(), size_t(flats - 1));
+        EXPECT_GE(told(folder / "out/part.dxf", "inner_radius"), flats - 1);
+        EXPECT_EQ(told(folder / "out/part.dxf", "k"), 0);
         for (const std::string& text : found)
-            EXPECT_NE(text.find(fmt::format(" {}%%d R0 ", whole)), std::string::npos) << text;
+            EXPECT_TRUE(text.ends_with(fmt::format(" {}%%d R0", whole))) << text << ", it has no K";
         expect_rows(session, flats, width, whole * degree, length);
     }
 }
