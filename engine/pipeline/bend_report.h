@@ -14,8 +14,9 @@ Json bend_table_json(const BendTable& table);
 /// What the table has to say besides its rows: bends that are not laid, and where a K factor has no effect.
 std::vector<std::string> all_notes(const BendTable& table);
 
-/// What makes the blank poorer: bends that it has with another length than their allowance, each reason with the first of them and the way
-/// out; with a K factor also where that has no effect.
+/// What makes the blank poorer: bends that it has with another length than their allowance, each
+/// reason with the first of them and the way out; with a K factor also sheet that curves otherwise
+/// than over a cylinder. That K has no effect at sharp folds is a note.
 std::vector<std::string> bend_doubts(const PartFile& part, const BendTable& table, bool k_is_given);
 
 /// A line each: what the lengths of the blank are lengths of, the bends (the first of many), the notes.

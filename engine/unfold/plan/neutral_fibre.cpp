@@ -182,13 +182,14 @@ void compare_borders(const TriMesh& part, std::vector<Candidate>& candidates)
     }
 }
 
-/// What bends, but not over a cylinder.
-void note_other_bends(const TriMesh& part, const std::vector<SheetBend>& bends, std::vector<std::string>& notes)
+/// Where the K factor has no effect: in flat sheet and at sharp folds, which is as it should be, and
+/// in sheet that bends but not over a cylinder.
+void note_no_effect(const TriMesh& part, BendTable& table)
 {
     constexpr double curved = 0.5 * degree, sharp = 40 * degree,
                      speck = 1e-3; // chords of CAD faces turn by up to 20 degrees
     std::vector<char> bent(size_t(part.triangles()), 0), otherwise(bent.size(), 0);
-    for (const SheetBend& bend : bends)
+    for (const SheetBend& bend : table.bends)
         for (const int f : bend.faces)
             bent[size_t(f)] = 1;
     const Eigen::Matrix3Xd normal = area_vectors(part);
@@ -217,14 +218,18 @@ void note_other_bends(const TriMesh& part, const std::vector<SheetBend>& bends, 
         whole += normal.col(f).norm() / 2;
         area += otherwise[size_t(f)] ? normal.col(f).norm() / 2 : 0;
     }
+    const bool curves = area > speck * whole;
+    if (curves)
+        table.notes.push_back(fmt::format("{:.3g} % of the sheet is curved but no bend over a cylinder: there the K "
+                                          "factor has no effect, and the blank has the lengths of the middle surface "
+                                          "(K 0.5)",
+                                          100 * area / whole));
     if (edges > 0)
-        notes.push_back(fmt::format("sharp edges, {:.4g} mm of them, have no radius: there the K factor has no effect, "
-                                    "and the blank is as long as the part's middle surface",
-                                    edges));
-    if (area > speck * whole)
-        notes.push_back(fmt::format("{:.3g} % of the sheet is curved but no bend over a cylinder: there the K factor "
-                                    "has no effect, and the blank has the lengths of the middle surface (K 0.5)",
-                                    100 * area / whole));
+        table.kept.push_back(fmt::format("sharp edges, {:.4g} mm of them, have no radius: there the K factor has no "
+                                         "effect, and the blank is as long as the part's middle surface",
+                                         edges));
+    else if (!curves && table.bends.empty())
+        table.kept.push_back("the sheet has no bend: the K factor has no effect");
 }
 
 std::string numbers_of(const std::vector<int>& bends)
@@ -314,11 +319,8 @@ NeutralFibre neutral_fibre(const TriMesh& part, std::vector<BendZone> zones, con
     }
     for (const auto& [why, bends] : kept)
         table.kept.push_back(describe_kept(bends, table.of_middle, why));
-    if (layers.k && *layers.k != KFactor{}) {
-        if (table.bends.empty())
-            table.notes.push_back("no bend over a cylinder was found: the K factor has no effect");
-        note_other_bends(part, table.bends, table.notes);
-    }
+    if (layers.k && *layers.k != KFactor{})
+        note_no_effect(part, table);
     table.surface = describe_surface(table, layers);
     return result;
 }

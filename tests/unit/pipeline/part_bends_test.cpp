@@ -11,6 +11,7 @@
 #include "engine/forming/material/material_library.h"
 #include "engine/mesh/outline.h"
 #include "engine/mesh/topology.h"
+#include "engine/pipeline/bend_report.h"
 #include "engine/pipeline/part_bends.h"
 #include "engine/pipeline/run_chain.h"
 #include "engine/pipeline/run_stage.h"
@@ -383,6 +384,16 @@ TEST_F(PartBends, WhatIsNoBendOverACylinderKeepsItsLengthsWithAWord)
     EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& text) {
         return text.find("K factor has no effect") != std::string::npos;
     }));
+}
+
+TEST_F(PartBends, WhereAllFoldsAreSharpAKFactorIsNotedWithoutADoubt)
+{
+    shapes::write_prism(folder_ / "part.step", shapes::folded_section(3, 20, pi / 3, 1), 30);
+    const Session session = solved(folder_ / "part.step", constant_k(0.4));
+    EXPECT_TRUE(shortcomings(session).empty()) << shortcomings(session).front();
+    const auto noted = all_notes(*session.bends);
+    ASSERT_EQ(noted.size(), 1u);
+    EXPECT_NE(noted[0].find("K factor has no effect"), std::string::npos) << noted[0];
 }
 
 TEST_F(PartBends, ABendThatIsNotLaidIsAShortcomingWithItsPlaceAndAWayOut)
