@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/viewer/model/reports/typed_number.h"
+#include "app/viewer/panels/export_dialog.h"
 #include "app/viewer/panels/screen_text.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -39,8 +40,20 @@ protected:
     static int triangles() { return ImGui::GetDrawData()->TotalIdxCount / 3; }
 };
 
+/// Those of a window in which no part is open.
+class Panels : public GuiFrame {
+protected:
+    Panels() { ui.fonts.bold = ui.fonts.small = ImGui::GetIO().Fonts->Fonts[0]; }
+
+    ViewerModel model{SPIA_SOURCE_DIR "/assets"};
+    ActionQueue actions;
+    Ui ui;
+    SceneCache cache;
+    Frame now{model, model.state(), actions, ui, cache, {}, {}, {}};
+};
+
 /// A number field into which somebody types.
-class TypedNumber : public GuiFrame {
+class TypedNumber : public Panels {
 protected:
     /// Draws one frame. @returns whether the number has changed
     bool draw(std::vector<int> keys = {})
@@ -69,11 +82,6 @@ protected:
         ASSERT_EQ(value, 1);
     }
 
-    ViewerModel model{SPIA_SOURCE_DIR "/assets"};
-    ActionQueue actions;
-    Ui ui;
-    SceneCache cache;
-    Frame now{model, model.state(), actions, ui, cache, {}, {}, {}};
     double value = 1, step = 0;
     const char* format = "%.4g";
     bool focus = false;
@@ -185,6 +193,23 @@ TEST_F(GuiFrame, ASliderTakesACommaForAPoint)
         draw();
     }
     EXPECT_FLOAT_EQ(value, 0.25f);
+}
+
+TEST_F(Panels, TheExportDialogStaysWhereItOpens)
+{
+    ImGui::GetIO().DisplaySize = {1600, 1200};
+    ui.show_export = true;
+    std::vector<ImRect> seen;
+    for (int k = 0; k < 6; ++k) {
+        frame([&] { export_dialog(now); });
+        if (const ImGuiWindow* dialog = ImGui::FindWindowByName("Export"); dialog && dialog->Active && !dialog->Hidden)
+            seen.push_back(dialog->Rect());
+    }
+    ASSERT_GE(seen.size(), 4u);
+    for (const ImRect& each : seen) {
+        EXPECT_EQ(each.Min.y, seen.back().Min.y);
+        EXPECT_EQ(each.Max.y, seen.back().Max.y);
+    }
 }
 
 TEST_F(GuiFrame, ItsTextsAreReadOffWhatIsDrawn)

@@ -62,16 +62,25 @@ void verdict_banner(const Frame& frame, const ExportVerdict& verdict)
     ImGui::Dummy({width, height});
 }
 
+/// Goes on below a child that begins there and is to have this height from the next frame on. In the
+/// hidden frame in which a dialog opens the height of its content is not known before it is drawn,
+/// but its own is taken from there.
+void go_on_below_child(float begin, float height)
+{
+    ImGui::SetCursorPosY(begin + height + ImGui::GetStyle().ItemSpacing.y);
+}
+
 /// What is held against the result, each with its way out; scrolls where it is long. @returns whether a click asked to see it
 bool list_of_doubts(Frame& frame)
 {
-    const float most = 118 * frame.ui.scale;
-    float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the list"), most);
-    begin_scrolled(frame, "held against it", std::min(height, most));
+    const float least = 1, most = 118 * frame.ui.scale, begin = ImGui::GetCursorPosY();
+    float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the list"), least);
+    begin_scrolled(frame, "held against it", std::clamp(height, least, most));
     const float top = ImGui::GetCursorPosY();
     const bool looks = all_doubt_rows(frame);
     height = ImGui::GetCursorPosY() - top;
     ImGui::EndChild();
+    go_on_below_child(begin, std::clamp(height, least, most));
     return looks;
 }
 
@@ -356,9 +365,9 @@ void export_dialog(Frame& frame)
     // The list is long: it scrolls where the window is low, and the buttons below it stay in sight.
     const float below = answer_buttons_height(frame) + 2 * ImGui::GetTextLineHeightWithSpacing() + 40 * s;
     const float room = ImGui::GetIO().DisplaySize.y - (ImGui::GetCursorScreenPos().y - ImGui::GetWindowPos().y) - below;
-    float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the choices"), 400 * s);
-    ImGui::BeginChild("choices", {0, std::clamp(height, 100 * s, std::max(100 * s, room))}, false,
-                      ImGuiWindowFlags_NavFlattened);
+    const float least = 100 * s, most = std::max(least, room), begin = ImGui::GetCursorPosY();
+    float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("height of the choices"), least);
+    ImGui::BeginChild("choices", {0, std::clamp(height, least, most)}, false, ImGuiWindowFlags_NavFlattened);
     const float top = ImGui::GetCursorPosY();
     if (ImGui::BeginTable("columns", 2)) {
         ImGui::TableSetupColumn("formats", ImGuiTableColumnFlags_WidthStretch, 1);
@@ -389,6 +398,7 @@ void export_dialog(Frame& frame)
     }
     height = ImGui::GetCursorPosY() - top;
     ImGui::EndChild();
+    go_on_below_child(begin, std::clamp(height, least, most));
     if (choices.options != before || choices.formats != formats_before)
         choices.asked = false;
 
